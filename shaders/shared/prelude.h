@@ -1,0 +1,76 @@
+// The common subset of GLSL, CUDA and C++ in which everything under shared/ is written: free functions, plain structs,
+// literals written real(0.1). In C++ and CUDA the code lives in namespace argand (float) or, where ARGAND_REAL_DOUBLE
+// is defined before the first include, in argand::oracle (double): the same text is its own double-precision truth.
+#ifndef ARGAND_SHARED_PRELUDE_H
+#define ARGAND_SHARED_PRELUDE_H
+
+#ifdef __cplusplus
+
+#include <glm/glm.hpp>
+
+#ifdef __CUDACC__
+#define FN __host__ __device__ inline
+#else
+#define FN inline
+#endif
+#define IN(T) const T&
+#define OUT(T) T&
+#define INOUT(T) T&
+#define CONSTANT constexpr
+
+#ifdef ARGAND_REAL_DOUBLE
+#define ARGAND_SHARED_BEGIN namespace argand { namespace oracle {
+#define ARGAND_SHARED_END } }
+#else
+#define ARGAND_SHARED_BEGIN namespace argand {
+#define ARGAND_SHARED_END }
+#endif
+
+ARGAND_SHARED_BEGIN
+#ifdef ARGAND_REAL_DOUBLE
+typedef double real;
+#else
+typedef float real;
+#endif
+typedef unsigned int uint;
+typedef glm::vec<2, real> vec2;
+typedef glm::vec<3, real> vec3;
+typedef glm::vec<4, real> vec4;
+typedef glm::uvec2 uvec2;
+typedef glm::uvec3 uvec3;
+typedef glm::uvec4 uvec4;
+// Lanes of records in buffers are single precision whatever `real` is.
+typedef float float32;
+typedef glm::vec<4, float> lane4;
+
+FN uint float_bits(float x) { return glm::floatBitsToUint(x); }
+FN float bits_float(uint x) { return glm::uintBitsToFloat(x); }
+using glm::abs;
+using glm::clamp;
+using glm::cross;
+using glm::dot;
+using glm::floor;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::sqrt;
+ARGAND_SHARED_END
+
+#else // GLSL
+
+#define FN
+#define IN(T) in T
+#define OUT(T) out T
+#define INOUT(T) inout T
+#define CONSTANT const
+#define real float
+#define float32 float
+#define lane4 vec4
+#define float_bits floatBitsToUint
+#define bits_float uintBitsToFloat
+#define ARGAND_SHARED_BEGIN
+#define ARGAND_SHARED_END
+
+#endif
+
+#endif
