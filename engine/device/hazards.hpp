@@ -1,0 +1,31 @@
+#pragma once
+
+#include "device/kernel.hpp"
+#include "device/buffer.hpp"
+
+namespace argand {
+
+/// Decides from declared reads and writes when a command needs a barrier before it. Whole buffers are tracked: two
+/// ranges of one buffer count as the same.
+class HazardTracker {
+public:
+    /// True if accessing the buffer conflicts with what was recorded since the last barrier.
+    bool conflicts(const BufferStorage& buffer, Access access) const {
+        const bool writes = access != Access::read;
+        return buffer.write_epoch == epoch_ || (writes && buffer.read_epoch == epoch_);
+    }
+    void record(BufferStorage& buffer, Access access) const {
+        if (access != Access::write) {
+            buffer.read_epoch = epoch_;
+        }
+        if (access != Access::read) {
+            buffer.write_epoch = epoch_;
+        }
+    }
+    void barrier() { ++epoch_; }
+
+private:
+    std::uint64_t epoch_ = 1;
+};
+
+} // namespace argand

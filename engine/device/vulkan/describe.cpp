@@ -1,0 +1,120 @@
+#include "base/error.hpp"
+#include "device/vulkan/instance.hpp"
+#include "device/vulkan/result.hpp"
+
+#include <algorithm>
+
+namespace argand::vulkan {
+
+std::vector<std::string> device_extensions(VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), "listing device extensions");
+    std::vector<VkExtensionProperties> properties(count);
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, properties.data()),
+          "listing device extensions");
+    std::vector<std::string> names;
+    for (const VkExtensionProperties& extension : properties) {
+        names.emplace_back(extension.extensionName);
+    }
+    return names;
+}
+
+std::uint32_t compute_queue_family(VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    std::uint32_t found = UINT32_MAX;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool computes = families[i].queueFlags & VK_QUEUE_COMPUTE_BIT;
+        const bool draws = families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT;
+        if (computes && (found == UINT32_MAX || draws)) {
+            found = i;
+            if (draws) {
+                break;
+            }
+        }
+    }
+    return found;
+}
+
+namespace {
+
+DeviceKind kind_of(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return DeviceKind::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return DeviceKind::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return DeviceKind::virtual_gpu;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return DeviceKind::cpu;
+    default: return DeviceKind::other;
+    }
+}
+
+std::uint64_t largest_local_heap(VkPhysicalDevice physical) {
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    std::uint64_t largest = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+            largest = std::max<std::uint64_t>(largest, memory.memoryHeaps[i].size);
+        }
+    }
+    return largest;
+}
+
+} // namespace
+
+DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
+    VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    properties.pNext = &subgroup;
+    VkPhysicalDeviceProperties basic;
+    vkGetPhysicalDeviceProperties(physical, &basic);
+    if (basic.apiVersion >= VK_API_VERSION_1_2) {
+        subgroup.pNext = &driver;
+    }
+    if (basic.apiVersion >= VK_API_VERSION_1_1) {
+        vkGetPhysicalDeviceProperties2(physical, &properties);
+    }
+
+    DeviceInfo info;
+    info.backend = "vulkan";
+    info.index = index;
+    info.name = basic.deviceName;
+    info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    info.api_version = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(basic.apiVersion),
+                                   VK_API_VERSION_MINOR(basic.apiVersion), VK_API_VERSION_PATCH(basic.apiVersion));
+    info.kind = kind_of(basic.deviceType);
+    info.subgroup_size = std::max(subgroup.subgroupSize, 1u);
+
+    constexpr VkSubgroupFeatureFlags needed =
+        VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    const std::vector<std::string> extensions = device_extensions(physical);
+    info.features.subgroups = (subgroup.supportedOperations & needed) == needed &&
+                              (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
+    info.features.push_descriptors =
+        std::find(extensions.begin(), extensions.end(), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) != extensions.end();
+    info.features.timestamps = basic.limits.timestampComputeAndGraphics;
+
+    info.limits.storage_range = basic.limits.maxStorageBufferRange;
+    info.limits.memory = largest_local_heap(physical);
+    info.limits.invocations =
+        std::min(basic.limits.maxComputeWorkGroupInvocations, basic.limits.maxComputeWorkGroupSize[0]);
+    info.limits.shared_memory = basic.limits.maxComputeSharedMemorySize;
+    info.limits.storage_buffers =
+        std::min(basic.limits.maxPerStageDescriptorStorageBuffers, basic.limits.maxDescriptorSetStorageBuffers);
+    info.limits.groups = std::min({basic.limits.maxComputeWorkGroupCount[0], basic.limits.maxComputeWorkGroupCount[1],
+                                   basic.limits.maxComputeWorkGroupCount[2]});
+
+    if (basic.apiVersion < VK_API_VERSION_1_2) {
+        info.unsuitable = fmt::format("it supports Vulkan {}, Argand needs 1.2", info.api_version);
+    } else if (compute_queue_family(physical) == UINT32_MAX) {
+        info.unsuitable = "it has no queue for compute";
+    } else {
+        info.unsuitable = unmet_requirement(info.limits);
+    }
+    return info;
+}
+
+} // namespace argand::vulkan

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "device/info.hpp"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+#include <volk.h>
+
+namespace argand::vulkan {
+
+/// Messages of the validation layers; the debug callback appends to it.
+struct ValidationLog {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+};
+
+/// The Vulkan loader, an instance, and validation where it is on. Shared by all devices of the process.
+class Instance {
+public:
+    /// Throws Error if there is no loader or no Vulkan 1.2.
+    Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+    ~Instance();
+
+    VkInstance handle() const { return instance_; }
+    ValidationLog& validation() { return validation_; }
+    std::vector<VkPhysicalDevice> physical_devices() const;
+
+private:
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    ValidationLog validation_;
+};
+
+/// The process's instance, made at the first call and destroyed with its last user.
+std::shared_ptr<Instance> instance();
+
+/// What a physical device is and offers, without what the environment takes away.
+DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index);
+
+/// Names of the extensions that a physical device offers.
+std::vector<std::string> device_extensions(VkPhysicalDevice physical);
+
+/// Index of the queue family to compute on: one without graphics is not preferred, for its queues can be slower to
+/// start. UINT32_MAX if there is none.
+std::uint32_t compute_queue_family(VkPhysicalDevice physical);
+
+} // namespace argand::vulkan

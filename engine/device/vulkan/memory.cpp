@@ -1,0 +1,110 @@
+#include "device/vulkan/memory.hpp"
+
+#include "base/error.hpp"
+#include "device/vulkan/result.hpp"
+
+#include <algorithm>
+
+namespace argand::vulkan {
+
+namespace {
+
+constexpr double mebibyte = 1024.0 * 1024.0;
+
+/// Index of the memory type with the wanted properties, or with the required ones alone; UINT32_MAX if there is none.
+std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed, VkMemoryPropertyFlags required,
+                          VkMemoryPropertyFlags wanted) {
+    VkPhysicalDeviceMemoryProperties properties;
+    vkGetPhysicalDeviceMemoryProperties(physical, &properties);
+    for (const VkMemoryPropertyFlags flags : {required | wanted, required}) {
+        for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
+            if ((allowed & (1u << i)) && (properties.memoryTypes[i].propertyFlags & flags) == flags) {
+                return i;
+            }
+        }
+    }
+    return UINT32_MAX;
+}
+
+} // namespace
+
+void MemoryLedger::allocated(const std::string& name, std::uint64_t bytes) {
+    for (MemoryUse* use : {&by_name[name], &total}) {
+        use->current += bytes;
+        use->peak = std::max(use->peak, use->current);
+    }
+}
+
+void MemoryLedger::freed(const std::string& name, std::uint64_t bytes) {
+    by_name[name].current -= bytes;
+    total.current -= bytes;
+}
+
+LogicalDevice::~LogicalDevice() {
+    if (handle) {
+        vkDestroyDevice(handle, nullptr);
+    }
+}
+
+VulkanBuffer::~VulkanBuffer() {
+    vkDestroyBuffer(device->handle, buffer, nullptr);
+    vkFreeMemory(device->handle, memory, nullptr);
+    if (allocated > 0) {
+        ledger->freed(name, allocated);
+    }
+}
+
+std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const std::shared_ptr<LogicalDevice>& device,
+                                              const std::shared_ptr<MemoryLedger>& ledger, std::string name,
+                                              std::uint64_t bytes, MemoryKind kind) {
+    auto storage = std::make_shared<VulkanBuffer>();
+    storage->name = std::move(name);
+    storage->size = bytes;
+    storage->device = device;
+    storage->ledger = ledger;
+
+    // Buffers of no elements are bound too, and Vulkan has none of size 0.
+    VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    create.size = std::max<std::uint64_t>((bytes + 3) & ~std::uint64_t(3), 16);
+    create.usage = kind == MemoryKind::device
+                       ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT
+                       : VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    check(vkCreateBuffer(device->handle, &create, nullptr, &storage->buffer), "creating a buffer");
+
+    VkMemoryRequirements requirements;
+    vkGetBufferMemoryRequirements(device->handle, storage->buffer, &requirements);
+    constexpr VkMemoryPropertyFlags host =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const std::uint32_t type =
+        kind == MemoryKind::device
+            ? memory_type(physical, requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
+            : memory_type(physical, requirements.memoryTypeBits, host,
+                          kind == MemoryKind::download ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : 0);
+    if (type == UINT32_MAX) {
+        fail("allocating '{}': the device has no memory of the kind needed; try another with --device",
+             storage->name);
+    }
+    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    allocate.allocationSize = requirements.size;
+    allocate.memoryTypeIndex = type;
+    const VkResult result = vkAllocateMemory(device->handle, &allocate, nullptr, &storage->memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+        fail("allocating {:.1f} MiB for '{}': the device is out of memory ({:.1f} MiB in use); use fewer photons, a "
+             "smaller picture or another device",
+             static_cast<double>(bytes) / mebibyte, storage->name,
+             static_cast<double>(ledger->total.current) / mebibyte);
+    }
+    check(result, "allocating memory");
+    check(vkBindBufferMemory(device->handle, storage->buffer, storage->memory, 0), "binding memory");
+    if (kind != MemoryKind::device) {
+        void* mapped = nullptr;
+        check(vkMapMemory(device->handle, storage->memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping memory");
+        storage->mapped = static_cast<std::byte*>(mapped);
+    }
+    storage->allocated = requirements.size;
+    ledger->allocated(storage->name, storage->allocated);
+    return storage;
+}
+
+} // namespace argand::vulkan

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "device/buffer.hpp"
+#include "device/device.hpp"
+#include "device/vulkan/instance.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <volk.h>
+
+namespace argand::vulkan {
+
+/// Owner of the VkDevice; buffers share it, so that they may outlive the Device that allocated them.
+struct LogicalDevice {
+    std::shared_ptr<Instance> instance;
+    VkDevice handle = VK_NULL_HANDLE;
+
+    ~LogicalDevice();
+};
+
+enum class MemoryKind : std::uint8_t { device, upload, download };
+
+/// Bytes in use by name of allocation.
+struct MemoryLedger {
+    std::map<std::string, MemoryUse> by_name;
+    MemoryUse total;
+
+    void allocated(const std::string& name, std::uint64_t bytes);
+    void freed(const std::string& name, std::uint64_t bytes);
+};
+
+struct VulkanBuffer final : BufferStorage {
+    std::shared_ptr<LogicalDevice> device;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::byte* mapped = nullptr;        ///< upload and download buffers only
+    std::uint64_t allocated = 0;        ///< bytes counted in the ledger
+    std::shared_ptr<MemoryLedger> ledger;
+
+    ~VulkanBuffer() override;
+};
+
+/// Throws Error if the device has not got the memory.
+std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const std::shared_ptr<LogicalDevice>& device,
+                                              const std::shared_ptr<MemoryLedger>& ledger, std::string name,
+                                              std::uint64_t bytes, MemoryKind kind);
+
+} // namespace argand::vulkan

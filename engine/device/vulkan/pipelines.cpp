@@ -1,0 +1,158 @@
+#include "device/vulkan/pipelines.hpp"
+
+#include "base/environment.hpp"
+#include "base/error.hpp"
+#include "device/vulkan/result.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <random>
+
+namespace argand::vulkan {
+
+namespace {
+
+std::filesystem::path cache_file_of(const VkPhysicalDeviceProperties& properties) {
+    const std::filesystem::path directory = cache_directory();
+    if (directory.empty()) {
+        return {};
+    }
+    std::string id;
+    for (const std::uint8_t byte : properties.pipelineCacheUUID) {
+        id += fmt::format("{:02x}", byte);
+    }
+    return directory / fmt::format("pipelines-{:x}-{:x}-{}.bin", properties.vendorID, properties.deviceID, id);
+}
+
+/// The cache is only a help: a file that cannot be read counts as empty, and drivers reject one that is not theirs.
+std::vector<char> read_if_there(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+} // namespace
+
+Pipelines::Pipelines(VkDevice device, bool push_descriptors, const VkPhysicalDeviceProperties& properties)
+    : device_(device), push_descriptors_(push_descriptors), cache_file_(cache_file_of(properties)) {
+    const std::vector<char> data = read_if_there(cache_file_);
+    VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    create.initialDataSize = data.size();
+    create.pInitialData = data.data();
+    check(vkCreatePipelineCache(device_, &create, nullptr, &cache_), "opening the pipeline cache");
+}
+
+Pipelines::~Pipelines() {
+    save();
+    for (const auto& [key, pipeline] : pipelines_) {
+        vkDestroyPipeline(device_, pipeline.pipeline, nullptr);
+    }
+    for (const auto& [key, layout] : pipeline_layouts_) {
+        vkDestroyPipelineLayout(device_, layout, nullptr);
+    }
+    for (const auto& [key, layout] : set_layouts_) {
+        vkDestroyDescriptorSetLayout(device_, layout, nullptr);
+    }
+    vkDestroyPipelineCache(device_, cache_, nullptr);
+}
+
+void Pipelines::save() const {
+    std::size_t size = 0;
+    if (cache_file_.empty() || pipelines_.empty() ||
+        vkGetPipelineCacheData(device_, cache_, &size, nullptr) != VK_SUCCESS) {
+        return;
+    }
+    std::vector<char> data(size);
+    if (vkGetPipelineCacheData(device_, cache_, &size, data.data()) != VK_SUCCESS) {
+        return;
+    }
+    data.resize(size);
+    if (data == read_if_there(cache_file_)) {
+        return;
+    }
+    // Written beside and renamed, under a name of this process's own, for several may run at once.
+    std::error_code ignored;
+    std::filesystem::create_directories(cache_file_.parent_path(), ignored);
+    const std::filesystem::path temporary =
+        cache_file_.parent_path() / fmt::format("{}.{:08x}", cache_file_.filename().string(), std::random_device{}());
+    bool written = false;
+    {
+        std::ofstream out(temporary, std::ios::binary);
+        out.write(data.data(), static_cast<std::streamsize>(size));
+        written = out.good();
+    }
+    if (written) {
+        std::filesystem::rename(temporary, cache_file_, ignored);
+    }
+    std::filesystem::remove(temporary, ignored);
+}
+
+VkDescriptorSetLayout Pipelines::set_layout(std::uint32_t buffer_count) {
+    VkDescriptorSetLayout& layout = set_layouts_[buffer_count];
+    if (!layout) {
+        std::vector<VkDescriptorSetLayoutBinding> bindings(buffer_count);
+        for (std::uint32_t i = 0; i < buffer_count; ++i) {
+            bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+        }
+        VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+        create.flags = push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
+        create.bindingCount = buffer_count;
+        create.pBindings = bindings.data();
+        check(vkCreateDescriptorSetLayout(device_, &create, nullptr, &layout), "creating a descriptor set layout");
+    }
+    return layout;
+}
+
+VkPipelineLayout Pipelines::pipeline_layout(std::uint32_t buffer_count, std::uint32_t push_bytes) {
+    VkPipelineLayout& layout = pipeline_layouts_[{buffer_count, push_bytes}];
+    if (!layout) {
+        const VkDescriptorSetLayout set = set_layout(buffer_count);
+        const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
+        VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+        create.setLayoutCount = 1;
+        create.pSetLayouts = &set;
+        create.pushConstantRangeCount = push_bytes > 0 ? 1 : 0;
+        create.pPushConstantRanges = &range;
+        check(vkCreatePipelineLayout(device_, &create, nullptr, &layout), "creating a pipeline layout");
+    }
+    return layout;
+}
+
+const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& arguments) {
+    Key key{&kernel,
+            {arguments.constants.begin(), arguments.constants.begin() + arguments.constant_count}};
+    Pipeline& pipeline = pipelines_[key];
+    if (pipeline.pipeline) {
+        return pipeline;
+    }
+    const std::string doing = fmt::format("compiling kernel {}", kernel.name);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < arguments.constant_count; ++i) {
+        entries.push_back({kernel.constants[i].id, i * 4, 4});
+    }
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                              arguments.constant_count * 4, arguments.constants.data()};
+
+    VkShaderModuleCreateInfo module_create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    module_create.codeSize = kernel.spirv.size_bytes();
+    module_create.pCode = kernel.spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device_, &module_create, nullptr, &module), doing);
+
+    const auto buffers = static_cast<std::uint32_t>(kernel.bindings.size());
+    pipeline.set_layout = set_layout(buffers);
+    pipeline.layout = pipeline_layout(buffers, kernel.push_bytes);
+    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    create.stage.module = module;
+    create.stage.pName = "main";
+    create.stage.pSpecializationInfo = &specialization;
+    create.layout = pipeline.layout;
+    const VkResult result = vkCreateComputePipelines(device_, cache_, 1, &create, nullptr, &pipeline.pipeline);
+    vkDestroyShaderModule(device_, module, nullptr);
+    check(result, doing);
+    return pipeline;
+}
+
+} // namespace argand::vulkan

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "device/kernel.hpp"
+
+#include <filesystem>
+#include <map>
+#include <vector>
+#include <volk.h>
+
+namespace argand::vulkan {
+
+struct Pipeline {
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+};
+
+/// Pipelines of a device, made at their first use and kept on disk from one process to the next.
+class Pipelines {
+public:
+    Pipelines(VkDevice device, bool push_descriptors, const VkPhysicalDeviceProperties& properties);
+    Pipelines(const Pipelines&) = delete;
+    Pipelines& operator=(const Pipelines&) = delete;
+    ~Pipelines();
+
+    const Pipeline& get(const KernelInfo& kernel, const KernelArguments& arguments);
+
+private:
+    using Key = std::pair<const KernelInfo*, std::vector<std::uint32_t>>;
+
+    VkDescriptorSetLayout set_layout(std::uint32_t buffer_count);
+    VkPipelineLayout pipeline_layout(std::uint32_t buffer_count, std::uint32_t push_bytes);
+    void save() const;
+
+    VkDevice device_;
+    bool push_descriptors_;
+    std::filesystem::path cache_file_;
+    VkPipelineCache cache_ = VK_NULL_HANDLE;
+    std::map<std::uint32_t, VkDescriptorSetLayout> set_layouts_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, VkPipelineLayout> pipeline_layouts_;
+    std::map<Key, Pipeline> pipelines_;
+};
+
+} // namespace argand::vulkan

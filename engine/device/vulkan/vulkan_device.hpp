@@ -1,0 +1,83 @@
+#pragma once
+
+#include "device/device.hpp"
+#include "device/hazards.hpp"
+#include "device/vulkan/instance.hpp"
+#include "device/vulkan/memory.hpp"
+#include "device/vulkan/pipelines.hpp"
+#include "device/vulkan/stage_timer.hpp"
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+namespace argand::vulkan {
+
+/// Commands on their way to the device, and what they need until they are done.
+struct Submission {
+    VkCommandPool command_pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    std::vector<VkDescriptorPool> descriptor_pools;
+    std::uint32_t descriptor_sets_left = 0;
+    StageQueries queries;
+    std::vector<std::shared_ptr<BufferStorage>> keep_alive;
+};
+
+class VulkanDevice final : public Device {
+public:
+    VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice physical, DeviceInfo info);
+    ~VulkanDevice() override;
+
+    const DeviceInfo& info() const override { return info_; }
+    Buffer allocate(std::string name, std::uint64_t bytes) override;
+    void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
+    void fill(const BufferView& to, std::uint32_t value) override;
+    void copy(const BufferView& from, const BufferView& to) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                           std::uint32_t count_index) override;
+    void submit() override;
+    void wait() override;
+    void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override;
+    void begin_stage(std::string_view name) override;
+    void end_stage() override;
+    std::vector<StageTime> stage_times() override;
+    void reset_stage_times() override;
+    const std::map<std::string, MemoryUse>& memory_by_name() const override { return ledger_->by_name; }
+    MemoryUse memory() const override { return ledger_->total; }
+    std::vector<std::string> validation_messages() const override;
+
+private:
+    struct Use {
+        const Buffer* buffer;
+        Access access;
+    };
+
+    Submission make_submission();
+    void destroy(Submission& submission);
+    VkCommandBuffer commands();
+    void barrier_for(std::span<const Use> uses);
+    void bind(const KernelInfo& kernel, const KernelArguments& arguments);
+    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
+    void finish_oldest();
+
+    std::shared_ptr<Instance> instance_;
+    VkPhysicalDevice physical_;
+    DeviceInfo info_;
+    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
+    std::shared_ptr<LogicalDevice> device_;
+    std::uint32_t queue_family_ = 0;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    std::unique_ptr<Pipelines> pipelines_;
+    std::optional<StageTimer> timer_;
+    HazardTracker hazards_;
+    std::optional<Submission> recording_;
+    std::deque<Submission> in_flight_;
+    std::vector<Submission> idle_;
+    Buffer group_counts_;               ///< ring of indirect group counts
+    std::uint32_t next_group_count_ = 0;
+    Buffer download_staging_;
+};
+
+} // namespace argand::vulkan

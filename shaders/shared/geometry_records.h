@@ -1,0 +1,33 @@
+#ifndef ARGAND_SHARED_GEOMETRY_RECORDS_H
+#define ARGAND_SHARED_GEOMETRY_RECORDS_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// Records in storage buffers: lanes of 16 bytes, so that std430, C++ and CUDA agree.
+
+struct BoxRecord {
+    float32 low_x, low_y, low_z, pad0;
+    float32 high_x, high_y, high_z, pad1;
+};
+
+// A ray on its way: 0 <= t <= t_max. t_max < 0: there is none.
+struct RayRecord {
+    float32 origin_x, origin_y, origin_z, t_max;
+    float32 direction_x, direction_y, direction_z;
+    uint pad;
+};
+
+CONSTANT uint no_triangle = 0xffffffffu;
+
+// What a ray hit: the triangle as numbered in the scene (no_triangle: nothing), the distance in units of the ray's
+// direction, and the barycentric weights of its second and third vertex.
+struct HitRecord {
+    uint triangle;
+    float32 t, u, v;
+};
+
+ARGAND_SHARED_END
+
+#endif
