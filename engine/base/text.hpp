@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace argand {
+
+/// `text` as one line that is safe to print: control characters and runs of white space become one space,
+/// ends are trimmed, and what is longer than `limit` bytes is cut (at a UTF-8 character) and ends in "...".
+std::string one_line(std::string_view text, std::size_t limit = 300);
+
+} // namespace argand

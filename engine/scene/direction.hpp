@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace argand {
+
+/// `v` scaled to length 1 in double precision, whatever its magnitude; zero if it has no direction (zero,
+/// infinite, NaN).
+inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    // Not below the smallest normal number, where v / largest would be coarse.
+    if (!(largest >= 1e-300) || !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
+        return glm::dvec3(0);
+    }
+    const glm::dvec3 scaled = v / largest; // its length is between 1 and √3
+    return scaled / glm::length(scaled);
+}
+
+inline bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+inline bool is_finite(const glm::vec3& v) {
+    return is_finite(glm::dvec3(v));
+}
+
+} // namespace argand

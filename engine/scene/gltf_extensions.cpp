@@ -1,0 +1,35 @@
+#include "scene/gltf_extensions.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace argand {
+
+bool understands_extension(std::string_view name) {
+    constexpr std::array<std::string_view, 7> understood{
+        "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+        "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_volume",
+        "KHR_mesh_quantization"};
+    return std::find(understood.begin(), understood.end(), name) != understood.end();
+}
+
+void add_extensions(const GltfSource& source, Scene& scene) {
+    for (const std::string& name : source.model.extensionsRequired) {
+        if (!understands_extension(name)) {
+            source.fail("it requires the extension {}, which is not understood yet", one_line(name, 80));
+        }
+    }
+    for (const std::string& name : source.model.extensionsUsed) {
+        if (std::find(scene.extensions_used.begin(), scene.extensions_used.end(), name) !=
+            scene.extensions_used.end()) {
+            continue;
+        }
+        scene.extensions_used.push_back(name);
+        if (!understands_extension(name)) {
+            add_note(scene,
+                     fmt::format("the extension {} is not understood and is ignored", one_line(name, 80)));
+        }
+    }
+}
+
+} // namespace argand

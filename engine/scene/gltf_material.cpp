@@ -1,0 +1,125 @@
+#include "scene/gltf_material.hpp"
+
+#include "scene/gltf_value.hpp"
+#include <algorithm>
+#include <limits>
+
+namespace argand {
+namespace {
+
+using nlohmann::json;
+
+/// Reads a material's factors, each within its range.
+struct FactorReader {
+    const GltfSource& source;
+    Scene& scene;
+    std::string what;
+
+    float in_range(double value, double low, double high, const char* key) const {
+        // NaN does not occur: JSON cannot say it.
+        if (value < low || value > high) {
+            const double nearest = std::clamp(value, low, high);
+            add_note(scene, fmt::format("{} has a {} of {}, which is out of range; {} is used", what, key,
+                                        value, nearest));
+            value = nearest;
+        }
+        return static_cast<float>(value);
+    }
+
+    glm::vec3 in_range(const glm::dvec3& value, double high, const char* key) const {
+        return {in_range(value.x, 0, high, key), in_range(value.y, 0, high, key),
+                in_range(value.z, 0, high, key)};
+    }
+
+    float number(const json* object, const char* key, double otherwise, double high) const {
+        return in_range(number_of(source, object, key, otherwise, what), 0, high, key);
+    }
+};
+
+constexpr double unlimited = std::numeric_limits<float>::max();
+
+/// True if the material, or one of its extensions, refers to a texture.
+bool uses_texture(const json& value) {
+    for (const auto& [key, member] : value.items()) {
+        if (member.is_object() && (key.ends_with("Texture") || uses_texture(member))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void read_core(const FactorReader& read, const tinygltf::Material& from, Material& material) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    const std::vector<double>& color = pbr.baseColorFactor; // tinygltf sees to its length, 4
+    material.base_color = read.in_range(glm::dvec3(color[0], color[1], color[2]), 1, "baseColorFactor");
+    material.metallic = read.in_range(pbr.metallicFactor, 0, 1, "metallicFactor");
+    material.roughness = read.in_range(pbr.roughnessFactor, 0, 1, "roughnessFactor");
+    material.double_sided = from.doubleSided;
+    if (from.alphaMode != "OPAQUE") {
+        add_note(read.scene, "alpha modes are not understood yet: every surface is opaque");
+    }
+}
+
+void read_emission(const FactorReader& read, const tinygltf::Material& from, const json* object,
+                   Material& material) {
+    const double strength = read.number(find_extension(object, "KHR_materials_emissive_strength"),
+                                        "emissiveStrength", 1, unlimited);
+    const glm::dvec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
+    material.emission = read.in_range(
+        glm::dvec3(read.in_range(factor, unlimited, "emissiveFactor")) * strength, unlimited, "emission");
+    if (from.emissiveTexture.index >= 0 && emits(material)) {
+        // Such textures are black nearly everywhere: with the factor alone whole objects would glow.
+        add_note(read.scene, "emissive textures are not read yet: surfaces that have one do not emit");
+        material.emission = glm::vec3(0);
+    }
+}
+
+void read_extensions(const FactorReader& read, const json* object, Material& material) {
+    const json* specular = find_extension(object, "KHR_materials_specular");
+    material.specular = read.number(specular, "specularFactor", 1, 1);
+    material.specular_color =
+        read.in_range(vector_of(read.source, specular, "specularColorFactor", glm::dvec3(1), read.what),
+                      unlimited, "specularColorFactor");
+
+    material.transmission =
+        read.number(find_extension(object, "KHR_materials_transmission"), "transmissionFactor", 0, 1);
+    const json* volume = find_extension(object, "KHR_materials_volume");
+    material.thickness = read.number(volume, "thicknessFactor", 0, unlimited);
+    if (material.thickness > 0 && find_member(volume, "attenuationDistance")) {
+        add_note(read.scene,
+                 "the attenuation of KHR_materials_volume is not understood yet: volumes are clear");
+    }
+    if (material.transmission > 0 && material.roughness > 0) {
+        add_note(read.scene, "rough transmission is not understood yet: such surfaces are rendered smooth");
+    }
+
+    const double ior =
+        number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
+    if (ior != 0 && !(ior >= 1 && ior <= unlimited)) { // 0: glTF's way to say that the Fresnel term is 1
+        read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1", read.what, ior);
+    }
+    material.ior = static_cast<float>(ior);
+}
+
+} // namespace
+
+void add_materials(const GltfSource& source, Scene& scene) {
+    bool textured = false;
+    for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
+        const tinygltf::Material& from = source.model.materials[i];
+        const json* object = find_element(source, "materials", i);
+        const FactorReader read{source, scene, label("material", static_cast<int>(i), from.name)};
+        Material material;
+        material.name = one_line(from.name);
+        read_core(read, from, material);
+        read_emission(read, from, object, material);
+        read_extensions(read, object, material);
+        scene.materials.push_back(material);
+        textured = textured || (object && uses_texture(*object));
+    }
+    if (textured) {
+        add_note(scene, "textures are not read yet: the factors of the materials are used");
+    }
+}
+
+} // namespace argand

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/gltf_source.hpp"
+#include <vector>
+
+namespace argand {
+
+/// A node of the chosen scene with its transform to world space.
+struct GltfNode {
+    int index;
+    glm::dmat4 to_world;
+};
+
+/// All nodes of the scene to be shown (the default one, else the first, else all root nodes), parents before
+/// children, in the file's order. Error if a node that is named does not exist, or is reached twice (a cycle
+/// or two parents).
+std::vector<GltfNode> flatten_nodes(const GltfSource& source);
+
+} // namespace argand
