@@ -1,0 +1,20 @@
+#pragma once
+
+#include "sources.hpp"
+
+#include <cstdint>
+
+namespace argand::shader_compile {
+
+using Spirv = std::vector<std::uint32_t>;
+
+struct Compiled {
+    Spirv spirv; ///< SPIR-V 1.5 as glslang wrote it: with names, not optimised
+    Sources sources;
+    std::string warnings; ///< lines "file:line: warning: ...", empty if there are none
+};
+
+/// Compiles a GLSL compute shader for Vulkan 1.2. Throws Error with lines "file:line: error: ...".
+Compiled compile(const std::string& path, const std::vector<std::string>& include_directories);
+
+} // namespace argand::shader_compile

@@ -1,0 +1,87 @@
+// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE KERNEL.comp
+#include "base/error.hpp"
+#include "compile.hpp"
+#include "emit.hpp"
+#include "names.hpp"
+#include "optimise.hpp"
+#include "write.hpp"
+
+#include <cstdio>
+
+namespace argand::shader_compile {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::vector<std::string> include_directories;
+    std::string out;
+    std::string depfile;
+    std::string kernel;
+};
+
+Options parse(const std::vector<std::string>& words) {
+    Options options;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_option = words[i] == "-I" || words[i] == "--out" || words[i] == "--depfile";
+        if (is_option && i + 1 == words.size()) {
+            throw UsageError(fmt::format("shader_compile: {} needs a value", words[i]));
+        }
+        if (words[i] == "-I") {
+            options.include_directories.push_back(words[++i]);
+        } else if (words[i] == "--out") {
+            options.out = words[++i];
+        } else if (words[i] == "--depfile") {
+            options.depfile = words[++i];
+        } else if (words[i].starts_with("-") || !options.kernel.empty()) {
+            throw UsageError(fmt::format("shader_compile: unknown argument {}", words[i]));
+        } else {
+            options.kernel = words[i];
+        }
+    }
+    if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
+        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE KERNEL.comp");
+    }
+    return options;
+}
+
+void run(const Options& options) {
+    const std::string name = fs::path(options.kernel).stem().string();
+    if (!is_cpp_name(name)) {
+        fail("{}:1: error: the file's name becomes the name of a C++ struct, and '{}' cannot be one",
+             options.kernel, name);
+    }
+    const Compiled compiled = compile(options.kernel, options.include_directories);
+    std::fputs(compiled.warnings.c_str(), stderr);
+
+    Kernel kernel{name, options.kernel, reflect(compiled, options.include_directories),
+                  optimise(compiled.spirv, options.kernel)};
+    validate(kernel.spirv, options.kernel);
+
+    const std::string header = (fs::path(options.out) / (name + ".hpp")).string();
+    const std::string source = (fs::path(options.out) / (name + ".cpp")).string();
+    std::vector<std::string> inputs;
+    for (const Source& input : compiled.sources) {
+        // The build runs elsewhere than this program.
+        inputs.push_back(fs::absolute(input.path).string());
+    }
+    write_file(options.depfile, emit_depfile({header, source}, inputs));
+    write_file(header, emit_header(kernel));
+    write_file(source, emit_source(kernel));
+}
+
+} // namespace
+} // namespace argand::shader_compile
+
+int main(int count, char** words) {
+    try {
+        argand::shader_compile::run(argand::shader_compile::parse({words + 1, words + count}));
+        return 0;
+    } catch (const argand::UsageError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}
