@@ -55,6 +55,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 Instance::Instance() {
     if (const std::filesystem::path cache = cache_directory(); !cache.empty()) {
         // Mesa keeps compiled shaders in a cache of its own; beside ours they are found and cleared together.
+        std::error_code unwritable;     // then Mesa keeps none
+        std::filesystem::create_directories(cache, unwritable);
         set_default_environment("MESA_SHADER_CACHE_DIR", (cache / "mesa").string());
     }
     if (volkInitialize() != VK_SUCCESS) {
@@ -106,7 +108,7 @@ Instance::Instance() {
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     check(vkCreateInstance(&create, nullptr, &instance_), "starting Vulkan");
-    volkLoadInstanceOnly(instance_);
+    volkLoadInstance(instance_);
     if (validate) {
         messenger.pNext = nullptr;
         check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_), "starting validation");
