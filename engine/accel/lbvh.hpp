@@ -5,15 +5,17 @@
 
 namespace argand {
 
-/// Linear bounding volume hierarchy over boxes (Karras 2012: "Maximizing parallelism in the construction of BVHs,
-/// octrees, and k-d trees"): leaf i of n is order[i]; inner node 0 is the root where n > 1.
+/// Linear bounding volume hierarchy over boxes in the layout of Karras 2012 ("Maximizing parallelism in the
+/// construction of BVHs, octrees, and k-d trees"). See LbvhNode in shared/accel_records.h for the layout, and
+/// shaders/comp/accel/visit.glsl for a traversal whose only state is a node reference.
 struct Lbvh {
-    Buffer order;                       ///< uint per leaf: index of the box
-    Buffer nodes;                       ///< LbvhNode per inner node (n − 1)
+    Buffer order; ///< uint per leaf: index of the box
+    Buffer nodes; ///< LbvhNode: inner node i at 2 i, leaf i at 2 i + 1, 2 n in all
 };
 
-/// Records only. boxes: BoxRecord each; 30-bit Morton codes of their centres in their common bounds; equal codes are
-/// told apart by their place in the order.
+/// Records only. boxes: BoxRecord each; 30-bit Morton codes of their centres in their common bounds; equal
+/// codes are told apart by their place in the order. The root is node 0, or 1 (the leaf) where there is one
+/// box.
 Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count);
 
 } // namespace argand

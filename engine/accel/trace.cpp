@@ -1,0 +1,142 @@
+#include "accel/triangle_bvh.hpp"
+
+#include "kernels/trace_any.hpp"
+#include "kernels/trace_closest.hpp"
+#include "shared/accel_records.h"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+constexpr std::uint64_t max_slots = 4096;
+
+struct Work {
+    Device& device;
+    const TriangleBvh& bvh;
+    const Traversal& traversal;
+    const Buffer& rays;
+    const Buffer& active;
+    const Buffer& results;
+    const Count& count;
+};
+
+using RunKernel = void (*)(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads);
+
+template <class Kernel>
+void run(const Work& work, const Kernel& kernel, std::uint64_t threads) {
+    if (!kernel.constants.resume && kernel.params.count_index != no_count_index) {
+        dispatch_indirect(work.device, kernel, work.count.buffer, work.count.index);
+    } else {
+        dispatch(work.device, kernel, threads);
+    }
+}
+
+void run_closest(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
+    const kernels::trace_closest kernel{.nodes = work.bvh.nodes,
+                                        .triangles = work.bvh.triangles,
+                                        .rays = work.rays,
+                                        .active_rays = work.active,
+                                        .counts = work.count.on_device() ? work.count.buffer : work.active,
+                                        .suspended = work.traversal.suspended,
+                                        .unfinished = work.traversal.unfinished,
+                                        .hits = work.results,
+                                        .params = params,
+                                        .constants = {.resume = resume}};
+    run(work, kernel, threads);
+}
+
+void run_any(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
+    const kernels::trace_any kernel{.nodes = work.bvh.nodes,
+                                    .triangles = work.bvh.triangles,
+                                    .rays = work.rays,
+                                    .active_rays = work.active,
+                                    .counts = work.count.on_device() ? work.count.buffer : work.active,
+                                    .suspended = work.traversal.suspended,
+                                    .unfinished = work.traversal.unfinished,
+                                    .occluded = work.results,
+                                    .params = params,
+                                    .constants = {.resume = resume}};
+    run(work, kernel, threads);
+}
+
+TraceParams make_params(const Work& work) {
+    return {.count = static_cast<std::uint32_t>(work.count.bound),
+            .count_index = work.count.on_device() ? work.count.index : no_count_index,
+            .first = 0,
+            .root = work.bvh.triangle_count == 0   ? lbvh_end
+                    : work.bvh.triangle_count == 1 ? 1u
+                                                   : 0u,
+            .step_limit = work.traversal.step_limit,
+            .slot_count = work.traversal.slots,
+            .last = 0};
+}
+
+void record(const Work& work, RunKernel run_kernel) {
+    TraceParams params = make_params(work);
+    // No node is visited twice, so few triangles cannot use up the steps.
+    const bool may_suspend = 2ull * work.bvh.triangle_count > params.step_limit;
+    if (may_suspend) {
+        work.device.fill(BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
+    }
+    run_kernel(work, params, false, work.count.bound);
+    if (may_suspend) {
+        params.last = 1;
+        run_kernel(work, params, true, params.slot_count);
+    }
+}
+
+// As many rays at a time as there are slots, until each is done.
+void run_to_the_end(const Work& work, RunKernel run_kernel) {
+    TraceParams params = make_params(work);
+    std::uint64_t count = work.count.bound;
+    if (work.count.on_device()) {
+        count = std::min<std::uint64_t>(
+            count, download<std::uint32_t>(work.device, work.count.buffer, 1, work.count.index)[0]);
+    }
+    params.count_index = no_count_index;
+    for (std::uint64_t first = 0; first < count; first += params.slot_count) {
+        params.first = static_cast<std::uint32_t>(first);
+        params.count = static_cast<std::uint32_t>(std::min(count, first + params.slot_count));
+        work.device.fill(BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
+        run_kernel(work, params, false, params.count - params.first);
+        while (download<std::uint32_t>(work.device, work.traversal.suspended, 1, 1)[0] > 0) {
+            work.device.fill(
+                BufferView(work.traversal.suspended, sizeof(std::uint32_t), sizeof(std::uint32_t)), 0);
+            run_kernel(work, params, true, params.slot_count);
+        }
+    }
+}
+
+void trace(const Work& work, RunKernel run_kernel) {
+    if (work.traversal.careful) {
+        run_to_the_end(work, run_kernel);
+    } else {
+        record(work, run_kernel);
+    }
+}
+
+} // namespace
+
+Traversal make_traversal(Device& device, std::uint64_t max_rays) {
+    Traversal traversal;
+    traversal.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max_rays, 1, max_slots));
+    traversal.unfinished = device.allocate("unfinished rays", sizeof(std::uint32_t));
+    traversal.suspended = device.allocate(
+        "suspended rays",
+        (suspended_head + std::uint64_t(traversal.slots) * suspended_stride) * sizeof(std::uint32_t));
+    return traversal;
+}
+
+void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
+                   const Buffer& active, const Buffer& hits, const Count& count) {
+    trace({device, bvh, traversal, rays, active, hits, count}, run_closest);
+}
+
+void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
+               const Buffer& active, const Buffer& occluded, const Count& count) {
+    trace({device, bvh, traversal, rays, active, occluded, count}, run_any);
+}
+
+} // namespace argand
