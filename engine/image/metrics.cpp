@@ -1,0 +1,117 @@
+#include "image/metrics.hpp"
+
+#include "base/error.hpp"
+#include "image/srgb.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace argand {
+
+namespace {
+
+constexpr double dark_share = 0.01; // of the squared mean, keeps dark pixels from ruling relMSE
+
+void check_finite(const Image& image, std::string_view name) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec3& p = image.pixels[i];
+        if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b)) {
+            const auto width = static_cast<std::size_t>(image.width);
+            fail("cannot compare: pixel ({}, {}) of '{}' is not finite ({}, {}, {}); render it again", i % width,
+                 i / width, name, p.r, p.g, p.b);
+        }
+    }
+}
+
+void check_pair(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
+    if (a.width != b.width || a.height != b.height) {
+        fail("cannot compare '{}' ({} × {}) with '{}' ({} × {}): their sizes differ; render both at one size",
+             name_a, a.width, a.height, name_b, b.width, b.height);
+    }
+    if (a.pixels.empty() || a.pixels.size() != b.pixels.size()) {
+        fail("cannot compare '{}' with '{}': a picture is empty", name_a, name_b);
+    }
+    check_finite(a, name_a);
+    check_finite(b, name_b);
+}
+
+glm::dvec3 mean_of(const Image& image) {
+    glm::dvec3 sum(0);
+    for (const glm::vec3& pixel : image.pixels) {
+        sum += glm::dvec3(pixel);
+    }
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+double mean_of_channels(const glm::dvec3& v) { return (v.r + v.g + v.b) / 3; }
+
+/// difference² / scale², where 0/0 is no error.
+double relative(double squared_difference, double squared_scale) {
+    if (squared_difference == 0) {
+        return 0;
+    }
+    return squared_scale > 0 ? squared_difference / squared_scale : std::numeric_limits<double>::infinity();
+}
+
+double decibels(double peak, double rmse) {
+    if (rmse == 0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return peak > 0 ? 20 * std::log10(peak / rmse) : -std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+Metrics compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
+    check_pair(a, b, name_a, name_b);
+    Metrics metrics;
+    metrics.mean_a = mean_of(a);
+    metrics.mean_b = mean_of(b);
+    const double mean = mean_of_channels(metrics.mean_b);
+    double squares = 0, relatives = 0, absolutes = 0;
+    double peak = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < b.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double value = b.pixels[i][c];
+            const double d = a.pixels[i][c] - value;
+            squares += d * d;
+            relatives += relative(d * d, value * value + dark_share * mean * mean);
+            absolutes += std::abs(d);
+            peak = std::max(peak, value);
+        }
+    }
+    const double count = 3 * static_cast<double>(b.pixels.size());
+    metrics.rel_mse = relatives / count;
+    metrics.rmse = std::sqrt(squares / count); // a sum of squares is not negative
+    metrics.mae = absolutes / count;
+    metrics.psnr = decibels(peak, metrics.rmse);
+    metrics.ssim = ssim(a, b);
+    return metrics;
+}
+
+Image difference(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
+    check_pair(a, b, name_a, name_b);
+    Image result{a.width, a.height, {}};
+    result.pixels.reserve(a.pixels.size());
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        result.pixels.push_back(a.pixels[i] - b.pixels[i]);
+    }
+    return result;
+}
+
+Image difference_picture(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
+    check_pair(a, b, name_a, name_b);
+    const double mean = mean_of_channels(mean_of(b));
+    constexpr glm::dvec3 brighter(1, 0.15, 0), darker(0, 0.15, 1);
+    Image result{a.width, a.height, {}};
+    result.pixels.reserve(a.pixels.size());
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double reference = luminance(b.pixels[i]);
+        const double d = luminance(a.pixels[i]) - reference;
+        const double share = std::sqrt(relative(d * d, reference * reference + dark_share * mean * mean));
+        result.pixels.emplace_back((d > 0 ? brighter : darker) * std::min(share, 1.0));
+    }
+    return result;
+}
+
+} // namespace argand

@@ -1,0 +1,154 @@
+#include "image/png.hpp"
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "image/image_size.hpp"
+#include "image/srgb.hpp"
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <new>
+#include <vector>
+
+// Static, so that no other copy of stb in the program is meant; only what is used, so that a file that pretends to be
+// a PNG does not reach another decoder.
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_ONLY_HDR
+#define STBI_NO_STDIO
+#define STBI_MAX_DIMENSIONS 65536
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#include <stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace argand {
+
+namespace {
+
+constexpr int rgb = 3;
+
+template <class T> using Samples = std::unique_ptr<T, decltype(&stbi_image_free)>;
+
+template <class T> Samples<T> hold(T* samples) { return {samples, &stbi_image_free}; }
+
+void append(void* context, void* data, int size) {
+    auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
+    const auto* begin = static_cast<const std::uint8_t*>(data);
+    bytes.insert(bytes.end(), begin, begin + size);
+}
+
+/// The bytes of a file that stb can address, checked to be of the kind that `is_kind` tells.
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const char* kind,
+                                     int (*is_kind)(const stbi_uc*, int)) {
+    std::vector<std::uint8_t> bytes = read_file(path);
+    const std::string file = one_line(path.string(), 4096);
+    if (bytes.empty()) {
+        fail("cannot read '{}': it is empty; render or copy it again", file);
+    }
+    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        fail("cannot read '{}': it is larger than 2 GiB", file);
+    }
+    if (is_kind(bytes.data(), static_cast<int>(bytes.size())) == 0) {
+        fail("cannot read '{}': it is not a {} file; check its name", file, kind);
+    }
+    return bytes;
+}
+
+int is_png(const stbi_uc* bytes, int size) {
+    constexpr std::uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    return size >= 8 && std::equal(std::begin(signature), std::end(signature), bytes) ? 1 : 0;
+}
+
+template <class T, class Convert> Image to_image(const T* samples, int width, int height, Convert convert) {
+    Image image{width, height, {}};
+    image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        for (int c = 0; c < rgb; ++c) {
+            image.pixels[i][c] = convert(samples[i * rgb + static_cast<std::size_t>(c)]);
+        }
+    }
+    return image;
+}
+
+/// Linear value of every code of an unsigned integer type that holds sRGB.
+template <class T> std::vector<float> decode_table() {
+    constexpr std::size_t codes = std::size_t{std::numeric_limits<T>::max()} + 1;
+    std::vector<float> table(codes);
+    for (std::size_t i = 0; i < codes; ++i) {
+        table[i] = static_cast<float>(srgb_decode(static_cast<double>(i) / static_cast<double>(codes - 1)));
+    }
+    return table;
+}
+
+[[noreturn]] void fail_to_decode(const std::filesystem::path& path) {
+    const char* reason = stbi_failure_reason();
+    fail("cannot read '{}': it is damaged ({}); render or copy it again", one_line(path.string(), 4096),
+         reason != nullptr ? reason : "unknown reason");
+}
+
+} // namespace
+
+void write_png(const std::filesystem::path& path, const Image& image, float exposure_ev) {
+    check_size_to_write(path, image);
+    const double scale = std::exp2(static_cast<double>(exposure_ev));
+    std::vector<std::uint8_t> samples;
+    samples.reserve(image.pixels.size() * rgb);
+    for (const glm::vec3& pixel : image.pixels) {
+        for (int c = 0; c < rgb; ++c) {
+            samples.push_back(static_cast<std::uint8_t>(255 * srgb_encode(pixel[c] * scale) + 0.5));
+        }
+    }
+    std::vector<std::uint8_t> bytes;
+    if (samples.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
+        stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(), 0) == 0) {
+        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr", path.string(), image.width,
+             image.height);
+    }
+    write_atomically(path, bytes);
+}
+
+Image read_png(const std::filesystem::path& path) try {
+    const std::vector<std::uint8_t> bytes = read_bytes(path, "PNG", &is_png);
+    const int size = static_cast<int>(bytes.size());
+    int width = 0, height = 0, channels = 0;
+    if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
+        const auto samples = hold(stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, rgb));
+        if (samples == nullptr) {
+            fail_to_decode(path);
+        }
+        const std::vector<float> linear = decode_table<std::uint16_t>();
+        return to_image(samples.get(), width, height, [&](std::uint16_t code) { return linear[code]; });
+    }
+    const auto samples = hold(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, rgb));
+    if (samples == nullptr) {
+        fail_to_decode(path);
+    }
+    const std::vector<float> linear = decode_table<std::uint8_t>();
+    return to_image(samples.get(), width, height, [&](std::uint8_t code) { return linear[code]; });
+} catch (const std::bad_alloc&) {
+    fail("cannot read '{}': there is not enough memory for it", path.string());
+}
+
+Image read_hdr(const std::filesystem::path& path) try {
+    const std::vector<std::uint8_t> bytes = read_bytes(path, "Radiance HDR", &stbi_is_hdr_from_memory);
+    int width = 0, height = 0, channels = 0;
+    const auto samples =
+        hold(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, rgb));
+    if (samples == nullptr) {
+        fail_to_decode(path);
+    }
+    return to_image(samples.get(), width, height, [](float value) { return value; });
+} catch (const std::bad_alloc&) {
+    fail("cannot read '{}': there is not enough memory for it", path.string());
+}
+
+} // namespace argand
