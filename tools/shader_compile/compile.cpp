@@ -20,53 +20,65 @@ struct Process {
 };
 
 struct Messages {
-    std::string errors;
+    std::string error; ///< the first: what follows a syntax error is noise
     std::string warnings;
 };
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
 
 /// glslang's log in the form that editors understand: "ERROR: FILE:LINE: ..." becomes "FILE:LINE: error:
 /// ...".
 Messages messages(const std::string& log, const std::string& kernel) {
     static const std::regex located(R"((ERROR|WARNING): (.+?):(\d+): (.*))");
     static const std::regex unlocated(R"((ERROR|WARNING): (.*))");
-    static const std::regex count(R"(ERROR: \d+ compilation errors\..*)");
+    static const std::regex include(R"('#include' : (.*) for header name: (.*))");
+    static const std::regex unnamed(R"('' : +(.*))");
     Messages result;
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);) {
         std::smatch part;
-        if (std::regex_match(line, count)) {
-            continue;
-        }
-        std::string shown;
+        std::string place = kernel + ":1";
+        std::string text;
         if (std::regex_match(line, part, located)) {
-            shown = fmt::format("{}:{}: {}: {}\n", part[2].str(), part[3].str(),
-                                part[1] == "ERROR" ? "error" : "warning", part[4].str());
+            place = part[2].str() + ":" + part[3].str();
+            text = part[4];
         } else if (std::regex_match(line, part, unlocated)) {
-            shown = fmt::format("{}:1: {}: {}\n", kernel, part[1] == "ERROR" ? "error" : "warning",
-                                part[2].str());
+            text = part[2];
         } else {
             continue;
         }
-        (part[1] == "ERROR" ? result.errors : result.warnings) += shown;
+        text = trimmed(std::regex_replace(text, include, "cannot include $2: $1"));
+        text = std::regex_replace(text, unnamed, "$1");
+        if (part[1] == "WARNING") {
+            result.warnings += fmt::format("{}: warning: {}\n", place, text);
+        } else if (result.error.empty()) {
+            result.error = fmt::format("{}: error: {}", place, text);
+        }
     }
     return result;
 }
 
-[[noreturn]] void fail_with(std::string errors, const std::string& kernel) {
-    if (errors.empty()) {
+[[noreturn]] void fail_with(const Messages& said, const std::string& kernel) {
+    if (said.error.empty()) {
         fail("{}:1: error: glslang refuses it without a reason", kernel);
     }
-    errors.pop_back(); // the last newline
-    throw Error(errors);
+    throw Error(said.error);
 }
 
 } // namespace
 
-Compiled compile(const std::string& path, const std::vector<std::string>& include_directories) {
+Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories) {
     const Process process;
+    const std::string path = std::filesystem::path(kernel).lexically_normal().string();
     Compiled result;
-    result.sources.push_back({path, read_file(path)});
+    result.sources.push_back({path, read_text(path)});
     const std::string text = result.sources.front().text;
+    if (!line_of(without_comments(text), {"#version", "460"})) {
+        fail("{}:1: error: a kernel begins with #version 460", path);
+    }
 
     glslang::TShader shader(EShLangCompute);
     const char* const string = text.data();
@@ -81,14 +93,14 @@ Compiled compile(const std::string& path, const std::vector<std::string>& includ
     const auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
     Includer includer(include_directories, result.sources);
     const bool parsed = shader.parse(GetDefaultResources(), 460, false, rules, includer);
-    Messages said = messages(shader.getInfoLog(), path);
+    const Messages said = messages(shader.getInfoLog(), path);
     if (!parsed) {
-        fail_with(said.errors, path);
+        fail_with(said, path);
     }
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(rules)) {
-        fail_with(messages(program.getInfoLog(), path).errors, path);
+        fail_with(messages(program.getInfoLog(), path), path);
     }
 
     glslang::SpvOptions options;

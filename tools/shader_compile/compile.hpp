@@ -14,7 +14,7 @@ struct Compiled {
     std::string warnings; ///< lines "file:line: warning: ...", empty if there are none
 };
 
-/// Compiles a GLSL compute shader for Vulkan 1.2. Throws Error with lines "file:line: error: ...".
-Compiled compile(const std::string& path, const std::vector<std::string>& include_directories);
+/// Compiles a GLSL compute shader for Vulkan 1.2. Throws Error "file:line: error: ...".
+Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories);
 
 } // namespace argand::shader_compile

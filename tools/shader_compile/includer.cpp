@@ -18,33 +18,36 @@ Result* owning_result(const std::string& name, std::string text) {
 
 } // namespace
 
-Result* Includer::includeLocal(const char* header, const char* includer, std::size_t depth) {
-    // The depth counts from 1 and includes this file: whatever is deeper has been closed.
-    open_.resize(std::min(open_.size(), depth - 1));
-    const fs::path beside = (fs::path(includer).parent_path() / header).lexically_normal();
-    return fs::is_regular_file(beside) ? found(beside.string()) : nullptr;
-}
-
-Result* Includer::includeSystem(const char* header, const char*, std::size_t depth) {
-    open_.resize(std::min(open_.size(), depth - 1));
-    for (const std::string& directory : directories_) {
-        const fs::path path = (fs::path(directory) / header).lexically_normal();
-        if (fs::is_regular_file(path)) {
-            return found(path.string());
+/// The path of the file that is meant, or empty.
+std::string Includer::resolve(const std::string& header, const std::string& includer) const {
+    std::vector<fs::path> places{fs::path(includer).parent_path()};
+    places.insert(places.end(), directories_.begin(), directories_.end());
+    for (const fs::path& place : places) {
+        const fs::path path = (place / header).lexically_normal();
+        std::error_code unreadable;
+        if (fs::exists(path, unreadable)) {
+            return path.string();
         }
     }
-    return owning_result(
-        "", fmt::format("cannot find it beside the including file or in {}", fmt::join(directories_, ", ")));
+    return "";
 }
 
-Result* Includer::found(const std::string& path) {
+Result* Includer::includeSystem(const char* header, const char* includer, std::size_t depth) {
+    // The depth counts this file, from 1: whatever is deeper has been closed.
+    open_.resize(std::min(open_.size(), depth - 1));
+    const std::string path = resolve(header, includer);
+    if (path.empty()) {
+        return owning_result("", fmt::format("it is neither beside the including file nor in {}",
+                                             fmt::join(directories_, ", ")));
+    }
     if (path == sources_.front().path || std::find(open_.begin(), open_.end(), path) != open_.end()) {
-        return owning_result(
-            "", fmt::format("it includes itself, by way of {}", open_.empty() ? path : open_.back()));
+        return owning_result("", open_.empty() || open_.back() == path
+                                     ? "it includes itself"
+                                     : fmt::format("it includes itself, by way of {}", open_.back()));
     }
     std::string text;
     try {
-        text = read_file(path);
+        text = read_text(path);
     } catch (const Error& error) {
         return owning_result("", error.what());
     }

@@ -1,13 +1,10 @@
 #include "sources.hpp"
 
-#include "base/error.hpp"
+#include "base/read_file.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <fmt/format.h>
 
 namespace argand::shader_compile {
 namespace {
@@ -46,16 +43,9 @@ bool all_stand_at(std::string_view text, std::size_t at, std::initializer_list<s
 
 } // namespace
 
-std::string read_file(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) {
-        fail("cannot read {}: it is a directory", path.string());
-    }
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (!file || (file.peek() != std::ifstream::traits_type::eof() && !(text << file.rdbuf()))) {
-        fail("cannot read {}: {}", path.string(), std::strerror(errno));
-    }
-    return text.str();
+std::string read_text(const std::filesystem::path& path) {
+    const std::vector<std::uint8_t> bytes = read_file(path);
+    return {bytes.begin(), bytes.end()};
 }
 
 std::string without_comments(std::string_view text) {

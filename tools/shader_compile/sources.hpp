@@ -18,8 +18,8 @@ struct Source {
 /// The kernel itself first, then every file it includes, each once.
 using Sources = std::vector<Source>;
 
-/// Reads a whole file; throws Error with a reason in words.
-std::string read_file(const std::filesystem::path& path);
+/// As argand::read_file.
+std::string read_text(const std::filesystem::path& path);
 
 /// The text with comments replaced by blanks, lines kept.
 std::string without_comments(std::string_view text);

@@ -11,7 +11,7 @@ namespace argand::shader_compile {
 namespace fs = std::filesystem;
 
 void write_file(const fs::path& path, std::string_view text) {
-    if (fs::is_regular_file(path) && read_file(path) == text) {
+    if (fs::is_regular_file(path) && read_text(path) == text) {
         return;
     }
     fs::path unfinished = path;
