@@ -1,0 +1,260 @@
+"""Shapes, materials, lights and cameras as glTF 2.0: enough to write the scenes of make_scenes.py, and no more."""
+
+import base64
+import json
+import math
+import struct
+
+
+def rounded(x):
+    """To six decimals: the same bytes whatever the platform's sine does in its last bit. (+0.0 turns -0.0 into 0.0.)"""
+    return round(x, 6) + 0.0
+
+
+def add(a, b):
+    return tuple(x + y for x, y in zip(a, b))
+
+
+def scaled(a, s):
+    return tuple(x * s for x in a)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(a):
+    return scaled(a, 1 / math.sqrt(dot(a, a)))
+
+
+class Mesh:
+    """Triangles, counter-clockwise seen from the front; without normals they are flat."""
+
+    def __init__(self, positions=(), triangles=(), normals=None):
+        self.positions = list(positions)
+        self.triangles = list(triangles)
+        self.normals = normals
+
+    def __add__(self, other):
+        assert self.normals is None and other.normals is None
+        n = len(self.positions)
+        moved = [tuple(i + n for i in t) for t in other.triangles]
+        return Mesh(self.positions + other.positions, self.triangles + moved)
+
+    def flat(self):
+        return Mesh(self.positions, self.triangles)
+
+    def moved(self, offset):
+        return Mesh([add(p, offset) for p in self.positions], self.triangles, self.normals)
+
+    def turned(self, degrees):
+        """About the y axis."""
+        c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+
+        def turn(p):
+            return (c * p[0] + s * p[2], p[1], c * p[2] - s * p[0])
+
+        normals = self.normals and [turn(n) for n in self.normals]
+        return Mesh([turn(p) for p in self.positions], self.triangles, normals)
+
+    def inside_out(self):
+        return Mesh(self.positions, [(a, c, b) for a, b, c in self.triangles],
+                    self.normals and [scaled(n, -1) for n in self.normals])
+
+
+def quad(a, b, c, d):
+    return Mesh([a, b, c, d], [(0, 1, 2), (0, 2, 3)])
+
+
+def box(low, high):
+    """Closed, facing outwards."""
+    corners = [(low, high)[i & 1][0:1] + (low, high)[i >> 1 & 1][1:2] + (low, high)[i >> 2][2:3] for i in range(8)]
+    faces = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+    return Mesh(corners, [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))])
+
+
+def sphere(radius, frequency):
+    """A geodesic sphere of 20·frequency² even triangles, smooth: an icosahedron's faces divided, pushed outwards."""
+    golden = (1 + math.sqrt(5)) / 2
+    tops = [(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0), (0, -1, golden), (0, 1, golden),
+            (0, -1, -golden), (0, 1, -golden), (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
+             (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
+             (8, 6, 7), (9, 8, 1)]
+    number = {}  # of a vertex, by its direction to six decimals, so that faces share those on their edges
+    normals, triangles = [], []
+
+    def vertex(face, i, j):
+        weights = (frequency - i - j, i, j)
+        point = add(add(scaled(tops[face[0]], weights[0]), scaled(tops[face[1]], weights[1])),
+                    scaled(tops[face[2]], weights[2]))
+        direction = tuple(rounded(x) for x in unit(point))
+        if direction not in number:
+            number[direction] = len(normals)
+            normals.append(direction)
+        return number[direction]
+
+    for face in faces:
+        for i in range(frequency):
+            for j in range(frequency - i):
+                triangles.append((vertex(face, i, j), vertex(face, i + 1, j), vertex(face, i, j + 1)))
+                if i + j + 1 < frequency:
+                    triangles.append((vertex(face, i + 1, j), vertex(face, i + 1, j + 1), vertex(face, i, j + 1)))
+    return Mesh([scaled(n, radius) for n in normals], triangles, normals)
+
+
+def revolved(profile, segments):
+    """A closed profile of (radius, height, normal's radius, normal's height), counter-clockwise seen with the radius to
+    the right and the height up, turned about the y axis; smooth."""
+    positions, normals, triangles = [], [], []
+    for s in range(segments):
+        c, d = math.cos(2 * math.pi * s / segments), math.sin(2 * math.pi * s / segments)
+        for radius, height, nr, nh in profile:
+            positions.append((c * radius, height, d * radius))
+            normals.append((c * nr, nh, d * nr))
+    m = len(profile)
+    for s in range(segments):
+        here, there = s * m, (s + 1) % segments * m
+        for p in range(m):
+            q = (p + 1) % m
+            triangles += [(here + p, here + q, there + q), (here + p, there + q, there + p)]
+    return Mesh(positions, triangles, normals)
+
+
+def lambertian(color):
+    """A pure Lambertian: a rough dielectric whose specular lobe is switched off."""
+    return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 0, "roughnessFactor": 1},
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+
+
+def metal(color, roughness):
+    return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 1, "roughnessFactor": roughness}}
+
+
+def glass(thickness):
+    """A solid that refracts; the thickness is the extent of the object, whose surface is traced all the same."""
+    return {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0},
+            "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+                           "KHR_materials_volume": {"thicknessFactor": thickness},
+                           "KHR_materials_ior": {"ior": 1.5}}}
+
+
+def emitter(radiance, albedo=(0, 0, 0)):
+    """Emits `radiance` from its front; the factor has to be at most 1, the strength makes up for it."""
+    strength = max(radiance)
+    material = lambertian(albedo)
+    material["emissiveFactor"] = [rounded(x / strength) for x in radiance]
+    material["extensions"]["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
+    return material
+
+
+def rotation_towards(forward, up):
+    """Quaternion (x, y, z, w) that turns -z to `forward` and y as close to `up` as can be."""
+    z = scaled(unit(forward), -1)
+    x = unit(cross(up, z))
+    y = cross(z, x)
+    m = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
+    # Of the four formulas the one with the largest component, so that no square root is of a small difference.
+    t = [1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2], 1 - m[0][0] - m[1][1] + m[2][2],
+         1 + m[0][0] + m[1][1] + m[2][2]]
+    k = t.index(max(t))
+    if k == 3:
+        q = (m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1], t[3])
+    elif k == 0:
+        q = (t[0], m[0][1] + m[1][0], m[0][2] + m[2][0], m[2][1] - m[1][2])
+    elif k == 1:
+        q = (m[0][1] + m[1][0], t[1], m[1][2] + m[2][1], m[0][2] - m[2][0])
+    else:
+        q = (m[0][2] + m[2][0], m[1][2] + m[2][1], t[2], m[1][0] - m[0][1])
+    return [round(c, 9) + 0.0 for c in unit(q)]
+
+
+class Scene:
+    def __init__(self):
+        self.nodes, self.meshes, self.materials, self.lights, self.cameras = [], [], [], [], []
+        self.accessors, self.views, self.data = [], [], b""
+
+    def add(self, name, mesh, material):
+        self.materials.append({"name": name, **material})
+        positions = [tuple(rounded(x) for x in p) for p in mesh.positions]
+        attributes = {"POSITION": self._accessor(positions, 5126, "VEC3", "f", 34962)}
+        if mesh.normals:
+            normals = [tuple(rounded(x) for x in n) for n in mesh.normals]
+            attributes["NORMAL"] = self._accessor(normals, 5126, "VEC3", "f", 34962)
+        assert len(positions) < 65536
+        indices = self._accessor([(i,) for t in mesh.triangles for i in t], 5123, "SCALAR", "H", 34963)
+        self.meshes.append({"name": name, "primitives": [{"attributes": attributes, "indices": indices,
+                                                          "material": len(self.materials) - 1}]})
+        self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
+
+    def _accessor(self, rows, component, kind, code, target):
+        self.data += b"\0" * (-len(self.data) % 4)
+        packed = b"".join(struct.pack("<%d%s" % (len(row), code), *row) for row in rows)
+        accessor = {"bufferView": len(self.views), "componentType": component, "count": len(rows), "type": kind}
+        if code == "f":
+            stored = list(struct.iter_unpack("<3f", packed))
+            accessor["min"] = [min(column) for column in zip(*stored)]
+            accessor["max"] = [max(column) for column in zip(*stored)]
+        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed), "target": target})
+        self.data += packed
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def camera(self, position, target, degrees=40, up=(0, 1, 0), aspect=1):
+        """`degrees` is the vertical angle of view."""
+        self.cameras.append({"name": "camera", "type": "perspective",
+                             "perspective": {"yfov": rounded(math.radians(degrees)), "aspectRatio": aspect,
+                                             "znear": 0.01}})
+        forward = add(target, scaled(position, -1))
+        self.nodes.append({"name": "camera", "camera": len(self.cameras) - 1, "translation": list(position),
+                           "rotation": rotation_towards(forward, up)})
+
+    def light(self, kind, intensity, position=None, towards=None, cones=None, color=(1, 1, 1)):
+        """Candela (point, spot) or lux (directional); `cones` are the inner and outer half angles in degrees."""
+        light = {"name": kind, "type": kind, "color": list(color), "intensity": intensity}
+        if cones:
+            light["spot"] = {"innerConeAngle": rounded(math.radians(cones[0])),
+                             "outerConeAngle": rounded(math.radians(cones[1]))}
+        node = {"name": kind, "extensions": {"KHR_lights_punctual": {"light": len(self.lights)}}}
+        if position:
+            node["translation"] = list(position)
+        if towards:
+            node["rotation"] = rotation_towards(towards, (0, 0, -1) if abs(towards[1]) > abs(towards[2]) else (0, 1, 0))
+        self.lights.append(light)
+        self.nodes.append(node)
+
+    def document(self):
+        extensions = {name for material in self.materials for name in material.get("extensions", {})}
+        document = {"asset": {"version": "2.0", "generator": "Argand make_scenes.py"}}
+        if self.lights:
+            extensions.add("KHR_lights_punctual")
+            document["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
+        document["extensionsUsed"] = sorted(extensions)
+        document["scene"] = 0
+        document["scenes"] = [{"nodes": list(range(len(self.nodes)))}]
+        for key, value in (("nodes", self.nodes), ("meshes", self.meshes), ("materials", self.materials),
+                           ("cameras", self.cameras), ("accessors", self.accessors), ("bufferViews", self.views)):
+            if value:
+                document[key] = value
+        document["buffers"] = [{"byteLength": len(self.data)}]
+        return document
+
+    def gltf(self):
+        """Bytes of a readable .gltf that carries its data in itself."""
+        document = self.document()
+        document["buffers"][0]["uri"] = ("data:application/octet-stream;base64," +
+                                         base64.b64encode(self.data).decode("ascii"))
+        return (json.dumps(document, indent=1) + "\n").encode("ascii")
+
+    def glb(self):
+        """Bytes of a binary .glb."""
+        text = json.dumps(self.document(), separators=(",", ":")).encode("ascii")
+        text += b" " * (-len(text) % 4)
+        data = self.data + b"\0" * (-len(self.data) % 4)
+        size = 12 + 8 + len(text) + 8 + len(data)
+        return (struct.pack("<4sII", b"glTF", 2, size) + struct.pack("<I4s", len(text), b"JSON") + text +
+                struct.pack("<I4s", len(data), b"BIN\0") + data)
