@@ -69,16 +69,16 @@ bool hit_triangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec3 t_u_v) {
     return inside;
 }
 
-// Where the ray enters the box; more than t_max if it misses it. The far side is moved by the rounding errors of the
+// Whether the ray meets the box before t_max, and where it enters it. The far side is moved by the rounding errors of the
 // slabs' distances (Ize 2013, "Robust BVH ray traversal").
-float enter_box(Ray ray, vec3 low, vec3 high, float t_max) {
+bool hit_box(Ray ray, vec3 low, vec3 high, float t_max, out float enter) {
     vec3 a = (low - ray.origin) * ray.inverse;
     vec3 b = (high - ray.origin) * ray.inverse;
     vec3 near = min(a, b);
     vec3 far = max(a, b) * 1.0000004;
-    float enter = max(max(near.x, near.y), max(near.z, 0.0));
+    enter = max(max(near.x, near.y), max(near.z, 0.0));
     float leave = min(min(far.x, far.y), min(far.z, t_max));
-    return enter <= leave ? enter : 3.0e38;
+    return enter <= leave;
 }
 
 void main() {
@@ -130,14 +130,15 @@ void main() {
             uvec4 left_high = nodes[2u * node + 1u];
             uvec4 right_low = nodes[2u * node + 2u];
             uvec4 right_high = nodes[2u * node + 3u];
-            float left = enter_box(ray, uintBitsToFloat(left_low.xyz), uintBitsToFloat(left_high.xyz), hit.t);
-            float right = enter_box(ray, uintBitsToFloat(right_low.xyz), uintBitsToFloat(right_high.xyz), hit.t);
-            bool right_first = right < left;
-            if (max(left, right) <= hit.t) {
+            float left_enter, right_enter;
+            bool left = hit_box(ray, uintBitsToFloat(left_low.xyz), uintBitsToFloat(left_high.xyz), hit.t, left_enter);
+            bool right = hit_box(ray, uintBitsToFloat(right_low.xyz), uintBitsToFloat(right_high.xyz), hit.t, right_enter);
+            bool right_first = right && !(left && left_enter <= right_enter);
+            if (left && right) {
                 stack[height] = right_first ? left_low.w : left_high.w;
                 ++height;
             }
-            if (min(left, right) <= hit.t) {
+            if (left || right) {
                 node = right_first ? left_high.w : left_low.w;
                 pop = false;
             }
