@@ -62,6 +62,13 @@ inline constexpr std::size_t max_bindings = 24;
 inline constexpr std::size_t max_push_bytes = 128;
 inline constexpr std::size_t max_constants = 16;
 
+/// The default of a kernel's push constants: a compile error where it is used (a link error with other compilers).
+template <class Params>
+#ifdef __GNUC__
+[[gnu::error("a kernel lacks its push constants")]]
+#endif
+Params missing_push_constants();
+
 /// A kernel's arguments in the form that a backend takes.
 struct KernelArguments {
     std::array<const Buffer*, max_bindings> buffers{};

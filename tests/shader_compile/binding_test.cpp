@@ -77,7 +77,7 @@ TEST_F(Binding, HeaderNamesWhatTheShaderDeclares) {
     EXPECT_EQ(
         struct_text(header),
         "struct emit { Read lights; ///< binding 0 Write rays; ///< binding 1 ReadWrite sums; ///< binding 2 "
-        "Read unused; ///< binding 3 EmitParams params; "
+        "Read unused; ///< binding 3 EmitParams params = missing_push_constants<EmitParams>(); "
         "struct Constants { float x = 1.0f; std::uint32_t max_depth = 8u; "
         "std::int32_t least = -2147483648; float never_read = 0.1f; bool b = true; } constants = {}; "
         "static const KernelInfo info; KernelArguments arguments() const; }; } // namespace "
@@ -106,6 +106,15 @@ TEST_F(Binding, ProgramThatLacksABufferDoesNotCompile) {
         check_cpp(before + "{.lights = a, .rays = b, .sums = a, .params = {}}.arguments(); }");
     EXPECT_NE(outcome.status, 0);
     EXPECT_THAT(outcome.said, HasSubstr("unused"));
+}
+
+TEST_F(Binding, ProgramThatLacksPushConstantsDoesNotCompile) {
+    write("program.cpp", before + "{.lights = a, .rays = b, .sums = a, .unused = b}.arguments(); }");
+    const Outcome outcome = run("cd " + root.string() +
+                                " && " ARGAND_CXX_COMPILER " -std=c++20 -Iout -Ishaders -I" ARGAND_SOURCE_DIR
+                                "/engine -c program.cpp -o program.o");
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.said, HasSubstr("a kernel lacks its push constants"));
 }
 
 TEST_F(Binding, ProgramWithAWrongNameOrTypeDoesNotCompile) {

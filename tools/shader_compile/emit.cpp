@@ -88,7 +88,8 @@ std::string emit_header(const Kernel& kernel) {
                        width, i);
     }
     if (interface.push) {
-        fmt::format_to(out, "    {} {};\n", interface.push->name, interface.push_name);
+        fmt::format_to(out, "    {0} {1} = missing_push_constants<{0}>();\n", interface.push->name,
+                       interface.push_name);
     }
     if (!interface.constants.empty()) {
         fmt::format_to(out, "    struct Constants {{\n");

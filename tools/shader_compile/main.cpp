@@ -65,9 +65,9 @@ void run(const Options& options) {
         // The build runs elsewhere than this program.
         inputs.push_back(fs::absolute(input.path).string());
     }
-    write_file(options.depfile, emit_depfile({header, source}, inputs));
-    write_file(header, emit_header(kernel));
-    write_file(source, emit_source(kernel));
+    write_if_changed(options.depfile, emit_depfile({header, source}, inputs));
+    write_if_changed(header, emit_header(kernel));
+    write_if_changed(source, emit_source(kernel));
 }
 
 } // namespace

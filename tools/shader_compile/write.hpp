@@ -5,8 +5,8 @@
 
 namespace argand::shader_compile {
 
-/// Writes a file whole or not at all: beside its place, then renamed. A file that already has this text is
-/// left alone, so that what depends on it is not built again. Throws Error.
-void write_file(const std::filesystem::path& path, std::string_view text);
+/// As argand::write_atomically, but a file that already has this text is left alone, so that what depends on
+/// it is not built again.
+void write_if_changed(const std::filesystem::path& path, std::string_view text);
 
 } // namespace argand::shader_compile
