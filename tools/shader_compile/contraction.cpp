@@ -66,10 +66,8 @@ Spirv forbid_contraction(const Spirv& spirv) {
         if (insert_at == 0 && !is_before_annotations(op)) {
             insert_at = i;
         }
-        if (op == spv::OpTypeFloat) {
-            float_types.insert(spirv[i + 1]);
-        } else if ((op == spv::OpTypeVector || op == spv::OpTypeMatrix) &&
-                   float_types.count(spirv[i + 2]) != 0) {
+        const bool is_compound = op == spv::OpTypeVector || op == spv::OpTypeMatrix;
+        if (op == spv::OpTypeFloat || (is_compound && float_types.count(spirv[i + 2]) != 0)) {
             float_types.insert(spirv[i + 1]);
         } else if (op == spv::OpDecorate && spirv[i + 2] == spv::DecorationNoContraction) {
             decorated.insert(spirv[i + 1]);
