@@ -7,7 +7,14 @@ using namespace argand::testing;
 
 namespace {
 
+/// What the test's own parent made of the signals (a background job ignores SIGINT) must not matter.
+void take_signals_as_usual() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
 TEST(Interrupt, FirstSignalIsNoted) {
+    take_signals_as_usual();
     catch_interrupts();
     for (const int signal : {SIGINT, SIGTERM}) {
         EXPECT_FALSE(interrupted());
@@ -18,12 +25,12 @@ TEST(Interrupt, FirstSignalIsNoted) {
         forget_interrupt();
     }
     EXPECT_FALSE(interrupted());
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    take_signals_as_usual();
 }
 
 TEST(InterruptDeathTest, SecondSignalEndsTheProgramAtOnce) {
     const auto twice = [](int signal) {
+        take_signals_as_usual();
         catch_interrupts();
         std::raise(signal);
         std::raise(signal);
@@ -37,8 +44,7 @@ TEST(Interrupt, AnIgnoredSignalStaysIgnored) {
     catch_interrupts();
     std::raise(SIGINT);
     EXPECT_FALSE(interrupted());
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    take_signals_as_usual();
 }
 
 } // namespace
