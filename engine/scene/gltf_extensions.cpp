@@ -24,7 +24,7 @@ void add_extensions(const GltfSource& source, Scene& scene) {
             scene.extensions_used.end()) {
             continue;
         }
-        scene.extensions_used.push_back(name);
+        scene.extensions_used.push_back(one_line(name));
         if (!understands_extension(name)) {
             add_note(scene,
                      fmt::format("the extension {} is not understood and is ignored", one_line(name, 80)));

@@ -156,7 +156,7 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
     for (std::size_t i = 0; i < buffers->size(); ++i) {
         const nlohmann::json& buffer = (*buffers)[i];
         const bool has_uri = buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string();
-        if (!has_uri && !is_glb) {
+        if (!has_uri && (!is_glb || i > 0)) { // only the first can be the BIN chunk
             fail("buffer {} has no uri, so there is no data for it", i);
         }
         if (!has_uri || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned()) {

@@ -165,6 +165,35 @@ std::uint32_t material_of(const GltfSource& source, const tinygltf::Primitive& p
     return static_cast<std::uint32_t>(in_file);
 }
 
+std::size_t stated_count(const GltfSource& source, int accessor) {
+    const auto& accessors = source.model.accessors;
+    return accessor >= 0 && std::size_t(accessor) < accessors.size() ? accessors[std::size_t(accessor)].count
+                                                                     : 0;
+}
+
+/// Error if the nodes show more triangles than can be held. Looked at beforehand, by the counts that the file
+/// states: a short file can show a large mesh many times.
+void refuse_too_many(const GltfSource& source, const std::vector<GltfNode>& nodes) {
+    std::size_t total = 0;
+    for (const GltfNode& node : nodes) {
+        const int mesh = source.model.nodes[std::size_t(node.index)].mesh;
+        if (mesh < 0 || std::size_t(mesh) >= source.model.meshes.size()) {
+            continue;
+        }
+        for (const tinygltf::Primitive& primitive : source.model.meshes[std::size_t(mesh)].primitives) {
+            if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+                continue;
+            }
+            const int corners = primitive.indices >= 0 ? primitive.indices : attribute(primitive, "POSITION");
+            const std::size_t count = triangle_count(primitive.mode, stated_count(source, corners));
+            if (count > most_triangles - total) {
+                source.fail("its scene has more than {} triangles", most_triangles);
+            }
+            total += count;
+        }
+    }
+}
+
 /// A vertex of the primitive at hand, in world space.
 struct StagedVertex {
     glm::vec3 position;
@@ -224,9 +253,6 @@ struct MeshAdder {
     void add(const Surface& surface, const Transform& transform, std::uint32_t material,
              const std::string& name) {
         const std::size_t triangles = triangle_count(surface.mode, surface.corner_count);
-        if (triangles > most_triangles - scene.triangles.size() - without_area) {
-            source.fail("its scene has more than {} triangles", most_triangles);
-        }
         if (staged_as.size() < surface.positions.count) {
             staged_as.resize(surface.positions.count, none);
         }
@@ -240,8 +266,11 @@ struct MeshAdder {
             }
             if (has_area(staged[corners.x].position, staged[corners.y].position,
                          staged[corners.z].position)) {
-                scene.triangles.emplace_back(add_vertex(staged[corners.x]), add_vertex(staged[corners.y]),
-                                             add_vertex(staged[corners.z]));
+                glm::uvec3 triangle(0);
+                for (int k = 0; k < 3; ++k) {
+                    triangle[k] = add_vertex(staged[corners[k]]);
+                }
+                scene.triangles.push_back(triangle);
                 scene.triangle_material.push_back(material);
             } else {
                 ++without_area;
@@ -258,6 +287,7 @@ struct MeshAdder {
 } // namespace
 
 void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
+    refuse_too_many(source, nodes);
     MeshAdder adder{source, scene, {}, {}, 0};
     for (const GltfNode& node : nodes) {
         const tinygltf::Node& shown = source.model.nodes[std::size_t(node.index)];

@@ -13,15 +13,20 @@ Bounds bounds(const Scene& scene) {
     return box;
 }
 
+double area(const Scene& scene, std::size_t triangle) {
+    const glm::uvec3& corners = scene.triangles[triangle];
+    const glm::dvec3 a(scene.positions[corners.x]);
+    const glm::dvec3 b(scene.positions[corners.y]);
+    const glm::dvec3 c(scene.positions[corners.z]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
 double surface_area(const Scene& scene) {
-    double area = 0;
-    for (const glm::uvec3& triangle : scene.triangles) {
-        const glm::dvec3 a(scene.positions[triangle.x]);
-        const glm::dvec3 b(scene.positions[triangle.y]);
-        const glm::dvec3 c(scene.positions[triangle.z]);
-        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    double sum = 0;
+    for (std::size_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        sum += area(scene, triangle);
     }
-    return area;
+    return sum;
 }
 
 bool emits(const Material& material) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -73,6 +74,9 @@ struct Scene {
 
 /// Bounding box of the vertices that triangles refer to; low > high if there is none.
 Bounds bounds(const Scene& scene);
+
+/// Area of one triangle, in double precision.
+double area(const Scene& scene, std::size_t triangle);
 
 /// Sum of the areas of all triangles, in double precision.
 double surface_area(const Scene& scene);

@@ -1,0 +1,256 @@
+#include "scene/summary.hpp"
+
+#include "scene/gltf_extensions.hpp"
+#include "scene/light_power.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <numbers>
+
+namespace argand {
+namespace {
+
+using nlohmann::json;
+
+template <class Vector>
+json numbers(const Vector& v) {
+    return json::array({v.x, v.y, v.z});
+}
+
+double degrees(double radians) {
+    return radians * 180 / std::numbers::pi;
+}
+
+json material_json(const Material& material, std::size_t triangles, double area) {
+    return {{"name", material.name},
+            {"kind", describe(material)},
+            {"triangles", triangles},
+            {"area", area},
+            {"base_color", numbers(material.base_color)},
+            {"metallic", material.metallic},
+            {"roughness", material.roughness},
+            {"specular", material.specular},
+            {"specular_color", numbers(material.specular_color)},
+            {"transmission", material.transmission},
+            {"ior", material.ior},
+            {"thickness", material.thickness},
+            {"emission", numbers(material.emission)},
+            {"double_sided", material.double_sided}};
+}
+
+json materials_json(const Scene& scene) {
+    std::vector<std::size_t> triangles(scene.materials.size(), 0);
+    std::vector<double> areas(scene.materials.size(), 0);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        ++triangles[scene.triangle_material[i]];
+        areas[scene.triangle_material[i]] += area(scene, i);
+    }
+    json list = json::array();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        list.push_back(material_json(scene.materials[i], triangles[i], areas[i]));
+    }
+    return list;
+}
+
+json light_json(const Light& light) {
+    json object{{"name", light.name}, {"intensity", numbers(light.intensity)}};
+    switch (light.kind) {
+    case LightKind::point:
+        object["kind"] = "point";
+        break;
+    case LightKind::spot:
+        object["kind"] = "spot";
+        break;
+    case LightKind::directional:
+        object["kind"] = "directional";
+        break;
+    }
+    object["unit"] = light.kind == LightKind::directional ? "lux" : "candela";
+    if (light.kind != LightKind::directional) {
+        object["position"] = numbers(light.position);
+        object["power"] = numbers(emitted_power(light));
+    }
+    if (light.kind != LightKind::point) {
+        object["direction"] = numbers(light.direction);
+    }
+    if (light.kind == LightKind::spot) {
+        object["inner_cone_angle"] = light.inner_cone_angle;
+        object["outer_cone_angle"] = light.outer_cone_angle;
+    }
+    return object;
+}
+
+json emissive_json(const Scene& scene) {
+    std::size_t triangles = 0;
+    double lit_area = 0;
+    glm::dvec3 power(0);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        if (emits(scene.materials[scene.triangle_material[i]])) {
+            ++triangles;
+            lit_area += area(scene, i);
+            power += emitted_power(scene, i);
+        }
+    }
+    return {{"triangles", triangles}, {"area", lit_area}, {"power", numbers(power)}};
+}
+
+json camera_json(const Camera& camera) {
+    json object{{"name", camera.name},
+                {"position", numbers(camera.position)},
+                {"forward", numbers(camera.forward)},
+                {"up", numbers(camera.up)},
+                {"aspect", camera.aspect > 0 ? json(camera.aspect) : json(nullptr)}};
+    if (camera.kind == CameraKind::perspective) {
+        object["kind"] = "perspective";
+        object["vertical_angle"] = camera.vertical_angle;
+    } else {
+        object["kind"] = "orthographic";
+        object["vertical_extent"] = camera.vertical_extent;
+    }
+    return object;
+}
+
+/// "1 0.5 0", or "1" where all three are equal.
+std::string short_text(const json& vector) {
+    const double x = vector[0];
+    const double y = vector[1];
+    const double z = vector[2];
+    return x == y && y == z ? fmt::format("{:.4g}", x) : fmt::format("{:.4g} {:.4g} {:.4g}", x, y, z);
+}
+
+std::string full_text(const json& vector) {
+    return fmt::format("{:.4g} {:.4g} {:.4g}", vector[0].get<double>(), vector[1].get<double>(),
+                       vector[2].get<double>());
+}
+
+std::string quoted_name(const json& object) {
+    const auto name = object["name"].get<std::string>();
+    return name.empty() ? "(no name)" : name;
+}
+
+std::string material_line(const json& material) {
+    std::string line =
+        fmt::format("{}: {}, base colour {}, metallic {:.4g}, roughness {:.4g}", quoted_name(material),
+                    material["kind"].get<std::string>(), short_text(material["base_color"]),
+                    material["metallic"].get<double>(), material["roughness"].get<double>());
+    if (material["transmission"].get<double>() > 0) {
+        line += fmt::format(", transmission {:.4g}, index of refraction {:.4g}",
+                            material["transmission"].get<double>(), material["ior"].get<double>());
+    }
+    if (material["emission"] != json::array({0.0f, 0.0f, 0.0f})) {
+        line += fmt::format(", emits {} cd/m2{}", short_text(material["emission"]),
+                            material["double_sided"].get<bool>() ? " from both sides" : "");
+    }
+    return line + fmt::format(" ({} triangles, area {:.4g})", material["triangles"].get<std::size_t>(),
+                              material["area"].get<double>());
+}
+
+std::string light_line(const json& light) {
+    std::string line = fmt::format("{}: {}, {} {}", quoted_name(light), light["kind"].get<std::string>(),
+                                   short_text(light["intensity"]), light["unit"].get<std::string>());
+    if (light.contains("power")) {
+        line += fmt::format(", power {}, at {}", short_text(light["power"]), full_text(light["position"]));
+    }
+    if (light.contains("direction")) {
+        line += fmt::format(", along {}", full_text(light["direction"]));
+    }
+    if (light.contains("inner_cone_angle")) {
+        line +=
+            fmt::format(", cone {:.4g} to {:.4g} degrees", degrees(light["inner_cone_angle"].get<double>()),
+                        degrees(light["outer_cone_angle"].get<double>()));
+    }
+    return line;
+}
+
+std::string camera_line(const json& camera) {
+    std::string line = fmt::format("{}: {}, ", quoted_name(camera), camera["kind"].get<std::string>());
+    if (camera.contains("vertical_angle")) {
+        line += fmt::format("{:.4g} degrees high", degrees(camera["vertical_angle"].get<double>()));
+    } else {
+        line += fmt::format("{:.4g} high", 2 * camera["vertical_extent"].get<double>());
+    }
+    if (!camera["aspect"].is_null()) {
+        line += fmt::format(", width to height {:.4g}", camera["aspect"].get<double>());
+    }
+    return line + fmt::format(", at {}, looking along {}", full_text(camera["position"]),
+                              full_text(camera["forward"]));
+}
+
+template <class Line>
+void append_list(std::string& text, const char* title, const json& list, Line line) {
+    fmt::format_to(std::back_inserter(text), "{:<12}{}\n", title, list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        fmt::format_to(std::back_inserter(text), "  {:>3}  {}\n", i, line(list[i]));
+    }
+}
+
+} // namespace
+
+std::string describe(const Material& material) {
+    if (material.transmission > 0) {
+        const char* solid = material.thickness > 0 ? "glass" : "thin glass";
+        return material.transmission < 1 ? fmt::format("part {}", solid) : solid;
+    }
+    if (material.metallic >= 1) {
+        return material.roughness <= 0 ? "mirror" : "metal";
+    }
+    if (material.metallic > 0) {
+        return "part metal";
+    }
+    return material.specular <= 0 ? "Lambertian" : "dielectric";
+}
+
+json summary_json(const Scene& scene) {
+    const Bounds box = bounds(scene);
+    json lights = json::array();
+    std::transform(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights), light_json);
+    json cameras = json::array();
+    std::transform(scene.cameras.begin(), scene.cameras.end(), std::back_inserter(cameras), camera_json);
+    json extensions = json::array();
+    for (const std::string& name : scene.extensions_used) {
+        extensions.push_back({{"name", name}, {"understood", understands_extension(name)}});
+    }
+    return {{"name", scene.name},
+            {"triangles", scene.triangles.size()},
+            {"vertices", scene.positions.size()},
+            {"area", surface_area(scene)},
+            {"bounds", {{"low", numbers(box.low)}, {"high", numbers(box.high)}}},
+            {"materials", materials_json(scene)},
+            {"lights", lights},
+            {"emissive", emissive_json(scene)},
+            {"sky", scene.sky ? numbers(*scene.sky) : json(nullptr)},
+            {"cameras", cameras},
+            {"animations", scene.animations},
+            {"extensions", extensions},
+            {"notes", scene.notes}};
+}
+
+std::string summary_text(const Scene& scene) {
+    const json summary = summary_json(scene);
+    std::string text = fmt::format("{}\n", scene.name);
+    const auto line = [&](const char* title, const std::string& value) {
+        fmt::format_to(std::back_inserter(text), "{:<12}{}\n", title, value);
+    };
+    line("triangles", fmt::format("{} over {} vertices", scene.triangles.size(), scene.positions.size()));
+    line("area", fmt::format("{:.4g}", summary["area"].get<double>()));
+    line("bounds",
+         fmt::format("{} to {}", full_text(summary["bounds"]["low"]), full_text(summary["bounds"]["high"])));
+    append_list(text, "materials", summary["materials"], material_line);
+    append_list(text, "lights", summary["lights"], light_line);
+    const json& emissive = summary["emissive"];
+    line("emissive",
+         fmt::format("{} triangles, area {:.4g}, power {}", emissive["triangles"].get<std::size_t>(),
+                     emissive["area"].get<double>(), short_text(emissive["power"])));
+    line("sky",
+         summary["sky"].is_null() ? "none" : fmt::format("uniform, radiance {}", short_text(summary["sky"])));
+    append_list(text, "cameras", summary["cameras"], camera_line);
+    line("animations", fmt::format("{}", scene.animations));
+    append_list(text, "extensions", summary["extensions"], [](const json& extension) {
+        return extension["name"].get<std::string>() +
+               (extension["understood"].get<bool>() ? "" : " (not understood)");
+    });
+    append_list(text, "notes", summary["notes"], [](const json& note) { return note.get<std::string>(); });
+    return text;
+}
+
+} // namespace argand

@@ -1,0 +1,171 @@
+#include "gltf_builder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace argand {
+namespace {
+
+using namespace testing_gltf;
+
+GltfBuilder with_material(const json& material) {
+    GltfBuilder builder = one_triangle();
+    builder.root["materials"] = {material};
+    builder.root["meshes"][0]["primitives"][0]["material"] = 0;
+    return builder;
+}
+
+Material load_material(const json& material) {
+    return with_material(material).load().materials.at(0);
+}
+
+json extension(const char* name, const json& value) {
+    return {{"extensions", {{name, value}}}};
+}
+
+TEST(GltfMaterial, HasTheDefaultsOfGltf) {
+    const Material material = load_material(json::object());
+    EXPECT_EQ(material.base_color, glm::vec3(1));
+    EXPECT_EQ(material.metallic, 1);
+    EXPECT_EQ(material.roughness, 1);
+    EXPECT_EQ(material.specular, 1);
+    EXPECT_EQ(material.specular_color, glm::vec3(1));
+    EXPECT_EQ(material.emission, glm::vec3(0));
+    EXPECT_EQ(material.transmission, 0);
+    EXPECT_EQ(material.ior, 1.5f);
+    EXPECT_EQ(material.thickness, 0);
+    EXPECT_FALSE(material.double_sided);
+}
+
+TEST(GltfMaterial, ReadsTheCore) {
+    const Material material = load_material(
+        {{"name", "paint"},
+         {"doubleSided", true},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.25, 0.5, 0.75, 1}}, {"metallicFactor", 0.125}, {"roughnessFactor", 0}}}});
+    EXPECT_EQ(material.name, "paint");
+    EXPECT_TRUE(material.double_sided);
+    EXPECT_EQ(material.base_color, glm::vec3(0.25, 0.5, 0.75));
+    EXPECT_EQ(material.metallic, 0.125f);
+    EXPECT_EQ(material.roughness, 0);
+}
+
+TEST(GltfMaterial, ReadsSpecular) {
+    const Material material = load_material(
+        extension("KHR_materials_specular", {{"specularFactor", 0}, {"specularColorFactor", {2, 1, 0.5}}}));
+    EXPECT_EQ(material.specular, 0);
+    EXPECT_EQ(material.specular_color, glm::vec3(2, 1, 0.5)); // may exceed 1
+}
+
+TEST(GltfMaterial, MultipliesEmissionByItsStrength) {
+    json material =
+        extension("KHR_materials_emissive_strength", {{"emissiveStrength", 10000000000}}); // > 32 bits
+    material["emissiveFactor"] = {1, 0.5, 0};
+    const Scene scene = with_material(material).load();
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(1e10f, 5e9f, 0));
+    EXPECT_FALSE(scene.sky);
+    EXPECT_FALSE(has_note(scene, "no light"));
+}
+
+TEST(GltfMaterial, ReadsTransmissionVolumeAndIor) {
+    const Material material = load_material({{"extensions",
+                                              {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                                               {"KHR_materials_volume", {{"thicknessFactor", 2}}},
+                                               {"KHR_materials_ior", {{"ior", 1.25}}}}}});
+    EXPECT_EQ(material.transmission, 0.75f);
+    EXPECT_EQ(material.thickness, 2);
+    EXPECT_EQ(material.ior, 1.25f);
+}
+
+TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
+    EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0);
+    EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1}})).ior, 1);
+    for (const double ior : {0.5, -1.0, 0.999, 1e300}) {
+        EXPECT_THAT(with_material(extension("KHR_materials_ior", {{"ior", ior}})).problem(),
+                    testing::HasSubstr("index of refraction"));
+    }
+}
+
+TEST(GltfMaterial, BringsFactorsIntoRangeWithANote) {
+    const Scene scene =
+        with_material(
+            {{"name", "odd"},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", {2, -1, 0.5, 1}}, {"metallicFactor", -0.5}, {"roughnessFactor", 7}}},
+             {"emissiveFactor", {-1, 0, 0}}})
+            .load();
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.base_color, glm::vec3(1, 0, 0.5));
+    EXPECT_EQ(material.metallic, 0);
+    EXPECT_EQ(material.roughness, 1);
+    EXPECT_EQ(material.emission, glm::vec3(0));
+    EXPECT_TRUE(
+        has_note(scene, "material 0 \"odd\" has a baseColorFactor of 2, which is out of range; 1 is used"));
+    EXPECT_TRUE(has_note(scene, "metallicFactor of -0.5"));
+    EXPECT_TRUE(has_note(scene, "roughnessFactor of 7"));
+    EXPECT_TRUE(has_note(scene, "emissiveFactor of -1"));
+}
+
+TEST(GltfMaterial, RefusesFactorsThatAreNoNumbers) {
+    using testing::HasSubstr;
+    EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"metallicFactor", "one"}}}}).problem(),
+                HasSubstr("\"metallicFactor\" must be made of numbers"));
+    EXPECT_THAT(
+        with_material(extension("KHR_materials_volume", {{"thicknessFactor", json::array()}})).problem(),
+        HasSubstr("\"thicknessFactor\" that is not a number"));
+    EXPECT_THAT(
+        with_material(extension("KHR_materials_specular", {{"specularColorFactor", {1, 2}}})).problem(),
+        HasSubstr("\"specularColorFactor\" that is not three numbers"));
+}
+
+TEST(GltfMaterial, NotesAColourOfWrongLength) {
+    const Scene scene = with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0}}}}}).load();
+    EXPECT_TRUE(has_note(scene, "not quite valid glTF: Array length of `baseColorFactor`"));
+}
+
+TEST(GltfMaterial, NamesWhatItDoesNotUnderstand) {
+    EXPECT_TRUE(has_note(with_material({{"alphaMode", "BLEND"}}).load(), "alpha modes"));
+    EXPECT_FALSE(has_note(with_material({{"alphaMode", "OPAQUE"}}).load(), "alpha modes"));
+    const json rough{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));
+    const json tinted =
+        extension("KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 3}});
+    EXPECT_TRUE(has_note(with_material(tinted).load(), "attenuation"));
+}
+
+TEST(GltfMaterial, UsesFactorsInsteadOfTexturesWithANote) {
+    const json material{{"pbrMetallicRoughness",
+                         {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"baseColorTexture", {{"index", 0}}}}}};
+    const Scene scene = with_material(material).load();
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec3(0.5));
+    EXPECT_TRUE(has_note(scene, "textures are not read yet: the factors of the materials are used"));
+    const json sheen = extension("KHR_materials_specular", {{"specularTexture", {{"index", 0}}}});
+    EXPECT_TRUE(has_note(with_material(sheen).load(), "textures are not read yet"));
+}
+
+TEST(GltfMaterial, DoesNotLetEmissiveTexturesGlowAllOver) {
+    const Scene scene =
+        with_material({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}}).load();
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0));
+    EXPECT_TRUE(has_note(scene, "emissive textures are not read yet"));
+    EXPECT_TRUE(scene.sky.has_value());
+}
+
+TEST(GltfExtensions, AreListedAndNamedWhereNotUnderstood) {
+    GltfBuilder builder = one_triangle();
+    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_unlit", "KHR_materials_unlit"};
+    const Scene scene = builder.load();
+    EXPECT_THAT(scene.extensions_used, testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
+    EXPECT_TRUE(has_note(scene, "the extension KHR_materials_unlit is not understood and is ignored"));
+    EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
+}
+
+TEST(GltfExtensions, RefusesRequiredOnesThatAreNotUnderstood) {
+    GltfBuilder builder = one_triangle();
+    builder.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    builder.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    EXPECT_THAT(builder.problem(), testing::HasSubstr("requires the extension KHR_draco_mesh_compression"));
+}
+
+} // namespace
+} // namespace argand
