@@ -40,6 +40,16 @@ public:
     /// Allocates at least `bytes` bytes, contents undefined. Throws Error if the device has not got them, or if they
     /// exceed the range that a kernel can address.
     virtual Buffer allocate(std::string name, std::uint64_t bytes) = 0;
+    /// Working memory: one buffer per name, shared by all who ask for it, at least as large as the largest asked for,
+    /// and kept as long as the device. Whoever asks next overwrites it.
+    Buffer scratch(const std::string& name, std::uint64_t bytes) {
+        Buffer& buffer = scratch_[name];
+        if (buffer.size() < bytes || !buffer) {
+            buffer = Buffer();          // freed first, for it may be large
+            buffer = allocate(name, bytes);
+        }
+        return buffer;
+    }
 
     virtual void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) = 0;
     /// Repeats a 32-bit value; offset and size are multiples of 4.
@@ -70,6 +80,9 @@ public:
 
     /// Messages of the API's validation so far (only if it is on: debug builds, or ARGAND_VALIDATION=1).
     virtual std::vector<std::string> validation_messages() const = 0;
+
+private:
+    std::map<std::string, Buffer> scratch_;
 };
 
 /// Names what is recorded during its life as a stage. Stages do not nest.

@@ -63,7 +63,8 @@ std::string names_of(const Map& map) {
 void apply_environment(DeviceInfo& info) {
     const std::map<std::string_view, bool*> switches{{"subgroups", &info.features.subgroups},
                                                      {"push_descriptors", &info.features.push_descriptors},
-                                                     {"timestamps", &info.features.timestamps}};
+                                                     {"timestamps", &info.features.timestamps},
+                                                     {"lane_serial", &info.features.lane_serial}};
     const std::string disabled = environment("ARGAND_DISABLE");
     for (const std::string_view name : split(disabled)) {
         const auto found = switches.find(name);

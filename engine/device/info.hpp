@@ -15,6 +15,7 @@ struct Features {
     bool subgroups = false;             ///< arithmetic, ballot and shuffle in compute shaders ("subgroups")
     bool push_descriptors = false;      ///< VK_KHR_push_descriptor ("push_descriptors")
     bool timestamps = false;            ///< GPU time stamps ("timestamps")
+    bool lane_serial = false;           ///< see DeviceInfo::lane_serial() ("lane_serial")
 };
 
 /// What a device allows. ARGAND_LIMIT=storage_range=1MiB,invocations=128,... lowers them, so that tests reach
@@ -42,7 +43,7 @@ struct DeviceInfo {
 
     /// True for devices that run an invocation's lanes one block after another on CPU cores, where contiguous chunks
     /// per lane beat co-operation between lanes.
-    bool lane_serial() const { return kind == DeviceKind::cpu; }
+    bool lane_serial() const { return features.lane_serial; }
 };
 
 /// What Argand needs beyond what Vulkan 1.2 guarantees, checked when a device is opened; all in one place.

@@ -96,6 +96,7 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
     info.features.push_descriptors =
         std::find(extensions.begin(), extensions.end(), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) != extensions.end();
     info.features.timestamps = basic.limits.timestampComputeAndGraphics;
+    info.features.lane_serial = info.kind == DeviceKind::cpu;
 
     info.limits.storage_range = basic.limits.maxStorageBufferRange;
     info.limits.memory = largest_local_heap(physical);

@@ -63,9 +63,9 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const s
     storage->device = device;
     storage->ledger = ledger;
 
-    // Buffers of no elements are bound too, and Vulkan has none of size 0.
+    // Buffers of no elements are bound too, and Vulkan has none of size 0; kernels read fours of 32-bit words.
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    create.size = std::max<std::uint64_t>((bytes + 3) & ~std::uint64_t(3), 16);
+    create.size = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     create.usage = kind == MemoryKind::device
                        ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT

@@ -1,0 +1,49 @@
+#include "parallel/scan.hpp"
+
+#include "kernels/scan_parts_serial.hpp"
+#include "kernels/scan_parts_shared.hpp"
+#include "kernels/scan_parts_subgroup.hpp"
+#include "parallel/parts.hpp"
+
+namespace argand {
+
+namespace {
+
+/// Reduces each part, then scans the parts, each from the sum of those before it: two dispatches whatever the
+/// count, and no group waits for another.
+void scan(Device& device, const Buffer& in, const Buffer& out, const Count& count, bool inclusive) {
+    check_room("scanning", in, count, sizeof(uint));
+    check_room("scanning", out, count, sizeof(uint));
+    if (count.bound == 0) {
+        return;
+    }
+    const Variant variant = variant_of(device.info());
+    const PartsRecord parts = variant_parts(variant, count);
+    const Buffer sums = device.scratch("scan: sums of parts", parts.parts * sizeof(uint));
+    if (parts.parts > 1) {
+        reduce_parts(device, in, sums, 0, count, parts, reduce_op_sum);
+    }
+    for_variant<kernels::scan_parts_serial, kernels::scan_parts_subgroup, kernels::scan_parts_shared>(
+        variant, parts, [&]<class Kernel>(std::uint64_t threads) {
+            dispatch(device,
+                     Kernel{.in_elements = in,
+                            .counts = counts_or(count, in),
+                            .part_sums = sums,
+                            .out_fours = out,
+                            .out_elements = out,
+                            .params = {count_record(count), parts, inclusive ? 1u : 0u}},
+                     threads);
+        });
+}
+
+} // namespace
+
+void exclusive_scan(Device& device, const Buffer& in, const Buffer& out, const Count& count) {
+    scan(device, in, out, count, false);
+}
+
+void inclusive_scan(Device& device, const Buffer& in, const Buffer& out, const Count& count) {
+    scan(device, in, out, count, true);
+}
+
+} // namespace argand
