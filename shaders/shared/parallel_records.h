@@ -58,6 +58,22 @@ struct CompactParams {
     uint total_index;
 };
 
+CONSTANT uint sort_digit_bits = 8u;
+CONSTANT uint sort_digits = 256u;
+// Elements that a group of 128 sorts at a time: an odd number per lane, for banks of shared memory.
+CONSTANT uint sort_items = 15u;
+CONSTANT uint sort_tile = 1920u;
+
+// One pass of the radix sort: by the digit at `shift` of word `word` of keys of `key_words` words.
+struct SortParams {
+    CountRecord count;
+    PartsRecord parts;
+    uint word;
+    uint shift;
+    uint digit_mask;
+    uint key_words;
+};
+
 ARGAND_SHARED_END
 
 #endif

@@ -1,0 +1,3 @@
+#version 460
+#include "kernel.glsl"
+#include "parallel/sort_scatter_group.glsl"

@@ -1,0 +1,5 @@
+#version 460
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#define SUBGROUPS
+#include "kernel.glsl"
+#include "parallel/sort_scatter_group.glsl"

@@ -1,0 +1,4 @@
+#version 460
+#define VALUES
+#include "kernel.glsl"
+#include "parallel/sort_scatter_serial.glsl"

@@ -1,0 +1,6 @@
+#version 460
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#define SUBGROUPS
+#define VALUES
+#include "kernel.glsl"
+#include "parallel/sort_scatter_group.glsl"
