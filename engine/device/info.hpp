@@ -51,7 +51,7 @@ struct Requirements {
     static constexpr std::uint64_t storage_range = 1ull << 20;
     static constexpr std::uint32_t invocations = 128;
     static constexpr std::uint32_t shared_memory = 16384;
-    static constexpr std::uint32_t storage_buffers = 16;
+    static constexpr std::uint32_t storage_buffers = 24;
 };
 
 /// Applies the environment's ARGAND_DISABLE and ARGAND_LIMIT; throws UsageError on an unknown name or a bad number.

@@ -12,6 +12,9 @@ struct BoxRecord {
     float32 high_x, high_y, high_z, pad1;
 };
 
+// t_max of rays that go on for ever; traversal keeps larger numbers for itself.
+CONSTANT float32 far_away = float32(1.0e30);
+
 // A ray on its way: 0 <= t <= t_max. t_max < 0: there is none.
 struct RayRecord {
     float32 origin_x, origin_y, origin_z, t_max;
