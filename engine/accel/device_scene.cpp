@@ -1,0 +1,185 @@
+#include "accel/device_scene.hpp"
+
+#include "shared/bsdf.h"
+#include "shared/follow.h"
+#include "shared/lights.h"
+
+#include <cmath>
+
+namespace argand {
+
+namespace {
+
+MaterialRecord record_of(const Material& m) {
+    return {m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
+            m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
+            m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
+            m.roughness,        m.transmission,     m.ior,              m.thickness};
+}
+
+LightRecord record_of(const Light& light) {
+    LightRecord record{};
+    record.kind = light.kind == LightKind::point ? light_point
+                  : light.kind == LightKind::spot ? light_spot
+                                                  : light_directional;
+    record.x = light.position.x;
+    record.y = light.position.y;
+    record.z = light.position.z;
+    record.dx = light.direction.x;
+    record.dy = light.direction.y;
+    record.dz = light.direction.z;
+    record.r = light.intensity.r;
+    record.g = light.intensity.g;
+    record.b = light.intensity.b;
+    record.cos_inner = std::cos(light.inner_cone_angle);
+    record.cos_outer = std::cos(light.outer_cone_angle);
+    return record;
+}
+
+LightRecord record_of(const Scene& scene, const glm::uvec3& triangle, const Material& material) {
+    const glm::vec3& a = scene.positions[triangle.x];
+    const glm::vec3& b = scene.positions[triangle.y];
+    const glm::vec3& c = scene.positions[triangle.z];
+    LightRecord record{};
+    record.kind = light_triangle;
+    record.x = a.x;
+    record.y = a.y;
+    record.z = a.z;
+    record.dx = b.x;
+    record.dy = b.y;
+    record.dz = b.z;
+    record.ex = c.x;
+    record.ey = c.y;
+    record.ez = c.z;
+    record.r = material.emission.r;
+    record.g = material.emission.g;
+    record.b = material.emission.b;
+    record.double_sided = material.double_sided ? 1u : 0u;
+    return record;
+}
+
+std::vector<LightRecord> collect_lights(const Scene& scene) {
+    std::vector<LightRecord> lights;
+    for (const Light& light : scene.lights) {
+        lights.push_back(record_of(light));
+    }
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Material& material = scene.materials[scene.triangle_material[i]];
+        if (emits(material)) {
+            lights.push_back(record_of(scene, scene.triangles[i], material));
+        }
+    }
+    if (scene.sky && glm::any(glm::greaterThan(*scene.sky, glm::vec3(0)))) {
+        LightRecord sky{};
+        sky.kind = light_sky;
+        sky.r = scene.sky->r;
+        sky.g = scene.sky->g;
+        sky.b = scene.sky->b;
+        lights.push_back(sky);
+    }
+    return lights;
+}
+
+std::vector<glm::vec4> padded(const std::vector<glm::vec3>& vectors) {
+    std::vector<glm::vec4> result;
+    result.reserve(vectors.size());
+    for (const glm::vec3& v : vectors) {
+        result.emplace_back(v, 0.0f);
+    }
+    return result;
+}
+
+} // namespace
+
+DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughness) {
+    const StageScope stage(device, "upload scene");
+    DeviceScene result;
+    result.surface_area = surface_area(scene);
+
+    std::vector<MaterialRecord> materials;
+    for (const Material& material : scene.materials) {
+        materials.push_back(record_of(material));
+        const MaterialRecord& record = materials.back();
+        const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
+        result.has_glossy = result.has_glossy || (estimated != 0 && bsdf_lobes(record) != LOBE_DIFFUSE);
+    }
+
+    const Bounds box = bounds(scene);
+    const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
+    // A little more than half the diagonal: the sphere holds the box whatever the rounding.
+    const float radius = 0.50001f * glm::length(box.high - box.low);
+
+    const std::vector<LightRecord> lights = collect_lights(scene);
+    std::vector<double> weights;
+    double total_weight = 0;
+    double sky_weight = 0;
+    for (const LightRecord& light : lights) {
+        const glm::vec3 power = light_power(light, radius);
+        result.power += glm::dvec3(power);
+        weights.push_back((double(power.r) + power.g + power.b) / 3);
+        total_weight += weights.back();
+        sky_weight += light.kind == light_sky ? weights.back() : 0;
+    }
+
+    SceneRecord& record = result.record;
+    record = {};
+    record.center_x = center.x;
+    record.center_y = center.y;
+    record.center_z = center.z;
+    record.radius = radius;
+    if (scene.sky) {
+        record.sky_r = scene.sky->r;
+        record.sky_g = scene.sky->g;
+        record.sky_b = scene.sky->b;
+    }
+    record.light_count = total_weight > 0 ? static_cast<std::uint32_t>(lights.size()) : 0;
+    record.light_weight = static_cast<float>(total_weight);
+    record.sky_probability = total_weight > 0 ? static_cast<float>(sky_weight / total_weight) : 0;
+    record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
+    record.follow_roughness = follow_roughness;
+
+    std::vector<glm::uvec4> triangles;
+    triangles.reserve(scene.triangles.size());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        triangles.emplace_back(scene.triangles[i], scene.triangle_material[i]);
+    }
+    result.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
+    result.positions = upload(device, "positions", padded(scene.positions));
+    result.normals = upload(device, "normals", padded(scene.normals));
+    result.triangles = upload(device, "triangles", triangles);
+    result.materials = upload(device, "materials", materials);
+    result.lights = upload(device, "lights", lights);
+    result.light_choices = upload(device, "light choices", alias_table(weights));
+    result.bvh = build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
+    return result;
+}
+
+CameraRecord camera_record(const Camera& camera, int width, int height) {
+    const auto w = static_cast<float>(width);
+    const auto h = static_cast<float>(height);
+    const bool perspective = camera.kind == CameraKind::perspective;
+    // Half the picture's height at unit distance, or in the scene's units.
+    const float half = perspective ? std::tan(0.5f * camera.vertical_angle) : camera.vertical_extent;
+    const glm::vec3 across = camera.right * (2 * half / h);
+    const glm::vec3 down = -camera.up * (2 * half / h);
+    const glm::vec3 corner = -0.5f * w * across - 0.5f * h * down;
+    const glm::vec3 origin = perspective ? camera.position : camera.position + corner;
+    const glm::vec3 forward = perspective ? camera.forward + corner : camera.forward;
+    CameraRecord record{};
+    record.origin_x = origin.x;
+    record.origin_y = origin.y;
+    record.origin_z = origin.z;
+    record.origin_share = perspective ? 0.0f : 1.0f;
+    record.forward_x = forward.x;
+    record.forward_y = forward.y;
+    record.forward_z = forward.z;
+    record.across_x = across.x;
+    record.across_y = across.y;
+    record.across_z = across.z;
+    record.down_x = down.x;
+    record.down_y = down.y;
+    record.down_z = down.z;
+    return record;
+}
+
+} // namespace argand

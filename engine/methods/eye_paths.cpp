@@ -1,0 +1,178 @@
+#include "methods/eye_paths.hpp"
+
+#include "kernels/camera_rays.hpp"
+#include "kernels/eye_vertex.hpp"
+#include "kernels/film_add.hpp"
+#include "kernels/shadow_add.hpp"
+#include "parallel/compact.hpp"
+#include "shared/geometry_records.h"
+#include "shared/query_record.h"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+// Paths traced together: enough to fill a device, few enough that a dispatch stays below what a desktop's watchdog
+// allows.
+constexpr std::uint64_t slots_on_cpu = 1u << 17;
+constexpr std::uint64_t slots_on_gpu = 1u << 20;
+// Vertices recorded before the host asks whether any path is left.
+constexpr int vertices_between_checks = 4;
+
+/// One batch. The film is left alone if a ray or query ran out of iterations: the caller then repeats it with care.
+void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeBatch& batch,
+                 const Gather& gather) {
+    const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
+    device.fill(w.traversal.unfinished, 0);
+    {
+        const StageScope stage(device, "camera rays");
+        dispatch(device,
+                 kernels::camera_rays{.camera = w.camera, .rays = w.rays, .paths = w.paths, .layers = w.layers,
+                                      .active_slots = w.active, .batch = batch},
+                 slots);
+        const auto count = static_cast<std::uint32_t>(slots);
+        device.upload(w.counts, 0, std::as_bytes(std::span(&count, 1)));
+    }
+    for (int vertex = 1;; ++vertex) {
+        const Count active(w.counts, 0, slots);
+        {
+            const StageScope stage(device, "trace eye rays");
+            trace_closest(device, scene.bvh, w.traversal, w.rays, w.active, w.hits, active);
+        }
+        {
+            const StageScope stage(device, "shade");
+            dispatch_indirect(device,
+                              kernels::eye_vertex{.scene = scene.scene, .positions = scene.positions,
+                                                  .normals = scene.normals, .triangles = scene.triangles,
+                                                  .materials = scene.materials, .lights = scene.lights,
+                                                  .light_choices = scene.light_choices, .hits = w.hits,
+                                                  .active_slots = w.active, .counts = w.counts, .rays = w.rays,
+                                                  .paths = w.paths, .layers = w.layers,
+                                                  .shadow_rays = w.shadow_rays, .shadows = w.shadows,
+                                                  .queries = w.queries, .alive = w.alive, .batch = batch,
+                                                  .constants = {.photon_map = gather != nullptr}},
+                              w.counts);
+        }
+        if (scene.record.light_count > 0) {
+            {
+                const StageScope stage(device, "trace shadow rays");
+                trace_any(device, scene.bvh, w.traversal, w.shadow_rays, w.active, w.occluded, active);
+            }
+            const StageScope stage(device, "shade");
+            dispatch_indirect(device,
+                              kernels::shadow_add{.active_slots = w.active, .counts = w.counts, .occluded = w.occluded,
+                                                  .shadows = w.shadows, .layers = w.layers},
+                              w.counts);
+        }
+        if (gather) {
+            gather(active);
+        }
+        {
+            const StageScope stage(device, "compact");
+            compact(device, w.alive, w.active, w.next_active, w.counts, 1, active);
+            device.copy(BufferView(w.counts, 4, 4), BufferView(w.counts, 0, 4));
+            std::swap(w.active, w.next_active);
+        }
+        device.submit();
+        if (vertex % vertices_between_checks == 0 || (gather && vertex == 1)) {
+            if (download<std::uint32_t>(device, w.counts, 1)[0] == 0) {
+                break;
+            }
+        }
+    }
+    const StageScope stage(device, "film");
+    dispatch(device,
+             kernels::film_add{.layers = w.layers, .unfinished = w.traversal.unfinished, .film = w.film,
+                               .batch = batch},
+             batch.pixels);
+}
+
+} // namespace
+
+EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, const CameraRecord& camera,
+                                bool queries) {
+    const std::uint64_t pixels = std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
+    EyeWorkspace w;
+    w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, pixels * settings.samples);
+    w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(LayersRecord));
+    const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
+    w.camera = upload<CameraRecord>(device, "camera", std::span(&camera, 1));
+    w.rays = per_slot("eye rays", sizeof(RayRecord));
+    w.hits = per_slot("eye hits", sizeof(HitRecord));
+    w.paths = per_slot("eye paths", sizeof(PathRecord));
+    w.layers = per_slot("eye path layers", sizeof(LayersRecord));
+    w.active = per_slot("active eye paths", 4);
+    w.next_active = per_slot("active eye paths", 4);
+    w.alive = per_slot("eye path flags", 4);
+    w.shadow_rays = per_slot("shadow rays", sizeof(RayRecord));
+    w.shadows = per_slot("shadow contributions", sizeof(ShadowRecord));
+    w.occluded = per_slot("shadow ray flags", 4);
+    w.queries = device.allocate("photon map queries", queries ? w.slots * sizeof(QueryRecord) : sizeof(QueryRecord));
+    w.counts = device.allocate("eye path counts", 16);
+    w.traversal = make_traversal(device, w.slots);
+    w.film = device.allocate("film", pixels * sizeof(FilmRecord));
+    device.fill(w.film, 0);
+    return w;
+}
+
+bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const RenderSettings& settings,
+                     std::uint32_t first_sample, std::uint32_t samples, const Gather& gather,
+                     const OnProgress& progress) {
+    const std::uint64_t pixels = std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
+    const std::uint64_t samples_at_once = std::clamp<std::uint64_t>(w.slots / pixels, 1, samples);
+    const std::uint64_t pixels_at_once = std::min(pixels, w.slots / samples_at_once);
+    const double batches = static_cast<double>(pixels) * samples;
+    double done = 0;
+    for (std::uint64_t s = 0; s < samples; s += samples_at_once) {
+        for (std::uint64_t p = 0; p < pixels; p += pixels_at_once) {
+            EyeBatch batch{};
+            batch.seed = settings.seed;
+            batch.first_pixel = static_cast<std::uint32_t>(p);
+            batch.pixels = static_cast<std::uint32_t>(std::min(pixels_at_once, pixels - p));
+            batch.first_sample = first_sample + static_cast<std::uint32_t>(s);
+            batch.samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples_at_once, samples - s));
+            batch.width = static_cast<std::uint32_t>(settings.width);
+            batch.height = static_cast<std::uint32_t>(settings.height);
+            batch.bounces = settings.bounces;
+            trace_batch(device, scene, w, batch, gather);
+            if (!w.traversal.careful && download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
+                w.traversal.careful = true;
+                trace_batch(device, scene, w, batch, gather);
+            }
+            done += static_cast<double>(batch.pixels) * batch.samples;
+            if (!progress(done / batches)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& w, const RenderSettings& settings,
+                                RenderStatistics& statistics) {
+    const std::size_t pixels = std::size_t(settings.width) * static_cast<std::size_t>(settings.height);
+    const std::vector<FilmRecord> film = download<FilmRecord>(device, w.film, pixels);
+    std::vector<Layer> layers{{"", {}}, {"direct", {}}, {"indirect", {}}, {"caustic", {}}};
+    for (Layer& layer : layers) {
+        layer.image.width = settings.width;
+        layer.image.height = settings.height;
+        layer.image.pixels.resize(pixels);
+    }
+    statistics.non_finite = 0;
+    statistics.samples = pixels > 0 ? film[0].samples : 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const FilmRecord& f = film[i];
+        const std::uint32_t finite = f.samples - f.non_finite;
+        const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
+        layers[1].image.pixels[i] = glm::vec3(f.direct_r, f.direct_g, f.direct_b) * scale;
+        layers[2].image.pixels[i] = glm::vec3(f.indirect_r, f.indirect_g, f.indirect_b) * scale;
+        layers[3].image.pixels[i] = glm::vec3(f.caustic_r, f.caustic_g, f.caustic_b) * scale;
+        layers[0].image.pixels[i] = layers[1].image.pixels[i] + layers[2].image.pixels[i] + layers[3].image.pixels[i];
+        statistics.non_finite += f.non_finite;
+    }
+    return layers;
+}
+
+} // namespace argand

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "accel/device_scene.hpp"
+#include "methods/render.hpp"
+#include "shared/path_records.h"
+
+namespace argand {
+
+/// Device memory for eye paths that are traced together.
+struct EyeWorkspace {
+    std::uint64_t slots = 0;
+    Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows, occluded, queries, counts;
+    Traversal traversal;
+    Buffer film;                ///< FilmRecord per pixel
+};
+
+/// `queries`: whether a photon map is going to be asked.
+EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, const CameraRecord& camera,
+                                bool queries);
+
+/// Answers the queries of EyeWorkspace::queries of the active paths, adding to their layers; counts those it could not
+/// finish in EyeWorkspace::traversal.unfinished.
+using Gather = std::function<void(const Count& active)>;
+
+/// Traces paths for the samples [first, first + count) of every pixel and adds them to the film. Without `gather` these
+/// are the paths of a path tracer; with it, light that estimated lobes scatter more than once is left to the photon
+/// map. Calls `progress` with the share done; returns false if that did.
+bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& workspace, const RenderSettings& settings,
+                     std::uint32_t first_sample, std::uint32_t samples, const Gather& gather, const OnProgress& progress);
+
+/// The film's means as layers, and the counts that belong to them.
+std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& workspace, const RenderSettings& settings,
+                                RenderStatistics& statistics);
+
+} // namespace argand

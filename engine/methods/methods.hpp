@@ -1,0 +1,14 @@
+#pragma once
+
+#include "methods/render.hpp"
+
+namespace argand {
+
+using Method = RenderResult (*)(Device& device, const Scene& scene, const RenderSettings& settings,
+                                const OnProgress& progress);
+
+RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress);
+RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
+                            const OnProgress& progress);
+
+} // namespace argand

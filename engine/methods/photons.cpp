@@ -1,0 +1,80 @@
+#include "methods/eye_paths.hpp"
+#include "base/error.hpp"
+#include "methods/methods.hpp"
+#include "photon/gather.hpp"
+#include "plan/radius.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+// A photon's mean flux in units of the fixed-point sums.
+constexpr double units_per_photon = 1 << 18;
+
+void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, double unit) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        sums.emitted[channel] = words[channel];
+        sums.absorbed[channel] = words[3 + channel];
+        sums.escaped[channel] = words[6 + channel];
+        sums.cut[channel] = words[9 + channel];
+    }
+    sums.unit = unit;
+}
+
+} // namespace
+
+/// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at least once, density
+/// estimation within a radius where eye rays meet estimated lobes, direct light by shadow rays. Each pass has its own
+/// photons and its own eye paths, so that memory is bounded.
+RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
+                            const OnProgress& progress) {
+    const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
+    RenderResult result;
+    RenderStatistics& statistics = result.statistics;
+    statistics.radius = settings.radius.value_or(default_radius(on_device.surface_area, settings.photons));
+
+    EyeWorkspace eye = make_eye_workspace(
+        device, settings, camera_record(scene.cameras[settings.camera], settings.width, settings.height), true);
+    const Buffer partial = device.allocate("unfinished query sums", eye.slots * sizeof(GatherRecord));
+
+    // Without indirect light no photon is ever looked up.
+    std::uint64_t photons = settings.bounces > 0 && on_device.record.light_count > 0 ? settings.photons : 0;
+    std::uint64_t per_pass = std::clamp<std::uint64_t>(photons, 1, max_photons_per_pass(device));
+    std::uint64_t passes = std::max<std::uint64_t>((photons + per_pass - 1) / per_pass, 1);
+    PhotonWorkspace workspace = make_photon_workspace(device, photons > 0 ? per_pass : 0);
+    double power = std::max({on_device.power.r, on_device.power.g, on_device.power.b});
+    std::uint32_t samples = static_cast<std::uint32_t>((settings.samples + passes - 1) / passes);
+
+    for (std::uint64_t pass = 0; pass < passes && !statistics.interrupted; ++pass) {
+        PhotonPass emission{.seed = settings.seed, .first = statistics.photons_emitted,
+                            .count = std::min(per_pass, photons - statistics.photons_emitted),
+                            .bounces = settings.bounces};
+        const double unit = power / static_cast<double>(per_pass) / units_per_photon;
+        if (!trace_photons(device, on_device, workspace, emission, static_cast<float>(unit))) {
+            fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer bounces or photons",
+                 scene.name, device.info().name);
+        }
+        const PhotonMap map = build_photon_map(device, on_device, workspace);
+        const Gather gather = [&](const Count& active) {
+            gather_photons(device, on_device, map,
+                           {.active = eye.active, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
+                            .partial = partial},
+                           eye.traversal, static_cast<float>(statistics.radius), active);
+        };
+        const auto first_sample = static_cast<std::uint32_t>(pass * samples);
+        statistics.interrupted =
+            !trace_eye_paths(device, on_device, eye, settings, first_sample, samples, gather, [&](double share) {
+                return progress((static_cast<double>(pass) + share) / static_cast<double>(passes));
+            });
+        statistics.photons_emitted += emission.count;
+        statistics.photons_stored += download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];
+        ++statistics.passes;
+        add_flux_sums(statistics.flux, download<std::int64_t>(device, workspace.flux_sums, 12), unit);
+    }
+    result.layers = resolve_film(device, eye, settings, statistics);
+    return result;
+}
+
+} // namespace argand

@@ -1,0 +1,39 @@
+#include "methods/render.hpp"
+
+#include "base/error.hpp"
+#include "methods/methods.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+struct NamedMethod {
+    const char* name;
+    Method method;
+};
+
+constexpr NamedMethod methods[] = {{"photons", render_photons}, {"path", render_path}};
+
+} // namespace
+
+std::vector<std::string> method_names() {
+    std::vector<std::string> names;
+    for (const NamedMethod& named : methods) {
+        names.emplace_back(named.name);
+    }
+    return names;
+}
+
+RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress) {
+    const auto named = std::find_if(std::begin(methods), std::end(methods),
+                                    [&](const NamedMethod& m) { return settings.method == m.name; });
+    if (named == std::end(methods)) {
+        throw UsageError(fmt::format("rendering '{}': there is no method '{}'; choose from {}", scene.name,
+                                     settings.method, fmt::join(method_names(), ", ")));
+    }
+    return named->method(device, scene, settings, progress);
+}
+
+} // namespace argand

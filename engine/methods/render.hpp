@@ -1,0 +1,62 @@
+#pragma once
+
+#include "device/device.hpp"
+#include "image/image.hpp"
+#include "scene/scene.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace argand {
+
+/// What a user asks for.
+struct RenderSettings {
+    std::string method = "photons";
+    int width = 512;
+    int height = 512;
+    std::uint32_t samples = 16;                 ///< eye paths per pixel
+    std::uint64_t photons = 200'000;            ///< photons emitted in all
+    std::uint32_t bounces = 0xffff;             ///< the most scatterings between light and first estimated vertex
+    std::optional<double> radius;               ///< of density estimation, in the scene's units
+    std::uint32_t seed = 0;
+    std::size_t camera = 0;                     ///< index into Scene::cameras
+    float follow_roughness = 0.25f;             ///< glossy lobes at most this rough are followed from the eye
+};
+
+/// Flux by channel in units of FluxSums::unit: emitted = absorbed + escaped + cut, exactly.
+struct FluxSums {
+    std::array<std::int64_t, 3> emitted{}, absorbed{}, escaped{}, cut{};
+    double unit = 0;
+};
+
+/// What happened while rendering.
+struct RenderStatistics {
+    std::uint64_t samples = 0;                  ///< eye paths per pixel that were traced
+    std::uint64_t passes = 0;
+    std::uint64_t photons_emitted = 0;
+    std::uint64_t photons_stored = 0;
+    double radius = 0;                          ///< that was used; 0: none
+    std::uint64_t non_finite = 0;               ///< samples left out because they were not finite
+    FluxSums flux;
+    bool interrupted = false;                   ///< the picture holds the passes that were finished
+};
+
+struct RenderResult {
+    std::vector<Layer> layers;                  ///< "" (the picture), "direct", "indirect", "caustic"
+    RenderStatistics statistics;
+};
+
+/// Told the share of the work that is done; returns false to stop after the current batch.
+using OnProgress = std::function<bool(double)>;
+
+/// Names of the methods, the default first.
+std::vector<std::string> method_names();
+
+/// Renders the scene. Throws UsageError on an unknown method, Error if the device cannot do it.
+RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress);
+
+} // namespace argand

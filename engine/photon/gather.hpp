@@ -1,0 +1,24 @@
+#pragma once
+
+#include "photon/photon_map.hpp"
+
+namespace argand {
+
+/// Iterations of a query in one dispatch: well below the 65,535 after which lavapipe ends loops silently.
+inline constexpr std::uint32_t gather_budget = 16384;
+
+/// What a gather reads and adds to, per slot of an eye path.
+struct GatherTarget {
+    Buffer active, counts;      ///< slots, and their number (index 0)
+    Buffer queries;             ///< QueryRecord
+    Buffer layers;              ///< LayersRecord
+    Buffer partial;             ///< GatherRecord: queries between two dispatches
+};
+
+/// Adds to the layers of every query the radiance that estimated lobes scatter towards the eye: density estimation with
+/// the Epanechnikov kernel over the photons within `radius` (Jensen 1996). Queries that take more iterations than one
+/// dispatch allows are counted in traversal.unfinished; if traversal.careful is set, gone on with until they are done.
+void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
+                    Traversal& traversal, float radius, const Count& active, std::uint32_t budget = gather_budget);
+
+} // namespace argand

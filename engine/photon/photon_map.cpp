@@ -1,0 +1,175 @@
+#include "photon/photon_map.hpp"
+
+#include "kernels/flux_sum.hpp"
+#include "kernels/photon_advance.hpp"
+#include "kernels/photon_blocks.hpp"
+#include "kernels/photon_codes.hpp"
+#include "kernels/photon_count.hpp"
+#include "kernels/photon_emit.hpp"
+#include "kernels/photon_scatter.hpp"
+#include "parallel/compact.hpp"
+#include "parallel/radix_sort.hpp"
+#include "shared/geometry_records.h"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+constexpr std::uint64_t slots_on_cpu = 1u << 17;
+constexpr std::uint64_t slots_on_gpu = 1u << 20;
+// Room for photons stored per photon emitted, before more is asked for.
+constexpr std::uint64_t stored_per_emitted = 3;
+constexpr int bounces_between_checks = 4;
+constexpr std::uint32_t ledgers_per_thread = 64;
+
+void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
+    w.capacity = capacity;
+    w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
+    w.sorted = device.allocate("photons, sorted", capacity * sizeof(PhotonRecord));
+    w.codes = device.allocate("photon codes", capacity * 4);
+    w.order = device.allocate("photon order", capacity * 4);
+    w.boxes = device.allocate("photon blocks", (capacity / photons_per_block + 1) * sizeof(BoxRecord));
+}
+
+/// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
+bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const PhotonBatch& batch) {
+    device.fill(w.traversal.unfinished, 0);
+    {
+        const StageScope stage(device, "emit photons");
+        dispatch(device,
+                 kernels::photon_emit{.scene = scene.scene, .positions = scene.positions, .normals = scene.normals,
+                                      .triangles = scene.triangles, .materials = scene.materials,
+                                      .lights = scene.lights, .light_choices = scene.light_choices, .rays = w.rays,
+                                      .paths = w.paths, .ledgers = w.ledgers, .active_slots = w.active, .batch = batch},
+                 batch.count);
+        device.upload(w.counters, counter_active * 4, std::as_bytes(std::span(&batch.count, 1)));
+    }
+    for (std::uint32_t bounce = 0;; ++bounce) {
+        const Count active(w.counters, counter_active, batch.count);
+        {
+            const StageScope stage(device, "trace photons");
+            trace_closest(device, scene.bvh, w.traversal, w.rays, w.active, w.hits, active);
+        }
+        const StageScope stage(device, "scatter photons");
+        dispatch_indirect(device,
+                          kernels::photon_scatter{.scene = scene.scene, .positions = scene.positions,
+                                                  .normals = scene.normals, .triangles = scene.triangles,
+                                                  .materials = scene.materials, .lights = scene.lights,
+                                                  .light_choices = scene.light_choices, .hits = w.hits,
+                                                  .active_slots = w.active, .counters = w.counters, .rays = w.rays,
+                                                  .paths = w.paths, .ledgers = w.ledgers, .photons = w.photons,
+                                                  .alive = w.alive, .batch = batch},
+                          w.counters, counter_active);
+        compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
+        std::swap(w.active, w.next_active);
+        const bool stored = bounce > 0 && bounce <= batch.bounces;
+        dispatch(device,
+                 kernels::photon_advance{.counters = w.counters,
+                                         .params = {.stored = stored ? 1u : 0u, .capacity = batch.capacity}},
+                 1);
+        device.submit();
+        if (bounce == batch.bounces ||
+            (bounce % bounces_between_checks == bounces_between_checks - 1 &&
+             download<std::uint32_t>(device, w.counters, 1, counter_active)[0] == 0)) {
+            break;
+        }
+    }
+    return download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] == 0 || w.traversal.careful;
+}
+
+} // namespace
+
+std::uint64_t max_photons_per_pass(const Device& device) {
+    return device.info().limits.storage_range / sizeof(PhotonRecord) / stored_per_emitted;
+}
+
+PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass) {
+    PhotonWorkspace w;
+    w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, std::max<std::uint64_t>(photons_per_pass, 1));
+    w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(FluxLedger));
+    const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
+    w.rays = per_slot("photon rays", sizeof(RayRecord));
+    w.hits = per_slot("photon hits", sizeof(HitRecord));
+    w.paths = per_slot("photon paths", sizeof(PhotonPathRecord));
+    w.ledgers = per_slot("photon ledgers", sizeof(FluxLedger));
+    w.active = per_slot("active photons", 4);
+    w.next_active = per_slot("active photons", 4);
+    w.alive = per_slot("photon flags", 4);
+    w.counters = device.allocate("photon counters", counter_count * 4);
+    w.flux_sums = device.allocate("flux sums", 12 * 8);
+    device.fill(w.flux_sums, 0);
+    w.traversal = make_traversal(device, w.slots);
+    allocate_stored(device, w, std::max<std::uint64_t>(photons_per_pass * stored_per_emitted, photons_per_block));
+    return w;
+}
+
+std::optional<std::uint64_t> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                                           const PhotonPass& pass, float flux_unit) {
+    device.fill(w.counters, 0);
+    for (std::uint64_t first = 0; first < pass.count; first += w.slots) {
+        PhotonBatch batch{};
+        batch.seed = pass.seed;
+        batch.first = static_cast<std::uint32_t>(pass.first + first);
+        batch.count = static_cast<std::uint32_t>(std::min(w.slots, pass.count - first));
+        batch.inverse_total = static_cast<float>(1.0 / static_cast<double>(pass.count));
+        batch.bounces = pass.bounces;
+        batch.flux_unit = flux_unit;
+        for (;;) {
+            batch.capacity = static_cast<std::uint32_t>(w.capacity);
+            const std::vector<std::uint32_t> before = download<std::uint32_t>(device, w.counters, counter_count);
+            const bool traced = trace_batch(device, scene, w, batch);
+            const bool fits = download<std::uint32_t>(device, w.counters, 1, counter_overflow)[0] == 0;
+            if (traced && fits) {
+                break;
+            }
+            // Traced again, with care or with more room: random numbers belong to photons, so they take the same ways.
+            w.traversal.careful = !traced;
+            device.upload(w.counters, 0, std::as_bytes(std::span(before)));
+            if (!fits) {
+                const std::uint64_t most = device.info().limits.storage_range / sizeof(PhotonRecord);
+                if (w.capacity >= most) {
+                    return std::nullopt;
+                }
+                const Buffer kept = w.photons;
+                const std::uint64_t used = std::uint64_t(before[counter_stored_slots]) * sizeof(PhotonRecord);
+                allocate_stored(device, w, std::min(2 * w.capacity, most));
+                if (used > 0) {
+                    device.copy(BufferView(kept, 0, used), BufferView(w.photons, 0, used));
+                }
+            }
+        }
+        const StageScope stage(device, "sum flux");
+        dispatch(device,
+                 kernels::flux_sum{.ledgers = w.ledgers, .sums = w.flux_sums, .params = {.count = batch.count}},
+                 (batch.count + ledgers_per_thread - 1) / ledgers_per_thread);
+    }
+    return download<std::uint32_t>(device, w.counters, 1, counter_stored_slots)[0];
+}
+
+PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w) {
+    const Count slots(w.counters, counter_stored_slots, w.capacity);
+    {
+        const StageScope stage(device, "sort photons");
+        dispatch_indirect(device,
+                          kernels::photon_codes{.scene = scene.scene, .counters = w.counters, .photons = w.photons,
+                                                .codes = w.codes, .order = w.order},
+                          w.counters, counter_stored_slots);
+        radix_sort_pairs(device, w.codes, w.order, slots);
+        dispatch_indirect(device, kernels::photon_count{.codes = w.codes, .counters = w.counters}, w.counters,
+                          counter_stored_slots);
+    }
+    const StageScope stage(device, "build photon map");
+    dispatch_indirect(device,
+                      kernels::photon_blocks{.photons = w.photons, .order = w.order, .counters = w.counters,
+                                             .sorted = w.sorted, .boxes = w.boxes},
+                      w.counters, counter_blocks);
+    PhotonMap map;
+    map.counters = w.counters;
+    map.photons = w.sorted;
+    map.lbvh = build_lbvh(device, w.boxes, Count(w.counters, counter_blocks, w.capacity / photons_per_block + 1));
+    return map;
+}
+
+} // namespace argand

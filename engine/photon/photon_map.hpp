@@ -1,0 +1,50 @@
+#pragma once
+
+#include "accel/device_scene.hpp"
+#include "accel/lbvh.hpp"
+#include "shared/photon_records.h"
+
+#include <array>
+#include <optional>
+
+namespace argand {
+
+/// Photons in the order of a space-filling curve, and a hierarchy over blocks of them.
+struct PhotonMap {
+    Buffer counters;            ///< counter_* of shared/photon_records.h
+    Buffer photons;             ///< PhotonRecord
+    Lbvh lbvh;                  ///< its boxes are blocks of photons_per_block photons
+};
+
+/// Which photons a pass emits, and how far they go.
+struct PhotonPass {
+    std::uint32_t seed = 0;
+    std::uint64_t first = 0;    ///< number of the pass's first photon in the whole picture
+    std::uint64_t count = 0;    ///< photons emitted; each light's power is shared by those it emits
+    std::uint32_t bounces = 0;  ///< the most scatterings of a photon that is stored
+};
+
+/// Device memory for tracing photons; grows with need.
+struct PhotonWorkspace {
+    std::uint64_t slots = 0;    ///< photons traced together
+    std::uint64_t capacity = 0; ///< photons stored
+    Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order, sorted, boxes;
+    Buffer flux_sums;           ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
+    Traversal traversal;
+};
+
+PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass);
+
+/// The most photons that one pass may emit on this device.
+std::uint64_t max_photons_per_pass(const Device& device);
+
+/// Emits photons from every light in proportion to power, traces them, and stores them where estimated lobes are, from
+/// the second hit on. Waits for the device. Adds flux to the workspace's sums in units of `flux_unit`. Returns the
+/// number of slots used, or nothing if the photons stored exceed the device's storage range: emit fewer in a pass.
+std::optional<std::uint64_t> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                                           const PhotonPass& pass, float flux_unit);
+
+/// Builds the map over what trace_photons stored. Records only.
+PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace);
+
+} // namespace argand

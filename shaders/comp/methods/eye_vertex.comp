@@ -1,0 +1,174 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "scene.glsl"
+#include "shared/follow.h"
+#include "shared/lights.h"
+#include "shared/query_record.h"
+#include "shared/random.h"
+
+layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
+layout(set = 0, binding = 8) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 9) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 10) buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 11) buffer Paths { PathRecord paths[]; };
+layout(set = 0, binding = 12) buffer Layers { LayersRecord layers[]; };
+layout(set = 0, binding = 13) writeonly buffer ShadowRays { RayRecord shadow_rays[]; };
+layout(set = 0, binding = 14) writeonly buffer Shadows { ShadowRecord shadows[]; };
+layout(set = 0, binding = 15) writeonly buffer Queries { QueryRecord queries[]; };
+layout(set = 0, binding = 16) writeonly buffer Alive { uint alive[]; };
+layout(push_constant) uniform Push { EyeBatch batch; };
+
+// false: a path tracer. true: light that estimated lobes scatter more than once is left to the photon map.
+layout(constant_id = 0) const bool photon_map = false;
+
+#include "layers.glsl"
+
+const RayRecord no_ray = RayRecord(0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0u);
+
+float power_heuristic(float a, float b) {
+    // Quotients first: squares of densities overflow.
+    float r = b / a;
+    return 1.0 / (1.0 + r * r);
+}
+
+RayRecord make_ray(Surface surface, vec3 direction, float t_max) {
+    vec3 o = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, direction);
+    return RayRecord(o.x, o.y, o.z, t_max, direction.x, direction.y, direction.z, 0u);
+}
+
+// Density, in solid angle, with which a light sample at the path's last vertex would have found this emitter.
+float emitter_density(MaterialRecord m, float distance, float cosine) {
+    float sides = m.double_sided != 0u ? 2.0 : 1.0;
+    float weight = light_weight_of_emitter(vec3(m.emission_r, m.emission_g, m.emission_b)) * sides;
+    return weight / scene[0].light_weight * distance * distance / cosine;
+}
+
+void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, Frame frame, MaterialRecord m, vec3 wo,
+                  uint estimated, uint followed, float estimated_probability) {
+    vec4 u = random4(batch.seed, path.pixel, path.sample_index, path.vertices * 4u + 1u);
+    float choice_probability;
+    LightRecord light = lights[choose_light(u.x, choice_probability)];
+    LightSample s;
+    if (!light_sample(light, surface.position, u.yz, s) || !(dot(s.wi, surface.geometric_normal) > 0.0)) {
+        return;
+    }
+    vec3 wi = to_local(frame, s.wi);
+    vec3 arriving = throughput * s.radiance * (wi.z / choice_probability);
+    float weight = 1.0;
+    if (!s.delta && !photon_map) {
+        float density = choice_probability * s.pdf;
+        weight = power_heuristic(density, estimated_probability * bsdf_pdf(m, wo, wi, estimated));
+    }
+    vec3 e = arriving * weight * bsdf_eval(m, wo, wi, estimated);
+    vec3 f = s.delta && followed != 0u ? arriving * bsdf_eval(m, wo, wi, followed) : vec3(0.0);
+    if (!(max_component(e) + max_component(f) > 0.0)) {
+        return;
+    }
+    bool behind_estimated = (path.state & path_estimated) != 0u;
+    uint followed_layer = !behind_estimated                        ? layer_direct
+                          : (path.state & path_followed) != 0u ? layer_caustic
+                                                                : layer_indirect;
+    shadow_rays[slot] = make_ray(surface, s.wi, s.distance);
+    shadows[slot] = ShadowRecord(e.x, e.y, e.z, behind_estimated ? layer_indirect : layer_direct, f.x, f.y, f.z,
+                                 followed_layer);
+}
+
+void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counts[0]) {
+        return;
+    }
+    uint slot = active_slots[i];
+    PathRecord path = paths[slot];
+    HitRecord hit = hits[slot];
+    vec3 direction = vec3(rays[slot].direction_x, rays[slot].direction_y, rays[slot].direction_z);
+    vec3 throughput = vec3(path.throughput_r, path.throughput_g, path.throughput_b);
+    alive[i] = 0u;
+    shadow_rays[slot] = no_ray;
+    if (photon_map) {
+        queries[slot].throughput_r = -1.0;
+    }
+
+    if (hit.triangle == no_triangle) {
+        vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
+        if (max_component(sky) > 0.0) {
+            float weight = path.pdf > 0.0 ? power_heuristic(path.pdf, scene[0].sky_probability * 0.25 * INV_PI) : 1.0;
+            add_to_layer(slot, layer_of_emission(path.state), throughput * sky * weight);
+        }
+        return;
+    }
+
+    Surface surface = load_surface(hit, direction);
+    MaterialRecord m = materials[triangles[hit.triangle].w];
+    vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
+    if (max_component(emission) > 0.0 && (surface.front || m.double_sided != 0u)) {
+        float weight = 1.0;
+        if (path.pdf > 0.0) {
+            float cosine = max(-dot(direction, surface.geometric_normal), 1.0e-12);
+            weight = power_heuristic(path.pdf, emitter_density(m, hit.t, cosine));
+        }
+        add_to_layer(slot, layer_of_emission(path.state), throughput * emission * weight);
+    }
+    if ((path.state & path_estimated) != 0u && (path.state & path_depth_mask) >= batch.bounces) {
+        return;
+    }
+    // From here on the state's depth is that of this vertex: scatterings between the first estimated vertex and it.
+    Frame frame = make_frame(surface.shading_normal);
+    vec3 wo = to_local(frame, -direction);
+    uint followed = followed_lobes(m, scene[0].follow_roughness);
+    uint estimated = estimated_lobes(m, scene[0].follow_roughness);
+    float followed_albedo = followed != 0u ? max_component(bsdf_albedo(m, wo, surface.front, followed)) : 0.0;
+    float estimated_albedo =
+        estimated != 0u && !photon_map ? max_component(bsdf_albedo(m, wo, surface.front, estimated)) : 0.0;
+    float albedo = followed_albedo + estimated_albedo;
+    float estimated_probability = albedo > 0.0 ? estimated_albedo / albedo : 0.0;
+
+    if (scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+        sample_light(slot, path, throughput, surface, frame, m, wo, estimated, followed, estimated_probability);
+    }
+    if (photon_map && estimated != 0u && batch.bounces > 0u) {
+        queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
+                                    triangles[hit.triangle].w, throughput.x, throughput.y, throughput.z,
+                                    pack_unit(-direction), pack_unit(surface.geometric_normal),
+                                    pack_unit(surface.shading_normal), estimated, 0u);
+    }
+    if (!(albedo > 0.0)) {
+        return;
+    }
+
+    vec4 u = random4(batch.seed, path.pixel, path.sample_index, path.vertices * 4u + 2u);
+    bool takes_estimated = u.w < estimated_probability;
+    BsdfSample s;
+    uint lobes = takes_estimated ? estimated : followed;
+    if (!bsdf_sample(m, wo, surface.front, lobes, u, s)) {
+        return;
+    }
+    vec3 wi = to_world(frame, s.wi);
+    // The sampled side and the geometric side must be the same, or light would pass through the surface.
+    if ((s.wi.z > 0.0) != (dot(wi, surface.geometric_normal) > 0.0)) {
+        return;
+    }
+    float probability = takes_estimated ? estimated_probability : 1.0 - estimated_probability;
+    throughput *= s.weight * (s.eta_scale / probability);
+    path.vertices += 1u;
+    if (path.vertices >= 3u) {
+        float survival = min(max_component(throughput), 0.95);
+        vec4 roulette = random4(batch.seed, path.pixel, path.sample_index, path.vertices * 4u + 3u);
+        if (!(roulette.x < survival)) {
+            return;
+        }
+        throughput /= survival;
+    }
+    if (!(max_component(throughput) > 0.0)) {
+        return;
+    }
+    rays[slot] = make_ray(surface, wi, far_away);
+    path.throughput_r = throughput.x;
+    path.throughput_g = throughput.y;
+    path.throughput_b = throughput.z;
+    path.pdf = takes_estimated ? estimated_probability * s.pdf : 0.0;
+    path.state = state_after(path.state, !takes_estimated);
+    paths[slot] = path;
+    alive[i] = 1u;
+}

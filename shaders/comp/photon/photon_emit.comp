@@ -1,0 +1,39 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "scene.glsl"
+#include "shared/lights.h"
+#include "shared/photon.h"
+#include "shared/random.h"
+
+layout(set = 0, binding = 7) writeonly buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 8) writeonly buffer Photons { PhotonPathRecord paths[]; };
+layout(set = 0, binding = 9) writeonly buffer Ledgers { FluxLedger ledgers[]; };
+layout(set = 0, binding = 10) writeonly buffer Active { uint active_slots[]; };
+layout(push_constant) uniform Push { PhotonBatch batch; };
+
+void main() {
+    uint slot = THREAD_INDEX;
+    if (slot >= batch.count) {
+        return;
+    }
+    uint photon = batch.first + slot;
+    vec4 u = random4(batch.seed, photon, 0u, photon_dimension);
+    vec4 v = random4(batch.seed, photon, 0u, photon_dimension + 1u);
+    float probability;
+    LightRecord light = lights[choose_light(v.w, probability)];
+    vec3 origin, direction, normal, flux;
+    bool emitted = light_emit(light, u, v, scene_center(), scene[0].radius, origin, direction, normal, flux);
+    flux = emitted ? flux * (batch.inverse_total / probability) : vec3(0.0);
+    if (normal != vec3(0.0)) {
+        // The point on an emitter is rounded: 4 units in the last place of its coordinates, and of its vertices'.
+        vec3 error = abs(origin) * 5.0e-7 + vec3(scene[0].radius * 1.0e-7);
+        origin = offset_ray_origin(origin, error, normal, direction);
+    }
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -1.0, direction.x, direction.y, direction.z, 0u);
+    paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);
+    uvec3 units = uvec3(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
+                        flux_units(flux.z, batch.flux_unit));
+    ledgers[slot] = FluxLedger(uvec4(units, 0u), uvec4(0u), uvec4(0u), uvec4(0u));
+    active_slots[slot] = slot;
+}

@@ -1,0 +1,132 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/accel_records.h"
+#include "shared/bsdf.h"
+#include "shared/path_records.h"
+#include "shared/photon.h"
+#include "shared/query_record.h"
+
+layout(set = 0, binding = 0) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 2) readonly buffer Queries { QueryRecord queries[]; };
+layout(set = 0, binding = 3) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 0, binding = 4) readonly buffer Nodes { LbvhNode nodes[]; };
+layout(set = 0, binding = 5) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 6) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 7) buffer Gathers { GatherRecord gathers[]; };
+layout(set = 0, binding = 8) buffer Unfinished { uint unfinished[]; };
+layout(set = 0, binding = 9) buffer Layers { LayersRecord layers[]; };
+layout(push_constant) uniform Push { PhotonGatherParams params; };
+
+// Whether any estimated lobe of the scene is not Lambertian.
+layout(constant_id = 0) const bool glossy = true;
+
+#include "layers.glsl"
+
+// Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
+struct Sum {
+    vec3 value, compensation;
+};
+
+void add(inout Sum sum, vec3 term) {
+    vec3 y = term - sum.compensation;
+    vec3 t = sum.value + y;
+    sum.compensation = (t - sum.value) - y;
+    sum.value = t;
+}
+
+float squared_distance(LbvhNode node, vec3 p) {
+    vec3 outside = max(max(vec3(node.low_x, node.low_y, node.low_z) - p, p - vec3(node.high_x, node.high_y, node.high_z)),
+                       vec3(0.0));
+    return dot(outside, outside);
+}
+
+void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counts[0]) {
+        return;
+    }
+    uint slot = active_slots[i];
+    QueryRecord query = queries[slot];
+    if (query.throughput_r < 0.0) {
+        return;
+    }
+    Sum indirect = Sum(vec3(0.0), vec3(0.0));
+    Sum caustic = Sum(vec3(0.0), vec3(0.0));
+    uint blocks = counters[counter_blocks];
+    uint node = blocks == 0u ? lbvh_end : blocks == 1u ? 1u : 0u;
+    if (params.first == 0u) {
+        GatherRecord g = gathers[slot];
+        indirect.value = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
+        caustic.value = vec3(g.caustic_r, g.caustic_g, g.caustic_b);
+        node = g.node;
+        if (node == lbvh_end) {
+            return;
+        }
+    }
+
+    MaterialRecord m = materials[query.material];
+    bool lambertian = !glossy || bsdf_lobes(m) == LOBE_DIFFUSE;
+    vec3 p = vec3(query.x, query.y, query.z);
+    vec3 normal = unpack_unit(query.geometric_normal);
+    Frame frame = make_frame(unpack_unit(query.shading_normal));
+    vec3 wo = to_local(frame, unpack_unit(query.direction));
+    vec3 reflectance = lambertian ? bsdf_eval(m, wo, vec3(0.0, 0.0, 1.0), query.lobes) : vec3(0.0);
+    float r2 = params.radius * params.radius;
+    float half_height = params.radius * disc_half_height;
+
+    for (uint step = 0u; step < params.budget && node != lbvh_end; ++step) {
+        LbvhNode n = nodes[node];
+        if (squared_distance(n, p) > r2) {
+            node = n.escape;
+            continue;
+        }
+        if ((node & 1u) == 0u) {
+            node = n.child;
+            continue;
+        }
+        vec3 indirect_block = vec3(0.0);
+        vec3 caustic_block = vec3(0.0);
+        uint end = min((n.child + 1u) * photons_per_block, counters[counter_stored]);
+        for (uint j = n.child * photons_per_block; j < end; ++j) {
+            ++step;
+            vec3 d = vec3(photons[j].x, photons[j].y, photons[j].z) - p;
+            float height = dot(d, normal);
+            float d2 = dot(d, d) - height * height;
+            if (!(d2 < r2) || abs(height) > half_height) {
+                continue;
+            }
+            uint photon_normal = photons[j].normal;
+            if (dot(unpack_photon_normal(photon_normal), normal) < same_surface_cosine) {
+                continue;
+            }
+            vec3 term = vec3(photons[j].flux_r, photons[j].flux_g, photons[j].flux_b) * kernel_weight(d2, r2);
+            if (lambertian) {
+                term *= reflectance;
+            } else {
+                vec3 wi = to_local(frame, unpack_unit(photons[j].direction));
+                term *= wi.z > 0.0 ? bsdf_eval(m, wo, wi, query.lobes) : vec3(0.0);
+            }
+            if (photon_is_caustic(photon_normal)) {
+                caustic_block += term;
+            } else {
+                indirect_block += term;
+            }
+        }
+        add(indirect, indirect_block);
+        add(caustic, caustic_block);
+        node = n.escape;
+    }
+
+    if (node != lbvh_end) {
+        gathers[slot] = GatherRecord(indirect.value.x, indirect.value.y, indirect.value.z, node, caustic.value.x,
+                                     caustic.value.y, caustic.value.z, 0u);
+        atomicAdd(unfinished[0], 1u);
+        return;
+    }
+    gathers[slot].node = lbvh_end;
+    vec3 throughput = vec3(query.throughput_r, query.throughput_g, query.throughput_b);
+    add_to_layer(slot, layer_indirect, throughput * indirect.value);
+    add_to_layer(slot, layer_caustic, throughput * caustic.value);
+}

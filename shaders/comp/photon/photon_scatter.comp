@@ -1,0 +1,101 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "scene.glsl"
+#include "shared/follow.h"
+#include "shared/photon.h"
+#include "shared/random.h"
+
+layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
+layout(set = 0, binding = 8) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 9) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 10) buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 11) buffer Paths { PhotonPathRecord paths[]; };
+layout(set = 0, binding = 12) buffer Ledgers { FluxLedger ledgers[]; };
+layout(set = 0, binding = 13) writeonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 14) writeonly buffer Alive { uint alive[]; };
+layout(push_constant) uniform Push { PhotonBatch batch; };
+
+uvec4 units_of(vec3 flux) {
+    return uvec4(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
+                 flux_units(flux.z, batch.flux_unit), 0u);
+}
+
+void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counters[counter_active]) {
+        return;
+    }
+    uint slot = active_slots[i];
+    PhotonPathRecord path = paths[slot];
+    HitRecord hit = hits[slot];
+    vec3 direction = vec3(rays[slot].direction_x, rays[slot].direction_y, rays[slot].direction_z);
+    vec3 flux = vec3(path.flux_r, path.flux_g, path.flux_b);
+    uint depth = path.state & photon_depth_mask;
+    alive[i] = 0u;
+
+    // Every photon has a slot for what it may leave behind, in an order that does not depend on scheduling.
+    bool stores = depth > 0u && depth <= batch.bounces;
+    uint store = counters[counter_stored_slots] + i;
+    if (stores && store >= batch.capacity) {
+        atomicAdd(counters[counter_overflow], 1u);
+        stores = false;
+    }
+    if (stores) {
+        photons[store].normal = no_photon;
+    }
+
+    if (hit.triangle == no_triangle) {
+        ledgers[slot].escaped += units_of(flux);
+        return;
+    }
+    Surface surface = load_surface(hit, direction);
+    MaterialRecord m = materials[triangles[hit.triangle].w];
+    Frame frame = make_frame(surface.shading_normal);
+    vec3 wo = to_local(frame, -direction);
+    // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that with the shading normal
+    // (Veach 1997, §5.3).
+    float geometric_in = -dot(direction, surface.geometric_normal);
+    float arriving = geometric_in > 0.0 ? wo.z / geometric_in : 1.0;
+
+    uint followed = followed_lobes(m, scene[0].follow_roughness);
+    uint estimated = estimated_lobes(m, scene[0].follow_roughness);
+    if (stores && estimated != 0u) {
+        bool caustic = (path.state & photon_followed) != 0u;
+        photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
+                                      pack_unit(-direction), flux.x * arriving, flux.y * arriving, flux.z * arriving,
+                                      pack_photon_normal(surface.geometric_normal, caustic));
+    }
+    if (depth >= batch.bounces) {
+        ledgers[slot].cut += units_of(flux);
+        return;
+    }
+
+    vec4 u = random4(batch.seed, batch.first + slot, depth + 1u, photon_dimension);
+    BsdfSample s;
+    vec3 scattered = vec3(0.0);
+    if (bsdf_sample(m, wo, surface.front, followed | estimated, u, s)) {
+        vec3 wi = to_world(frame, s.wi);
+        float geometric_out = dot(wi, surface.geometric_normal);
+        if ((s.wi.z > 0.0) == (geometric_out > 0.0) && s.wi.z != 0.0) {
+            scattered = flux * s.weight * (arriving * geometric_out / s.wi.z);
+            direction = wi;
+        }
+    }
+    // Roulette keeps the flux of what goes on about equal.
+    float survival = min(max_component(scattered) / max_component(flux), depth < 64u ? 1.0 : 0.95);
+    vec4 roulette = random4(batch.seed, batch.first + slot, depth + 1u, photon_dimension + 1u);
+    if (!(max_component(flux) > 0.0) || !(roulette.x < survival)) {
+        ledgers[slot].absorbed += units_of(flux);
+        return;
+    }
+    scattered /= survival;
+    // What roulette adds to one photon it takes from another: absorption is a difference, and can be negative.
+    ledgers[slot].absorbed += units_of(flux) - units_of(scattered);
+    vec3 origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, direction);
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y, direction.z, 0u);
+    bool stays_followed = (path.state & photon_followed) != 0u && (s.lobe & followed) != 0u;
+    paths[slot] = PhotonPathRecord(scattered.x, scattered.y, scattered.z,
+                                   (depth + 1u) | (stays_followed ? photon_followed : 0u));
+    alive[i] = 1u;
+}

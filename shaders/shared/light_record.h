@@ -1,0 +1,28 @@
+#ifndef ARGAND_SHARED_LIGHT_RECORD_H
+#define ARGAND_SHARED_LIGHT_RECORD_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+CONSTANT uint light_point = 0u;
+CONSTANT uint light_spot = 1u;
+CONSTANT uint light_directional = 2u;
+CONSTANT uint light_triangle = 3u;
+CONSTANT uint light_sky = 4u;
+
+// A light of any kind.
+struct LightRecord {
+    float32 x, y, z;            // position (point, spot) or first vertex (triangle)
+    uint kind;
+    float32 r, g, b;            // intensity [cd], irradiance [lux] (directional), radiance [cd/m²] (triangle, sky)
+    float32 cos_inner;          // spot
+    float32 dx, dy, dz;         // unit, the way the light goes (spot, directional), or second vertex
+    float32 cos_outer;          // spot
+    float32 ex, ey, ez;         // third vertex
+    uint double_sided;          // triangle
+};
+
+ARGAND_SHARED_END
+
+#endif

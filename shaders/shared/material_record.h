@@ -1,0 +1,19 @@
+#ifndef ARGAND_SHARED_MATERIAL_RECORD_H
+#define ARGAND_SHARED_MATERIAL_RECORD_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// A surface in glTF's terms; see Material in engine/scene/scene.hpp.
+struct MaterialRecord {
+    float32 base_r, base_g, base_b, metallic;
+    float32 specular_r, specular_g, specular_b, specular;
+    float32 emission_r, emission_g, emission_b;
+    uint double_sided;
+    float32 roughness, transmission, ior, thickness;
+};
+
+ARGAND_SHARED_END
+
+#endif

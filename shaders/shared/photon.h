@@ -1,0 +1,44 @@
+#ifndef ARGAND_SHARED_PHOTON_H
+#define ARGAND_SHARED_PHOTON_H
+
+#include "shared/frame.h"
+#include "shared/maths.h"
+#include "shared/photon_records.h"
+
+ARGAND_SHARED_BEGIN
+
+// A unit vector in 2×15 bits with the caustic bit on top; all bits set stand for a slot without a photon.
+CONSTANT uint no_photon = 0xffffffffu;
+
+FN uint pack_photon_normal(vec3 normal, bool caustic) {
+    uint packed = pack_unit(normal);
+    uint x = (packed & 0xffffu) >> 1;
+    uint y = packed >> 17;
+    return x | (y << 15) | (caustic ? 0x40000000u : 0u);
+}
+
+FN vec3 unpack_photon_normal(uint packed) {
+    uint x = (packed & 0x7fffu) << 1;
+    uint y = ((packed >> 15) & 0x7fffu) << 1;
+    return unpack_unit(x | (y << 16));
+}
+
+FN bool photon_is_caustic(uint packed) { return (packed & 0x40000000u) != 0u; }
+
+// Weight [1/area] of a photon at the squared distance d2 in the tangent plane, of a kernel whose integral over the disc
+// of the squared radius r2 is 1 (Epanechnikov in two dimensions).
+FN real kernel_weight(real d2, real r2) {
+    return real(2.0) * INV_PI / r2 * max(real(0.0), real(1.0) - d2 / r2);
+}
+
+// Photons off the tangent plane by more than this share of the radius belong to another surface.
+CONSTANT real disc_half_height = real(0.2);
+// Cosine of the angle between normals from which on a photon belongs to another surface.
+CONSTANT real same_surface_cosine = real(0.5);
+
+// Rounds a flux to units of the fixed-point sums.
+FN uint flux_units(real flux, real unit) { return uint(floor(flux / unit + real(0.5))); }
+
+ARGAND_SHARED_END
+
+#endif

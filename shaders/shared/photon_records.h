@@ -1,0 +1,86 @@
+#ifndef ARGAND_SHARED_PHOTON_RECORDS_H
+#define ARGAND_SHARED_PHOTON_RECORDS_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// A photon as the map keeps it.
+struct PhotonRecord {
+    float32 x, y, z;
+    uint direction;             // where it came from, packed (pack_unit)
+    float32 flux_r, flux_g, flux_b;
+    uint normal;                // of the surface, on the photon's side, packed with the caustic bit (photon.h)
+};
+
+// A photon on its way, one per slot.
+struct PhotonPathRecord {
+    float32 flux_r, flux_g, flux_b;
+    uint state;                 // scatterings so far in the low half, photon_followed
+};
+
+CONSTANT uint photon_depth_mask = 0xffffu;
+CONSTANT uint photon_followed = 0x10000u;   // all scatterings so far were followed lobes
+
+// Where the flux of one photon went, in fixed point (PhotonBatch::flux_unit), one column a channel, modulo 2^32:
+// emitted = absorbed + escaped + cut, to the bit.
+struct FluxLedger {
+    uvec4 emitted, absorbed, escaped, cut;
+};
+
+// A part of the pass's photons, traced together.
+struct PhotonBatch {
+    uint seed;
+    uint first, count;          // photons of this batch, numbered through the whole picture
+    float32 inverse_total;      // 1 / photons emitted in the whole pass, which share each light's power
+    uint bounces;               // the most scatterings of a photon that is stored
+    uint capacity;              // slots for stored photons
+    float32 flux_unit;          // flux of one unit of the fixed-point sums
+    uint pad;
+};
+
+struct PhotonAdvanceParams {
+    uint stored;        // whether the last bounce stored photons
+    uint capacity;
+    uint pad0, pad1;
+};
+
+struct FluxSumParams {
+    uint count;         // ledgers
+    uint pad0, pad1, pad2;
+};
+
+struct PhotonGatherParams {
+    float32 radius;
+    uint budget;        // iterations of a dispatch
+    uint first;         // whether this is the first dispatch of these queries
+    uint pad;
+};
+
+// A query of the photon map between two dispatches: the node to go on with, and the sums so far.
+struct GatherRecord {
+    float32 indirect_r, indirect_g, indirect_b;
+    uint node;
+    float32 caustic_r, caustic_g, caustic_b;
+    uint pad;
+};
+
+// Photons in a leaf of the map.
+CONSTANT uint photons_per_block = 8u;
+
+// Random numbers of photons and of eye paths come from different dimensions.
+CONSTANT uint photon_dimension = 0x40000000u;
+
+// Counters of the photon map, on the device: indices into an array of uint.
+CONSTANT uint counter_active = 0u;          // photons still on their way
+CONSTANT uint counter_stored_slots = 1u;    // slots of the map used so far (a slot may hold no photon)
+CONSTANT uint counter_stored = 2u;          // photons in the map
+CONSTANT uint counter_overflow = 3u;        // slots that were wanted beyond the capacity
+CONSTANT uint counter_next_active = 4u;
+CONSTANT uint counter_blocks = 5u;          // leaves of the map
+CONSTANT uint counter_non_finite = 6u;
+CONSTANT uint counter_count = 16u;
+
+ARGAND_SHARED_END
+
+#endif

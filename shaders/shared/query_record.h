@@ -1,0 +1,22 @@
+#ifndef ARGAND_SHARED_QUERY_RECORD_H
+#define ARGAND_SHARED_QUERY_RECORD_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// A point at which the photon map is asked for the radiance that estimated lobes scatter towards the eye.
+struct QueryRecord {
+    float32 x, y, z;
+    uint material;
+    float32 throughput_r, throughput_g, throughput_b;   // of the path to the eye; r < 0: nothing is asked
+    uint direction;         // towards the eye, packed (pack_unit)
+    uint geometric_normal;  // towards the eye's side, packed
+    uint shading_normal;    // packed
+    uint lobes;             // LOBE_* to be estimated
+    uint pad;
+};
+
+ARGAND_SHARED_END
+
+#endif

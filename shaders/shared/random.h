@@ -1,0 +1,35 @@
+#ifndef ARGAND_SHARED_RANDOM_H
+#define ARGAND_SHARED_RANDOM_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// Counter-based random numbers: a hash of what they are for, so that they depend neither on scheduling nor on the
+// backend. pcg4d of Jarzynski and Olano 2020, "Hash functions for GPU rendering".
+FN uvec4 pcg4d(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v = v ^ (v >> 16u);
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+// Uniform in [0, 1), never 1: the 24 highest bits are exact in single precision.
+FN real to_unit(uint bits) { return real(bits >> 8) * real(5.9604644775390625e-8); }
+
+// Four independent numbers in [0, 1) that belong to (seed, index, bounce, dimension).
+FN vec4 random4(uint seed, uint index, uint bounce, uint dimension) {
+    uvec4 bits = pcg4d(uvec4(index, bounce, dimension, seed));
+    return vec4(to_unit(bits.x), to_unit(bits.y), to_unit(bits.z), to_unit(bits.w));
+}
+
+ARGAND_SHARED_END
+
+#endif

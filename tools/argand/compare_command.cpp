@@ -1,0 +1,78 @@
+#include "commands.hpp"
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+#include "image/files.hpp"
+#include "image/metrics.hpp"
+
+#include <array>
+#include <memory>
+
+namespace argand {
+
+namespace {
+
+struct CompareOptions {
+    std::string a, b, layer, output;
+    bool json = false;
+};
+
+Image read_layer(const std::string& path, const std::string& name) {
+    const std::vector<Layer> layers = read_image(path);
+    const Image* image = find_layer(layers, name);
+    if (!image) {
+        std::string names;
+        for (const Layer& layer : layers) {
+            names += fmt::format(" '{}'", layer.name);
+        }
+        fail("comparing '{}': it has no layer '{}', only{}", path, name, names);
+    }
+    return *image;
+}
+
+void compare_files(const CompareOptions& options) {
+    if (!options.output.empty()) {
+        check_image_writable(options.output);
+    }
+    const Image a = read_layer(options.a, options.layer);
+    const Image b = read_layer(options.b, options.layer);
+    const Metrics metrics = compare(a, b, options.a, options.b);
+    if (!options.output.empty()) {
+        const std::array<Layer, 1> picture{Layer{"", difference_picture(a, b, options.a, options.b)}};
+        write_image(options.output, picture);
+    }
+    if (options.json) {
+        fmt::print("{}", json_text({{"a", options.a},
+                                    {"b", options.b},
+                                    {"layer", options.layer},
+                                    {"relMSE", metrics.rel_mse},
+                                    {"RMSE", metrics.rmse},
+                                    {"MAE", metrics.mae},
+                                    {"PSNR", metrics.psnr},
+                                    {"SSIM", metrics.ssim},
+                                    {"mean_a", {metrics.mean_a.r, metrics.mean_a.g, metrics.mean_a.b}},
+                                    {"mean_b", {metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b}}}));
+        return;
+    }
+    fmt::print("relMSE {:.6g}\nRMSE   {:.6g}\nMAE    {:.6g}\nPSNR   {:.4g} dB\nSSIM   {:.5f}\n", metrics.rel_mse,
+               metrics.rmse, metrics.mae, metrics.psnr, metrics.ssim);
+    fmt::print("mean A {:.6g} {:.6g} {:.6g}\nmean B {:.6g} {:.6g} {:.6g}\n", metrics.mean_a.r, metrics.mean_a.g,
+               metrics.mean_a.b, metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b);
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
+    auto options = std::make_shared<CompareOptions>();
+    command->add_option("a", options->a, "Picture (.exr, .png, .hdr)")->required();
+    command->add_option("b", options->b, "Reference of the same size")->required();
+    command->add_option("--layer", options->layer, "Compare this layer of both: direct, indirect or caustic");
+    command->add_option("-o,--output", options->output, "Write a picture of the difference (.png, .exr)");
+    command->add_flag("--json", options->json, "Print JSON");
+    command->footer("relMSE = mean((a - b)^2 / (b^2 + 0.01 mean(b)^2)).\n\n"
+                    "Example:\n  argand compare photons.exr path.exr -o difference.png");
+    command->callback([options] { compare_files(*options); });
+}
+
+} // namespace argand

@@ -1,0 +1,31 @@
+#include "commands.hpp"
+
+#include "device/device.hpp"
+
+#include <fmt/format.h>
+
+namespace argand {
+
+namespace {
+
+void list() {
+    const std::vector<DeviceInfo> devices = list_devices();
+    if (devices.empty()) {
+        fmt::print("Vulkan offers no device; install a driver, for instance mesa-vulkan-drivers\n");
+    }
+    for (const DeviceInfo& device : devices) {
+        fmt::print("{}: {} ({}, {}, Vulkan {}, {} MiB){}\n", device.index, device.name, to_string(device.kind),
+                   device.driver, device.api_version, device.limits.memory >> 20,
+                   device.unsuitable.empty() ? "" : "; cannot be used: " + device.unsuitable);
+    }
+}
+
+} // namespace
+
+void add_devices_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("devices", "List the devices that can render");
+    command->footer("Example:\n  argand devices\n\n`argand render --device` takes an index or a part of a name.");
+    command->callback(list);
+}
+
+} // namespace argand

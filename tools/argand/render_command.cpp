@@ -1,0 +1,190 @@
+#include "commands.hpp"
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "base/interrupt.hpp"
+#include "base/json.hpp"
+#include "base/progress.hpp"
+#include "image/files.hpp"
+#include "methods/render.hpp"
+#include "report.hpp"
+#include "scene/gltf.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <memory>
+
+namespace argand {
+
+namespace {
+
+constexpr int largest_side = 32768;
+
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string method = method_names().front();
+    std::string size = "512x512";
+    std::string camera;
+    std::string backend = "vulkan";
+    std::string device;
+    std::string report;
+    double radius = 0;
+    float exposure = 0;
+    bool quiet = false;
+    RenderSettings settings;
+};
+
+int parse_side(std::string_view text, const std::string& size) {
+    int side = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+    if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > largest_side) {
+        throw UsageError(fmt::format("reading --size {}: it must be WIDTHxHEIGHT, each from 1 to {}", size, largest_side));
+    }
+    return side;
+}
+
+void parse_size(const std::string& size, RenderSettings& settings) {
+    const std::size_t x = std::min(size.find('x'), size.size());
+    settings.width = parse_side(std::string_view(size).substr(0, x), size);
+    settings.height = parse_side(std::string_view(size).substr(std::min(x + 1, size.size())), size);
+}
+
+std::size_t find_camera(const Scene& scene, const std::string& choice) {
+    if (choice.empty()) {
+        return 0;
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (scene.cameras[i].name == choice) {
+            return i;
+        }
+    }
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
+    if (error == std::errc() && end == choice.data() + choice.size() && index < scene.cameras.size()) {
+        return index;
+    }
+    fail("choosing camera '{}' of '{}': there is none of that name or index; `argand inspect` lists its {} cameras",
+         choice, scene.name, scene.cameras.size());
+}
+
+void check(const RenderOptions& options) {
+    if (options.backend != "vulkan") {
+        throw UsageError(fmt::format("choosing backend '{}': there is only vulkan", options.backend));
+    }
+    const std::vector<std::string> methods = method_names();
+    if (std::find(methods.begin(), methods.end(), options.method) == methods.end()) {
+        throw UsageError(fmt::format("choosing method '{}': choose from {}", options.method, fmt::join(methods, ", ")));
+    }
+    for (const std::string& output : options.outputs) {
+        check_image_writable(output);
+    }
+    if (!options.report.empty()) {
+        check_writable(options.report);
+    }
+}
+
+void render_file(RenderOptions& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto seconds_since = [](Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    parse_size(options.size, options.settings);
+    options.settings.method = options.method;
+    if (options.radius > 0) {
+        options.settings.radius = options.radius;
+    }
+    if (options.outputs.empty()) {
+        options.outputs.push_back(std::filesystem::path(options.scene).filename().replace_extension(".png").string());
+    }
+    check(options);
+    catch_interrupts();
+
+    ReportTimes times;
+    const Clock::time_point start = Clock::now();
+    const Scene scene = load_gltf(options.scene);
+    times.load = seconds_since(start);
+    options.settings.camera = find_camera(scene, options.camera);
+    if (!options.quiet) {
+        for (const std::string& note : scene.notes) {
+            fmt::print(stderr, "argand: note: {}\n", note);
+        }
+    }
+    const Clock::time_point opened = Clock::now();
+    const std::unique_ptr<Device> device = open_device(options.device);
+    times.open = seconds_since(opened);
+
+    const Clock::time_point rendering = Clock::now();
+    RenderResult result;
+    {
+        Progress progress("rendering", options.quiet);
+        result = render(*device, scene, options.settings, [&](double done) {
+            progress.update(done);
+            return !interrupted();
+        });
+    }
+    times.render = seconds_since(rendering);
+    if (result.statistics.samples == 0) {
+        fail("rendering '{}': interrupted before the first pass was finished; nothing is written", options.scene);
+    }
+    const Clock::time_point writing = Clock::now();
+    for (const std::string& output : options.outputs) {
+        write_image(output, result.layers, options.exposure);
+    }
+    times.write = seconds_since(writing);
+    if (!options.report.empty()) {
+        write_json(options.report, render_report(*device, scene, options.settings, options.exposure, options.outputs,
+                                                 result.statistics, times));
+    }
+    if (result.statistics.non_finite > 0) {
+        fmt::print(stderr, "argand: note: {} samples were not finite and are left out; please report the scene\n",
+                   result.statistics.non_finite);
+    }
+    if (!options.quiet) {
+        fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "), options.method,
+                   options.settings.width, options.settings.height, device->info().name,
+                   seconds_since(start), result.statistics.interrupted ? " (interrupted: the passes so far)" : "");
+    }
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene to PNG and OpenEXR");
+    auto options = std::make_shared<RenderOptions>();
+    RenderSettings& settings = options->settings;
+    command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
+    command->add_option("-o,--output", options->outputs,
+                        "Picture to write, .png or .exr; may be given several times (default: SCENE's name with .png)")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--method", options->method, "photons or path")->capture_default_str();
+    command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
+    command->add_option("--spp", settings.samples, "Eye paths per pixel")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--photons", settings.photons, "Photons emitted")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 4.0e9));
+    command
+        ->add_option("--bounces", settings.bounces,
+                     "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
+        ->check(CLI::Range(0, 0xffff));
+    command->add_option("--radius", options->radius, "Radius of density estimation (default: from the scene)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--follow-roughness", settings.follow_roughness,
+                        "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--seed", settings.seed, "Seed of the random numbers")->capture_default_str();
+    command->add_option("--camera", options->camera, "Name or index of the camera (default: the first)");
+    command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")->capture_default_str();
+    command->add_option("--backend", options->backend, "vulkan")->capture_default_str();
+    command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
+    command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");
+    command->add_flag("-q,--quiet", options->quiet, "Print errors only");
+    command->footer("Example:\n  argand render assets/cornell_glass.glb -o glass.png -o glass.exr --size 256x256");
+    command->callback([options] { render_file(*options); });
+}
+
+} // namespace argand

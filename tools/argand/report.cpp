@@ -1,0 +1,74 @@
+#include "report.hpp"
+
+namespace argand {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json flux_json(const FluxSums& flux, const std::array<std::int64_t, 3>& sums) {
+    Json channels = Json::array();
+    for (const std::int64_t sum : sums) {
+        channels.push_back(static_cast<double>(sum) * flux.unit);
+    }
+    return channels;
+}
+
+Json memory_json(const Device& device) {
+    Json by_name = Json::object();
+    for (const auto& [name, use] : device.memory_by_name()) {
+        by_name[name] = use.peak;
+    }
+    return {{"peak_bytes", device.memory().peak}, {"peak_bytes_by_name", by_name}};
+}
+
+} // namespace
+
+Json render_report(Device& device, const Scene& scene, const RenderSettings& settings, float exposure,
+                   const std::vector<std::string>& outputs, const RenderStatistics& statistics,
+                   const ReportTimes& times) {
+    Json stages = Json::array();
+    for (const StageTime& stage : device.stage_times()) {
+        stages.push_back({{"name", stage.name}, {"gpu_seconds", stage.seconds}, {"runs", stage.runs}});
+    }
+    const DeviceInfo& info = device.info();
+    return {{"scene", scene.name},
+            {"outputs", outputs},
+            {"parameters",
+             {{"method", settings.method},
+              {"width", settings.width},
+              {"height", settings.height},
+              {"spp", settings.samples},
+              {"photons", settings.photons},
+              {"bounces", settings.bounces},
+              {"radius", statistics.radius},
+              {"follow_roughness", settings.follow_roughness},
+              {"seed", settings.seed},
+              {"camera", scene.cameras[settings.camera].name},
+              {"exposure", exposure}}},
+            {"device",
+             {{"backend", info.backend},
+              {"name", info.name},
+              {"driver", info.driver},
+              {"api_version", info.api_version},
+              {"kind", to_string(info.kind)},
+              {"subgroup_size", info.subgroup_size}}},
+            {"wall_seconds",
+             {{"load", times.load}, {"open_device", times.open}, {"render", times.render}, {"write", times.write}}},
+            {"stages", stages},
+            {"samples_per_pixel", statistics.samples},
+            {"passes", statistics.passes},
+            {"photons_emitted", statistics.photons_emitted},
+            {"photons_stored", statistics.photons_stored},
+            {"flux",
+             {{"emitted", flux_json(statistics.flux, statistics.flux.emitted)},
+              {"absorbed", flux_json(statistics.flux, statistics.flux.absorbed)},
+              {"escaped", flux_json(statistics.flux, statistics.flux.escaped)},
+              {"cut", flux_json(statistics.flux, statistics.flux.cut)}}},
+            {"non_finite_samples", statistics.non_finite},
+            {"interrupted", statistics.interrupted},
+            {"memory", memory_json(device)},
+            {"notes", scene.notes}};
+}
+
+} // namespace argand
