@@ -10,7 +10,7 @@
 namespace argand {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 template <class Vector>
 json numbers(const Vector& v) {

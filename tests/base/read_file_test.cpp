@@ -1,6 +1,7 @@
 #include "base/read_file.hpp"
 
 #include "base/error.hpp"
+#include "support/scratch_directory.hpp"
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -20,11 +21,8 @@ std::string problem_of(const std::filesystem::path& path) {
     return "none";
 }
 
-struct ReadFile : testing::Test {
-    std::filesystem::path directory =
-        std::filesystem::path(testing::TempDir()) / ("argand_read_file_" + std::to_string(getpid()));
-    void SetUp() override { std::filesystem::create_directories(directory); }
-    void TearDown() override { std::filesystem::remove_all(directory); }
+struct ReadFile : ::testing::Test {
+    testing::ScratchDirectory directory;
 };
 
 TEST_F(ReadFile, GivesTheBytes) {
@@ -35,24 +33,31 @@ TEST_F(ReadFile, GivesTheBytes) {
 }
 
 TEST_F(ReadFile, SaysWhatIsWrong) {
-    EXPECT_THAT(problem_of(directory / "absent"), testing::HasSubstr("there is no such file"));
-    EXPECT_THAT(problem_of(directory), testing::HasSubstr("it is a directory"));
-    EXPECT_THAT(problem_of(""), testing::HasSubstr("there is no such file"));
-    EXPECT_THAT(problem_of(directory / std::string(5000, 'x')), testing::HasSubstr("cannot read"));
+    EXPECT_THAT(problem_of(directory / "absent"), ::testing::HasSubstr("there is no such file"));
+    EXPECT_THAT(problem_of(directory.path()), ::testing::HasSubstr("it is a directory"));
+    EXPECT_THAT(problem_of(""), ::testing::HasSubstr("there is no such file"));
+    EXPECT_THAT(problem_of(directory / std::string(5000, 'x')), ::testing::HasSubstr("cannot read"));
 }
 
 TEST_F(ReadFile, DoesNotWaitForAPipe) {
     ASSERT_EQ(mkfifo((directory / "pipe").c_str(), 0600), 0);
-    EXPECT_THAT(problem_of(directory / "pipe"), testing::HasSubstr("it is not a regular file"));
+    EXPECT_THAT(problem_of(directory / "pipe"), ::testing::HasSubstr("it is not a regular file"));
 }
 
 TEST_F(ReadFile, SaysThatPermissionsForbidIt) {
-    if (geteuid() == 0) {
-        GTEST_SKIP() << "root may read everything";
+    namespace fs = std::filesystem;
+    testing::write_text(directory / "secret", "x");
+    fs::permissions(directory.path(), fs::perms::others_all | fs::perms::owner_all);
+    fs::permissions(directory / "secret", fs::perms::none);
+    const bool is_root = geteuid() == 0; // who may read everything
+    if (is_root) {
+        ASSERT_EQ(seteuid(65534), 0);
     }
-    std::ofstream(directory / "secret") << "x";
-    std::filesystem::permissions(directory / "secret", std::filesystem::perms::none);
-    EXPECT_THAT(problem_of(directory / "secret"), testing::HasSubstr("permissions"));
+    const std::string problem = problem_of(directory / "secret");
+    if (is_root) {
+        ASSERT_EQ(seteuid(0), 0);
+    }
+    EXPECT_THAT(problem, ::testing::HasSubstr("permissions"));
 }
 
 } // namespace

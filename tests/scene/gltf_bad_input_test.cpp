@@ -10,7 +10,7 @@ namespace argand {
 namespace {
 
 using namespace testing_gltf;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A square of two indexed triangles with normals: mesh 0, accessors 0 (positions), 1 (normals), 2 (indices).
 GltfBuilder square() {

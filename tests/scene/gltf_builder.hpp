@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "scene/gltf.hpp"
+#include "support/scratch_directory.hpp"
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -9,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace argand::testing_gltf {
@@ -22,37 +22,17 @@ inline constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ush
                      uint_type = 5125, float_type = 5126;
 inline constexpr int points = 0, line_strip = 3, triangles = 4, strip = 5, fan = 6;
 
-/// A directory of its own for each test process, removed at the end.
-class TempDirectory {
-public:
-    TempDirectory() {
-        static int number = 0;
-        path_ = std::filesystem::path(testing::TempDir()) /
-                ("argand_scene_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-        std::filesystem::create_directories(path_);
-    }
-    ~TempDirectory() { std::filesystem::remove_all(path_); }
-    TempDirectory(const TempDirectory&) = delete;
-    TempDirectory& operator=(const TempDirectory&) = delete;
-
-    std::filesystem::path write(const std::string& name, const void* data, std::size_t size) const {
-        const std::filesystem::path file = path_ / name;
+/// A directory to write scenes into, removed at the end.
+struct TempDirectory : argand::testing::ScratchDirectory {
+    std::filesystem::path write(const std::string& name, const std::string& content) const {
+        const std::filesystem::path file = *this / name;
         std::filesystem::create_directories(file.parent_path());
-        std::filesystem::remove(file); // some file systems flush a file that is overwritten, which is slow
-        std::ofstream stream(file, std::ios::binary);
-        stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+        argand::testing::write_text(file, content);
         return file;
     }
     std::filesystem::path write(const std::string& name, const Bytes& bytes) const {
-        return write(name, bytes.data(), bytes.size());
+        return write(name, std::string(bytes.begin(), bytes.end()));
     }
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        return write(name, text.data(), text.size());
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
 };
 
 inline void put_word(Bytes& bytes, std::uint32_t value) {

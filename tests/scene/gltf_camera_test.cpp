@@ -66,7 +66,7 @@ TEST(GltfCamera, StaysOrthonormalUnderScaleAndShear) {
 }
 
 TEST(GltfCamera, RefusesBrokenOnes) {
-    using testing::HasSubstr;
+    using ::testing::HasSubstr;
     for (const double angle : {0.0, -1.0, 3.2}) {
         EXPECT_THAT(with_camera(perspective(angle)).problem(), HasSubstr("camera 0 has an angle of view"));
     }

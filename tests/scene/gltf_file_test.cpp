@@ -7,7 +7,7 @@ namespace argand {
 namespace {
 
 using namespace testing_gltf;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string problem_of(const std::filesystem::path& path) {
     try {
@@ -25,7 +25,7 @@ std::string text_of_triangle(const std::string& uri) {
     return builder.root.dump();
 }
 
-struct GltfFile : testing::Test {
+struct GltfFile : ::testing::Test {
     TempDirectory directory;
     Bytes triangle = one_triangle().binary;
 };

@@ -76,7 +76,7 @@ TEST(GltfLight, NotesThatRangeIsIgnored) {
 }
 
 TEST(GltfLight, RefusesBrokenOnes) {
-    using testing::HasSubstr;
+    using ::testing::HasSubstr;
     EXPECT_THAT(with_light({{"type", "point"}, {"intensity", -1}}).problem(),
                 HasSubstr("light 0 has an intensity"));
     EXPECT_THAT(with_light({{"type", "point"}, {"intensity", 1e300}}).problem(), HasSubstr("finite"));

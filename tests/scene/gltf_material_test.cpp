@@ -82,7 +82,7 @@ TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1}})).ior, 1);
     for (const double ior : {0.5, -1.0, 0.999, 1e300}) {
         EXPECT_THAT(with_material(extension("KHR_materials_ior", {{"ior", ior}})).problem(),
-                    testing::HasSubstr("index of refraction"));
+                    ::testing::HasSubstr("index of refraction"));
     }
 }
 
@@ -107,7 +107,7 @@ TEST(GltfMaterial, BringsFactorsIntoRangeWithANote) {
 }
 
 TEST(GltfMaterial, RefusesFactorsThatAreNoNumbers) {
-    using testing::HasSubstr;
+    using ::testing::HasSubstr;
     EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"metallicFactor", "one"}}}}).problem(),
                 HasSubstr("\"metallicFactor\" must be made of numbers"));
     EXPECT_THAT(
@@ -155,7 +155,7 @@ TEST(GltfExtensions, AreListedAndNamedWhereNotUnderstood) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_unlit", "KHR_materials_unlit"};
     const Scene scene = builder.load();
-    EXPECT_THAT(scene.extensions_used, testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
+    EXPECT_THAT(scene.extensions_used, ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
     EXPECT_TRUE(has_note(scene, "the extension KHR_materials_unlit is not understood and is ignored"));
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
@@ -164,7 +164,7 @@ TEST(GltfExtensions, RefusesRequiredOnesThatAreNotUnderstood) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
     builder.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    EXPECT_THAT(builder.problem(), testing::HasSubstr("requires the extension KHR_draco_mesh_compression"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("requires the extension KHR_draco_mesh_compression"));
 }
 
 } // namespace

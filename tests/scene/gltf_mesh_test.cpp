@@ -28,7 +28,7 @@ void expect_indexed_square() {
         {{"mesh", builder.add_mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}})}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.positions, square);
-    EXPECT_THAT(scene.triangles, testing::ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)));
+    EXPECT_THAT(scene.triangles, ::testing::ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)));
 }
 
 TEST(GltfMesh, ReadsIndicesOfEveryType) {
@@ -68,7 +68,7 @@ TEST(GltfMesh, ReadsFans) {
 TEST(GltfMesh, IgnoresPointsAndLinesWithANote) {
     for (const int mode : {points, 1, 2, line_strip}) {
         GltfBuilder builder = with_mode(mode, {{0, 0, 0}, {1, 0, 0}, {5, 5, 5}});
-        EXPECT_THAT(builder.problem(), testing::HasSubstr("nothing to render"));
+        EXPECT_THAT(builder.problem(), ::testing::HasSubstr("nothing to render"));
         builder.add_triangles(right_triangle());
         const Scene scene = builder.load();
         EXPECT_EQ(scene.triangles.size(), 1u);
@@ -81,7 +81,8 @@ TEST(GltfMesh, IgnoresSurplusCornersWithANote) {
     EXPECT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(scene.positions.size(), 3u);
     EXPECT_TRUE(has_note(scene, "no multiple of three"));
-    EXPECT_THAT(with_mode(strip, {{0, 0, 0}, {1, 0, 0}}).problem(), testing::HasSubstr("nothing to render"));
+    EXPECT_THAT(with_mode(strip, {{0, 0, 0}, {1, 0, 0}}).problem(),
+                ::testing::HasSubstr("nothing to render"));
 }
 
 TEST(GltfMesh, ReadsNormalsAndMakesThemUnit) {
@@ -243,7 +244,7 @@ TEST(GltfMesh, GivesPrimitivesWithoutMaterialTheDefaultOne) {
     builder.root["meshes"][0]["primitives"][0]["material"] = 0;
     const Scene scene = builder.load();
     ASSERT_EQ(scene.materials.size(), 2u);
-    EXPECT_THAT(scene.triangle_material, testing::ElementsAre(0u, 1u));
+    EXPECT_THAT(scene.triangle_material, ::testing::ElementsAre(0u, 1u));
     EXPECT_EQ(scene.materials[0].name, "red");
     EXPECT_EQ(scene.materials[1].name, "default");
     EXPECT_EQ(scene.materials[1].base_color, glm::vec3(1));

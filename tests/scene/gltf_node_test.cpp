@@ -127,25 +127,25 @@ TEST(GltfNode, ShowsTheDefaultSceneElseTheFirstElseAllRoots) {
 
     builder.root["scenes"] = {{{"nodes", {0}}}};
     builder.root["scene"] = 7;
-    EXPECT_THAT(builder.problem(), testing::HasSubstr("default scene 7 does not exist"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("default scene 7 does not exist"));
 }
 
 TEST(GltfNode, RefusesCyclesAndSharedNodes) {
     GltfBuilder builder = three_nodes();
     builder.root["nodes"][0]["children"] = {1};
     builder.root["nodes"][1]["children"] = {0};
-    EXPECT_THAT(builder.problem(), testing::HasSubstr("reached twice"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("reached twice"));
     builder.root.erase("scenes"); // a cycle has no root
     EXPECT_EQ(builder.load().triangles.size(), 1u);
 
     builder = three_nodes();
     builder.root["nodes"][0]["children"] = {0};
-    EXPECT_THAT(builder.problem(), testing::HasSubstr("reached twice"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("reached twice"));
 
     builder = three_nodes();
     builder.root["nodes"][0]["children"] = {1, 2};
     builder.root["nodes"][1]["children"] = {2};
-    EXPECT_THAT(builder.problem(), testing::HasSubstr("reached twice"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("reached twice"));
 }
 
 TEST(GltfNode, DoublingTreesEndAtOnce) {
@@ -155,7 +155,7 @@ TEST(GltfNode, DoublingTreesEndAtOnce) {
         builder.root["nodes"].push_back({{"children", {i - 1, i - 1}}});
     }
     builder.root["scenes"][0]["nodes"] = {40};
-    EXPECT_THAT(builder.problem(), testing::HasSubstr("reached twice"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("reached twice"));
 }
 
 TEST(GltfNode, NestsDeeply) {
@@ -174,7 +174,7 @@ TEST(GltfNode, RefusesBrokenTransformsAndReferences) {
         builder.add_triangles(right_triangle(), node);
         return builder.problem();
     };
-    using testing::HasSubstr;
+    using ::testing::HasSubstr;
     EXPECT_THAT(problem({{"matrix", {1, 2, 3}}}), HasSubstr("matrix that is not 16 numbers"));
     EXPECT_THAT(problem({{"translation", {1, 2}}}), HasSubstr("translation that is not 3 numbers"));
     EXPECT_THAT(problem({{"rotation", {0, 0, 0, 0}}}), HasSubstr("not a unit quaternion"));

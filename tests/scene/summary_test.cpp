@@ -9,7 +9,7 @@ namespace argand {
 namespace {
 
 using namespace testing_gltf;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(Describe, NamesEachKindOfMaterial) {
     const auto kind = [](float metallic, float roughness, float specular, float transmission,
@@ -60,7 +60,7 @@ Scene rich_scene() {
 }
 
 TEST(Summary, CountsAndMeasuresInJson) {
-    const json summary = summary_json(rich_scene());
+    const json summary(summary_json(rich_scene()));
     EXPECT_EQ(summary["name"], "scene.glb");
     EXPECT_EQ(summary["triangles"], 3);
     EXPECT_EQ(summary["vertices"], 9);
