@@ -1,3 +1,13 @@
+// The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume (of which only whether
+// there is a thickness), in the shading frame: wo and wi point away from the surface, and the frame is turned so that
+// wo.z > 0 whichever side wo is on. A sum of lobes:
+//   diffuse    Lambertian, under the dielectric's specular layer
+//   glossy     GGX reflection by metal and by the layer
+//   mirror     the same where the surface is smooth; reflection by the border of a solid dielectric
+//   transmit   straight on through a thin wall, refracted at the border of a solid dielectric; tinted by the base
+//              colour; always smooth
+// All of it is reciprocal, but for refraction's factor eta_scale. As in glTF, layer and base are mixed by Fresnel's
+// factor at the half vector: where wo grazes, a bright dielectric may reflect more than it receives.
 #ifndef ARGAND_SHARED_BSDF_H
 #define ARGAND_SHARED_BSDF_H
 
@@ -7,213 +17,248 @@
 
 ARGAND_SHARED_BEGIN
 
-// The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume (only whether it is a
-// solid), in the shading frame: normal +z on the viewer's side, wo and wi away from the surface, wo.z > 0. It is a sum
-// of lobes:
-//   diffuse      Lambertian, under the dielectric's specular layer
-//   glossy       GGX reflection of the metal and of the dielectric layer
-//   mirror       the same where the surface is smooth
-//   transmit     smooth transmission: refraction by a solid, straight on through a thin wall
 CONSTANT uint LOBE_DIFFUSE = 1u;
 CONSTANT uint LOBE_GLOSSY = 2u;
 CONSTANT uint LOBE_MIRROR = 4u;
 CONSTANT uint LOBE_TRANSMIT = 8u;
+CONSTANT uint LOBES_DELTA = 12u;    // mirror and transmit
+CONSTANT uint LOBES_ALL = 15u;
 
-// Below, GGX is so sharp that single precision cannot tell it from a mirror.
-CONSTANT real smallest_alpha = real(1e-3);
+// Below, single precision cannot tell GGX from a mirror.
+CONSTANT real SMALLEST_ALPHA = real(1e-3);
 
 struct BsdfSample {
     vec3 wi;
-    vec3 weight;        // f |cos| / density, for radiance without the factor eta_scale
-    real pdf;           // solid-angle density; 0 for mirror and transmission
+    vec3 weight;        // f |cos| / density, as flux scatters; radiance is to be multiplied by eta_scale as well
+    real pdf;           // solid-angle density; 0 for mirror and transmit
     uint lobe;
-    real eta_scale;     // by which refraction scales radiance: (index at wo's side / index at wi's side)²
+    real eta_scale;     // by which refraction scales radiance: (index on wo's side / index on wi's side)²
 };
 
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
-FN bool is_smooth(IN(MaterialRecord) m) { return ggx_alpha(m) < smallest_alpha; }
-FN bool is_solid(IN(MaterialRecord) m) { return m.transmission > float32(0.0) && m.thickness > float32(0.0); }
+FN bool roughness_is_delta(IN(MaterialRecord) m) { return ggx_alpha(m) < SMALLEST_ALPHA; }
 
-// Reflectance of the dielectric layer at normal incidence, KHR_materials_ior and _specular. An index of 0 stands for
-// one without limit, which reflects all.
+// Shares of the surface: what is not metal, split by the transmission factor.
+FN real opaque_share(IN(MaterialRecord) m) { return (real(1.0) - real(m.metallic)) * (real(1.0) - real(m.transmission)); }
+FN real clear_share(IN(MaterialRecord) m) { return (real(1.0) - real(m.metallic)) * real(m.transmission); }
+FN bool is_solid(IN(MaterialRecord) m) { return clear_share(m) > real(0.0) && m.thickness > float32(0.0); }
+
+// Reflectance of the dielectric's layer, by Schlick. An index of 0 gives an f0 of 1, as KHR_materials_ior wants.
 FN vec3 dielectric_f0(IN(MaterialRecord) m) {
-    real r = m.ior > float32(0.0) ? (real(m.ior) - real(1.0)) / (real(m.ior) + real(1.0)) : real(1.0);
-    return min(vec3(m.specular_r, m.specular_g, m.specular_b) * (r * r), vec3(real(1.0))) * real(m.specular);
+    real r = (real(m.ior) - real(1.0)) / (real(m.ior) + real(1.0));     // the index is not negative
+    vec3 f0 = vec3(m.specular_r, m.specular_g, m.specular_b) * (r * r);
+    return min(f0, vec3(real(1.0))) * real(m.specular);
 }
 
 FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
-    return fresnel_schlick(dielectric_f0(m), vec3(real(m.specular)), cosine);
+    return fresnel_schlick(dielectric_f0(m), real(m.specular), cosine);
 }
 
-FN vec3 metal_fresnel(IN(MaterialRecord) m, real cosine) {
-    return fresnel_schlick(base_color(m), vec3(real(1.0)), cosine);
+// Reflectance of metal and layer together, without the border of a solid.
+FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
+    real layer_share = is_solid(m) ? opaque_share(m) : real(1.0) - real(m.metallic);
+    return fresnel_schlick(base_color(m), real(1.0), cosine) * real(m.metallic) +
+           dielectric_fresnel(m, cosine) * layer_share;
 }
 
+// What the diffuse lobe reflects of light that it gets through the layer at this cosine with the half vector.
+FN vec3 diffuse_reflectance(IN(MaterialRecord) m, real cosine) {
+    return base_color(m) * (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+}
+
+// Smooth lobes: what goes where.
+struct Border {
+    vec3 reflected;         // by the mirror lobe
+    vec3 transmitted;
+    real eta;               // index of wi's side over that of wo's side; 1 through thin walls
+    real cosine_refracted;
+};
+
+// Solids: Fresnel's equations, scaled by the specular extension's factors unless all is reflected.
+FN Border bsdf_border(IN(MaterialRecord) m, real cosine, bool front) {
+    Border border;
+    border.eta = real(1.0);
+    border.cosine_refracted = cosine;
+    border.reflected = roughness_is_delta(m) ? layer_reflectance(m, cosine) : vec3(real(0.0));
+    if (!is_solid(m)) {
+        border.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+        return border;
+    }
+    vec3 reflectance = vec3(real(1.0));
+    if (m.ior > float32(0.0)) {
+        border.eta = front ? real(m.ior) : real(1.0) / real(m.ior);
+        real fresnel = fresnel_dielectric(cosine, border.eta, border.cosine_refracted);
+        if (border.cosine_refracted > real(0.0)) {
+            reflectance = min(vec3(m.specular_r, m.specular_g, m.specular_b) * fresnel, vec3(real(1.0))) * real(m.specular);
+        }
+    }
+    border.reflected = border.reflected + reflectance * clear_share(m);
+    border.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
+    return border;
+}
+
+// Which lobes the material has.
 FN uint bsdf_lobes(IN(MaterialRecord) m) {
-    real metallic = real(m.metallic);
-    real transmission = real(m.transmission);
     uint lobes = 0u;
-    if (metallic < real(1.0) && transmission < real(1.0)) {
+    bool colored = max_component(base_color(m)) > real(0.0);
+    if (colored && opaque_share(m) > real(0.0)) {
         lobes |= LOBE_DIFFUSE;
     }
-    if (metallic < real(1.0) && transmission > real(0.0)) {
-        lobes |= LOBE_TRANSMIT | LOBE_MIRROR;
+    if (m.metallic > float32(0.0) || (m.specular > float32(0.0) && (opaque_share(m) > real(0.0) || !is_solid(m)))) {
+        lobes |= roughness_is_delta(m) ? LOBE_MIRROR : LOBE_GLOSSY;
     }
-    if (metallic > real(0.0) || m.specular > float32(0.0)) {
-        lobes |= is_smooth(m) ? LOBE_MIRROR : LOBE_GLOSSY;
+    if (colored && clear_share(m) > real(0.0)) {
+        lobes |= LOBE_TRANSMIT;
+    }
+    if (is_solid(m)) {
+        lobes |= LOBE_MIRROR;
     }
     return lobes;
 }
 
-// Shares of the dielectric that is opaque and of that which transmits.
-FN real opaque_share(IN(MaterialRecord) m) { return (real(1.0) - real(m.metallic)) * (real(1.0) - real(m.transmission)); }
-FN real clear_share(IN(MaterialRecord) m) { return (real(1.0) - real(m.metallic)) * real(m.transmission); }
-
-// What the specular layer reflects for a microfacet at this cosine; the transmitting share's layer is smooth, and left
-// to the mirror lobe.
-FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
-    return metal_fresnel(m, cosine) * real(m.metallic) + dielectric_fresnel(m, cosine) * opaque_share(m);
-}
-
-// Reflectance and refracted cosine of the transmitting share. An index of 0 reflects all. Solids: Fresnel's equations,
-// scaled by the specular factor where light comes from outside, as KHR_materials_specular scales the layer.
-FN real clear_reflectance(IN(MaterialRecord) m, real cosine, bool front, OUT(real) eta, OUT(real) cosine_refracted) {
-    eta = real(1.0);
-    cosine_refracted = cosine;
-    if (!(m.ior > float32(0.0))) {
-        return real(1.0);
-    }
-    eta = front || !is_solid(m) ? real(m.ior) : real(1.0) / real(m.ior);
-    real reflectance = fresnel_dielectric(cosine, eta, cosine_refracted);
-    return cosine_refracted > real(0.0) ? reflectance * real(m.specular) : real(1.0);
-}
-
-// Reflectance of each lobe for wo, to choose between lobes; exact for mirror and transmission.
+// About what the lobes of the mask scatter of light from wo, exactly for mirror and transmit. front: wo is on the side
+// from which the triangle's vertices run counter-clockwise, the outside of a solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
-    vec3 layer = layer_reflectance(m, wo.z);
     if ((lobes & LOBE_DIFFUSE) != 0u) {
-        albedo += base_color(m) * (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, wo.z))));
+        // Between wo and most of the hemisphere the half vector is never far from either: little more than f0.
+        albedo += diffuse_reflectance(m, real(1.0));
     }
-    if ((lobes & LOBE_GLOSSY) != 0u) {
-        albedo += layer;
+    if ((lobes & LOBE_GLOSSY) != 0u && !roughness_is_delta(m)) {
+        albedo += layer_reflectance(m, wo.z);
     }
-    if ((lobes & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0u) {
-        real eta, cosine_refracted;
-        real reflected = clear_reflectance(m, wo.z, front, eta, cosine_refracted);
-        if ((lobes & LOBE_MIRROR) != 0u) {
-            albedo += vec3(reflected * clear_share(m)) + (is_smooth(m) ? layer : vec3(real(0.0)));
-        }
-        if ((lobes & LOBE_TRANSMIT) != 0u) {
-            albedo += base_color(m) * ((real(1.0) - reflected) * clear_share(m));
-        }
+    if ((lobes & LOBES_DELTA) != 0u) {
+        Border border = bsdf_border(m, wo.z, front);
+        albedo += (lobes & LOBE_MIRROR) != 0u ? border.reflected : vec3(real(0.0));
+        albedo += (lobes & LOBE_TRANSMIT) != 0u ? border.transmitted : vec3(real(0.0));
     }
     return albedo;
 }
 
-// Sum of the diffuse and glossy lobes of the mask, without cosine [1/sr].
-FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
+// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy one, and either of the smooth ones; all 0 if
+// the mask has no lobe. They must not depend on the side of wo, which bsdf_pdf does not know: a solid's border counts
+// with its whole share.
+FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
+    uint present = lobes & bsdf_lobes(m);
+    vec3 p = vec3(real(0.0));
+    vec3 layer = layer_reflectance(m, cosine);
+    if ((present & LOBE_DIFFUSE) != 0u) {
+        p.x = mean_component(diffuse_reflectance(m, real(1.0)));
+    }
+    if ((present & LOBE_GLOSSY) != 0u) {
+        p.y = mean_component(layer);
+    }
+    if ((present & LOBE_MIRROR) != 0u && roughness_is_delta(m)) {
+        p.z = mean_component(layer);
+    }
+    if ((present & LOBES_DELTA) != 0u && (is_solid(m) || (present & LOBE_TRANSMIT) != 0u)) {
+        p.z += clear_share(m) * max(mean_component(base_color(m)), real(0.04));
+    }
+    real sum = p.x + p.y + p.z;
+    return sum > real(0.0) ? p / sum : p;
+}
+
+// Diffuse and glossy lobes of the mask without cosine [1/sr], and the density of wi for these probabilities of theirs.
+FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, vec3 probabilities, OUT(real) pdf) {
     vec3 f = vec3(real(0.0));
-    if (!(wo.z > real(0.0)) || !(wi.z > real(0.0))) {
+    pdf = real(0.0);
+    vec3 h = wo + wi;
+    real h2 = dot3(h, h);
+    if (!(wo.z > real(0.0)) || !(wi.z > real(0.0)) || !(h2 > real(0.0))) {
         return f;
     }
-    vec3 h = wo + wi;
-    h = h / sqrt(dot(h, h));    // both lie above the surface, their sum is not zero
-    real cosine = clamp(dot(wo, h), real(0.0), real(1.0));
+    real cosine = min(real(0.5) * sqrt(h2), real(1.0));     // between wo (or wi) and the half vector
     if ((lobes & LOBE_DIFFUSE) != 0u) {
-        f += base_color(m) * (INV_PI * opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+        f = diffuse_reflectance(m, cosine) * INV_PI;
+        pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
     }
-    if ((lobes & LOBE_GLOSSY) != 0u && !is_smooth(m)) {
+    if ((lobes & LOBE_GLOSSY) != 0u && !roughness_is_delta(m)) {
         real alpha = ggx_alpha(m);
-        real d = ggx_d(alpha, h.z) * ggx_g2(alpha, wo, wi) / (real(4.0) * max(wo.z * wi.z, real(1e-20)));
-        f += layer_reflectance(m, cosine) * d;
+        real distribution = ggx_distribution(alpha, h, h2);
+        f += layer_reflectance(m, cosine) * (distribution * ggx_visibility(alpha, wo.z, wi.z));
+        pdf += probabilities.y * ggx_reflection_pdf(alpha, distribution, wo.z);
     }
     return f;
 }
 
-// Probability of the diffuse lobe where it and the glossy one are chosen between.
-FN real diffuse_probability(IN(MaterialRecord) m, vec3 wo, uint lobes) {
-    real diffuse = (lobes & LOBE_DIFFUSE) != 0u ? max_component(bsdf_albedo(m, wo, true, LOBE_DIFFUSE)) : real(0.0);
-    real glossy = (lobes & LOBE_GLOSSY) != 0u ? max_component(bsdf_albedo(m, wo, true, LOBE_GLOSSY)) : real(0.0);
-    real sum = diffuse + glossy;
-    if (!(sum > real(0.0))) {
-        return (lobes & LOBE_DIFFUSE) != 0u ? real(1.0) : real(0.0);
-    }
-    return diffuse / sum;
+FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
+    real pdf;
+    return bsdf_eval_and_pdf(m, wo, wi, lobes, vec3(real(0.0)), pdf);
 }
 
-// Solid-angle density with which bsdf_sample, asked for diffuse and glossy lobes alone, gives wi.
+// Solid-angle density with which bsdf_sample, given this mask, returns wi by way of a diffuse or glossy lobe.
 FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
-    if (!(wo.z > real(0.0)) || !(wi.z > real(0.0))) {
-        return real(0.0);
-    }
-    real diffuse = diffuse_probability(m, wo, lobes);
-    real pdf = diffuse * wi.z * INV_PI;
-    if ((lobes & LOBE_GLOSSY) != 0u && !is_smooth(m)) {
-        vec3 h = wo + wi;
-        h = h / sqrt(dot(h, h));
-        pdf += (real(1.0) - diffuse) * ggx_reflection_pdf(ggx_alpha(m), wo, h);
-    }
+    real pdf;
+    bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
     return pdf;
 }
 
-// Samples a direction among the lobes of the mask; u.x chooses the lobe, u.y and u.z the direction. front: wo is on the
-// side from which the triangle runs counter-clockwise, the outside of a solid. False where nothing is scattered.
+// Chooses mirror or transmit by u in [0, 1); probability: that either is asked for.
+FN bool sample_border(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u, real probability,
+                      INOUT(BsdfSample) s) {
+    Border border = bsdf_border(m, wo.z, front);
+    real reflected = (lobes & LOBE_MIRROR) != 0u ? mean_component(border.reflected) : real(0.0);
+    real transmitted = (lobes & LOBE_TRANSMIT) != 0u ? mean_component(border.transmitted) : real(0.0);
+    real sum = reflected + transmitted;
+    if (!(sum > real(0.0))) {
+        return false;
+    }
+    if (u * sum < reflected) {
+        s.lobe = LOBE_MIRROR;
+        s.wi = vec3(-wo.x, -wo.y, wo.z);
+        s.weight = border.reflected * (sum / (reflected * probability));
+        return true;
+    }
+    if (!(transmitted > real(0.0))) {
+        return false;
+    }
+    s.lobe = LOBE_TRANSMIT;
+    s.wi = vec3(-wo.x / border.eta, -wo.y / border.eta, -border.cosine_refracted);
+    s.weight = border.transmitted * (sum / (transmitted * probability));
+    s.eta_scale = real(1.0) / (border.eta * border.eta);
+    return true;
+}
+
+// Samples a direction by the lobes of the mask; u.x chooses the lobe, u.y and u.z the direction, u.w is not used. False
+// where the light is absorbed.
 FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 u, OUT(BsdfSample) s) {
     s.wi = vec3(real(0.0), real(0.0), real(1.0));
     s.weight = vec3(real(0.0));
     s.pdf = real(0.0);
     s.lobe = 0u;
     s.eta_scale = real(1.0);
-    uint available = lobes & bsdf_lobes(m);
-    uint rough = available & (LOBE_DIFFUSE | LOBE_GLOSSY);
-    real rough_weight = rough != 0u ? max_component(bsdf_albedo(m, wo, front, rough)) : real(0.0);
-    real mirror_weight = max_component(bsdf_albedo(m, wo, front, available & LOBE_MIRROR));
-    real transmit_weight = max_component(bsdf_albedo(m, wo, front, available & LOBE_TRANSMIT));
-    real sum = rough_weight + mirror_weight + transmit_weight;
-    if (!(wo.z > real(0.0)) || !(sum > real(0.0))) {
+    vec3 p = lobe_probabilities(m, wo.z, lobes);
+    if (!(wo.z > real(0.0)) || !(p.x + p.y + p.z > real(0.0))) {
         return false;
     }
-    real choice = u.x * sum;
-    if (choice < rough_weight) {
-        real probability = rough_weight / sum;
-        real diffuse = diffuse_probability(m, wo, rough);
-        if (choice < diffuse * rough_weight) {
-            s.wi = sample_cosine_hemisphere(vec2(u.y, u.z));
-            s.lobe = LOBE_DIFFUSE;
-        } else {
-            vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));
-            s.wi = h * (real(2.0) * dot(wo, h)) - wo;
-            s.lobe = LOBE_GLOSSY;
-        }
-        if (!(s.wi.z > real(0.0))) {
-            return false;
-        }
-        real pdf = bsdf_pdf(m, wo, s.wi, rough);
-        s.pdf = pdf * probability;
-        if (rough == LOBE_DIFFUSE && m.specular == float32(0.0)) {
-            s.weight = base_color(m) * (opaque_share(m) / probability);   // cosine and density cancel, exactly
-        } else {
-            s.weight = pdf > real(0.0) ? bsdf_eval(m, wo, s.wi, rough) * (s.wi.z / s.pdf) : vec3(real(0.0));
-        }
-        return max_component(s.weight) > real(0.0);
+    real rough = p.x + p.y;
+    if (p.z > real(0.0) && u.x >= rough) {
+        // What is left of u.x is uniform again.
+        real left = min((u.x - rough) / p.z, real(0.99999994));
+        return sample_border(m, wo, front, lobes, left, p.z, s);
     }
-    if (choice < rough_weight + mirror_weight || transmit_weight == real(0.0)) {
-        s.wi = vec3(-wo.x, -wo.y, wo.z);
-        s.weight = bsdf_albedo(m, wo, front, LOBE_MIRROR) * (sum / mirror_weight);
-        s.lobe = LOBE_MIRROR;
-        return mirror_weight > real(0.0);
+    if (u.x < p.x || !(p.y > real(0.0))) {
+        s.lobe = LOBE_DIFFUSE;
+        s.wi = sample_cosine_hemisphere(vec2(u.y, u.z));
+    } else {
+        s.lobe = LOBE_GLOSSY;
+        vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));
+        s.wi = h * (real(2.0) * dot3(wo, h)) - wo;
     }
-    real eta, cosine_refracted;
-    clear_reflectance(m, wo.z, front, eta, cosine_refracted);
-    s.wi = -wo;
-    if (is_solid(m)) {
-        s.wi = vec3(-wo.x / eta, -wo.y / eta, -cosine_refracted);
-        s.eta_scale = real(1.0) / (eta * eta);
+    if (!(s.wi.z > real(0.0))) {
+        return false;   // reflected into the surface: what a single scattering loses
     }
-    s.weight = bsdf_albedo(m, wo, front, LOBE_TRANSMIT) * (sum / transmit_weight);
-    s.lobe = LOBE_TRANSMIT;
+    vec3 f = bsdf_eval_and_pdf(m, wo, s.wi, lobes, p, s.pdf);
+    if (!(s.pdf > real(0.0))) {
+        return false;
+    }
+    if (p.x == real(1.0)) {
+        vec3 sum = wo + s.wi;
+        s.weight = diffuse_reflectance(m, min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0)));  // the rest cancels, exactly
+    } else {
+        s.weight = f * (s.wi.z / s.pdf);
+    }
     return true;
 }
 

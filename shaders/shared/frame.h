@@ -5,14 +5,15 @@
 
 ARGAND_SHARED_BEGIN
 
+// An orthonormal, right-handed basis.
 struct Frame {
-    vec3 x, y, z;   // orthonormal
+    vec3 x, y, z;
 };
 
-// A frame around the unit vector z (Duff et al. 2017, "Building an orthonormal basis, revisited").
+// A frame around the unit vector z (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 FN Frame make_frame(vec3 z) {
     real s = z.z >= real(0.0) ? real(1.0) : real(-1.0);
-    real a = real(-1.0) / (s + z.z);    // |s + z.z| is at least 1
+    real a = real(-1.0) / (s + z.z);    // the sum's size is at least 1
     real b = z.x * z.y * a;
     Frame f;
     f.x = vec3(real(1.0) + s * z.x * z.x * a, s * b, -s * z.x);
@@ -21,60 +22,81 @@ FN Frame make_frame(vec3 z) {
     return f;
 }
 
-FN vec3 to_world(Frame f, vec3 v) { return f.x * v.x + f.y * v.y + f.z * v.z; }
-FN vec3 to_local(Frame f, vec3 v) { return vec3(dot(f.x, v), dot(f.y, v), dot(f.z, v)); }
+FN vec3 to_world(IN(Frame) f, vec3 v) { return f.x * v.x + f.y * v.y + f.z * v.z; }
+FN vec3 to_local(IN(Frame) f, vec3 v) { return vec3(dot3(f.x, v), dot3(f.y, v), dot3(f.z, v)); }
 
-// Density cos θ / π over the hemisphere around +z.
-FN vec3 sample_cosine_hemisphere(vec2 u) {
-    real s, c;
-    sincos_2pi(u.x, s, c);
-    real r = sqrt(u.y);
-    return vec3(r * c, r * s, safe_sqrt(real(1.0) - u.y));
+// All samplers take u in [0, 1)². Radius (of either sign) and angle (in turns) of a point of density 1/pi in the unit
+// disc; squares become rings, which keeps neighbours together (Shirley and Chiu 1997). The shift by 2^-24 centres
+// to_unit's numbers in their cells, exactly: so no point lies in the very centre, where the angle is undefined, nor on
+// the rim.
+FN real disc_radius(vec2 u, OUT(real) turn) {
+    real a = (real(2.0) * u.x - real(1.0)) + real(5.9604644775390625e-8);
+    real b = (real(2.0) * u.y - real(1.0)) + real(5.9604644775390625e-8);
+    bool wide = abs(a) > abs(b);
+    real r = wide ? a : b;
+    real ratio = r == real(0.0) ? real(0.0) : (wide ? b : a) / r;
+    turn = wide ? ratio * real(0.125) : real(0.25) - ratio * real(0.125);
+    return r;
 }
 
-// Density 1 / 4π over the sphere.
-FN vec3 sample_sphere(vec2 u) {
-    real s, c;
-    sincos_2pi(u.x, s, c);
-    real z = real(1.0) - real(2.0) * u.y;
-    real r = real(2.0) * safe_sqrt(u.y * (real(1.0) - u.y));
-    return vec3(r * c, r * s, z);
-}
-
-// Density 1 / π over the unit disc.
 FN vec2 sample_disc(vec2 u) {
-    real s, c;
-    sincos_2pi(u.x, s, c);
-    real r = sqrt(u.y);
+    real turn, s, c;
+    real r = disc_radius(u, turn);
+    sincos_2pi(turn, s, c);
     return vec2(r * c, r * s);
 }
 
-// A unit vector in 2 × 16 bits (Meyer et al. 2010, "On floating-point normal vectors"); error below 1e-4 rad.
+// Density cos θ / pi over the hemisphere around +z (Malley's method); cos θ is never 0.
+FN vec3 sample_cosine_hemisphere(vec2 u) {
+    real turn, s, c;
+    real r = disc_radius(u, turn);
+    sincos_2pi(turn, s, c);
+    return vec3(r * c, r * s, safe_sqrt((real(1.0) - abs(r)) * (real(1.0) + abs(r))));
+}
+
+FN real cosine_hemisphere_pdf(real cosine) { return max(cosine, real(0.0)) * INV_PI; }
+
+// Density 1 / 4 pi over the sphere.
+FN vec3 sample_sphere(vec2 u) {
+    real s, c;
+    sincos_2pi(u.x, s, c);
+    real r = real(2.0) * safe_sqrt(u.y * (real(1.0) - u.y));
+    return vec3(r * c, r * s, real(1.0) - real(2.0) * u.y);
+}
+
+CONSTANT real UNIFORM_SPHERE_PDF = real(0.079577471545947667884);
+
+// Weights of the second and third vertex of a uniform point in a triangle.
+FN vec2 sample_triangle(vec2 u) {
+    real root = sqrt(u.x);
+    return vec2(root * (real(1.0) - u.y), root * u.y);
+}
+
+// A unit vector on the octahedron, unfolded on a square of 2 × 16 bits (Meyer et al. 2010, "On Floating-Point Normal
+// Vectors"); 32,767 steps on either side of 0, so that the axes are exact. Error below 6.5e-5 rad.
 FN uint pack_unit(vec3 v) {
-    real inverse = real(1.0) / (abs(v.x) + abs(v.y) + abs(v.z));     // the sum is at least 1
+    real inverse = real(1.0) / (abs(v.x) + abs(v.y) + abs(v.z));    // the sum is at least 1
     real x = v.x * inverse;
     real y = v.y * inverse;
     if (v.z < real(0.0)) {
-        real folded_x = (real(1.0) - abs(y)) * (x >= real(0.0) ? real(1.0) : real(-1.0));
-        real folded_y = (real(1.0) - abs(x)) * (y >= real(0.0) ? real(1.0) : real(-1.0));
-        x = folded_x;
-        y = folded_y;
+        real folded = (real(1.0) - abs(y)) * (x >= real(0.0) ? real(1.0) : real(-1.0));
+        y = (real(1.0) - abs(x)) * (y >= real(0.0) ? real(1.0) : real(-1.0));
+        x = folded;
     }
-    // 32,767 steps on either side of 0, so that the axes are exact.
     uint px = uint(floor(x * real(32767.0) + real(32768.5)));
     uint py = uint(floor(y * real(32767.0) + real(32768.5)));
-    return px | (py << 16);
+    return px | (py << 16u);
 }
 
 FN vec3 unpack_unit(uint p) {
     real x = (real(p & 0xffffu) - real(32768.0)) / real(32767.0);
-    real y = (real(p >> 16) - real(32768.0)) / real(32767.0);
+    real y = (real(p >> 16u) - real(32768.0)) / real(32767.0);
     real z = real(1.0) - abs(x) - abs(y);
     real fold = max(-z, real(0.0));
     x += x >= real(0.0) ? -fold : fold;
     y += y >= real(0.0) ? -fold : fold;
     vec3 v = vec3(x, y, z);
-    return v / sqrt(dot(v, v));     // on the octahedron, at least 1/√3 from its centre
+    return v / sqrt(dot3(v, v));    // at least 1/sqrt(3) from the octahedron's centre
 }
 
 ARGAND_SHARED_END

@@ -1,3 +1,6 @@
+// Isotropic GGX microfacets (Walter et al. 2007) with Smith's height-correlated masking (Heitz 2014), in a frame whose
+// z is the surface's normal, for directions above the surface (z > 0) and alpha > 0. Nothing here divides by a cosine:
+// grazing directions are as good as others.
 #ifndef ARGAND_SHARED_GGX_H
 #define ARGAND_SHARED_GGX_H
 
@@ -5,45 +8,40 @@
 
 ARGAND_SHARED_BEGIN
 
-// Isotropic GGX microfacets with Smith's height-correlated masking; directions in the shading frame, z > 0.
+// Density of normals along h, of any length, whose squared length is h2 > 0. With the tangent's components, not with
+// 1 - cos², which has no digits left near the peak.
+FN real ggx_distribution(real alpha, vec3 h, real h2) {
+    real r = h2 / ((h.x * h.x + h.y * h.y) / (alpha * alpha) + h.z * h.z);
+    return r * r * INV_PI / (alpha * alpha);
+}
 
-// Density of microfacet normals m, per projected area.
-FN real ggx_d(real alpha, real cosine) {
+// cos θ (1 + 2 Λ), of which masking is made.
+FN real ggx_masked_cosine(real alpha, real cosine) {
     real a2 = alpha * alpha;
-    // Written so that no difference of nearly equal numbers is formed near the peak: sin² + a² cos².
-    real t = max(real(0.0), real(1.0) - cosine * cosine) + a2 * cosine * cosine;
-    return a2 * INV_PI / max(t * t, real(1e-30));
+    return sqrt(a2 + (real(1.0) - a2) * cosine * cosine);
 }
 
-FN real ggx_lambda(real alpha, vec3 w) {
-    real tangent2 = max(real(0.0), real(1.0) - w.z * w.z) / max(w.z * w.z, real(1e-20));
-    return real(0.5) * (sqrt(real(1.0) + alpha * alpha * tangent2) - real(1.0));
+// Masking and shadowing over 4 cos θo cos θi, by which distribution and Fresnel's factor are multiplied.
+FN real ggx_visibility(real alpha, real cosine_o, real cosine_i) {
+    return real(0.5) / (cosine_i * ggx_masked_cosine(alpha, cosine_o) + cosine_o * ggx_masked_cosine(alpha, cosine_i));
 }
 
-// Share of the microfacets facing wo that wo sees.
-FN real ggx_g1(real alpha, vec3 wo) { return real(1.0) / (real(1.0) + ggx_lambda(alpha, wo)); }
-
-FN real ggx_g2(real alpha, vec3 wo, vec3 wi) {
-    return real(1.0) / (real(1.0) + ggx_lambda(alpha, wo) + ggx_lambda(alpha, wi));
-}
-
-// A microfacet normal among those that wo sees (Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical
-// caps").
+// Unit normal of a microfacet, in proportion to what wo sees of it (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
+// with Spherical Caps").
 FN vec3 ggx_sample_normal(real alpha, vec3 wo, vec2 u) {
     vec3 stretched = vec3(wo.x * alpha, wo.y * alpha, wo.z);
-    stretched = stretched / sqrt(dot(stretched, stretched));    // z > 0
+    stretched = stretched / sqrt(dot3(stretched, stretched));   // at least alpha long
     real s, c;
     sincos_2pi(u.x, s, c);
     real z = (real(1.0) - u.y) * (real(1.0) + stretched.z) - stretched.z;
-    real r = safe_sqrt(real(1.0) - z * z);
-    vec3 h = vec3(r * c, r * s, z) + stretched;
-    vec3 m = vec3(h.x * alpha, h.y * alpha, max(h.z, real(1e-7)));
-    return m / sqrt(dot(m, m));
+    real r = safe_sqrt((real(1.0) - z) * (real(1.0) + z));
+    vec3 h = vec3((r * c + stretched.x) * alpha, (r * s + stretched.y) * alpha, max(z + stretched.z, real(1e-12)));
+    return h / sqrt(dot3(h, h));
 }
 
-// Density of the direction into which the normal sampled above reflects wo.
-FN real ggx_reflection_pdf(real alpha, vec3 wo, vec3 m) {
-    return ggx_g1(alpha, wo) * ggx_d(alpha, m.z) / (real(4.0) * max(wo.z, real(1e-10)));
+// Solid-angle density of wo mirrored at such a normal, from the distribution at the half vector.
+FN real ggx_reflection_pdf(real alpha, real distribution, real cosine_o) {
+    return real(0.5) * distribution / (cosine_o + ggx_masked_cosine(alpha, cosine_o));
 }
 
 ARGAND_SHARED_END

@@ -9,18 +9,18 @@ CONSTANT uint light_point = 0u;
 CONSTANT uint light_spot = 1u;
 CONSTANT uint light_directional = 2u;
 CONSTANT uint light_triangle = 3u;
-CONSTANT uint light_sky = 4u;
+CONSTANT uint light_sky = 4u;           // the same radiance from all directions
 
-// A light of any kind.
+// A light of any kind. Lanes of 16 bytes.
 struct LightRecord {
     float32 x, y, z;            // position (point, spot) or first vertex (triangle)
     uint kind;
-    float32 r, g, b;            // intensity [cd], irradiance [lux] (directional), radiance [cd/m²] (triangle, sky)
+    float32 r, g, b;            // intensity [cd] (point, spot), irradiance [lux] (directional), radiance [cd/m²]
     float32 cos_inner;          // spot
-    float32 dx, dy, dz;         // unit, the way the light goes (spot, directional), or second vertex
+    float32 dx, dy, dz;         // unit, the way the light goes (spot, directional), or second vertex (triangle)
     float32 cos_outer;          // spot
-    float32 ex, ey, ez;         // third vertex
-    uint double_sided;          // triangle
+    float32 ex, ey, ez;         // third vertex (triangle)
+    uint double_sided;          // triangle: emits from its back as well
 };
 
 ARGAND_SHARED_END

@@ -1,8 +1,10 @@
+// Lights seen from a point, and photons leaving them. Units of glTF: a point light of I candela has radiant intensity I.
 #ifndef ARGAND_SHARED_LIGHTS_H
 #define ARGAND_SHARED_LIGHTS_H
 
 #include "shared/frame.h"
 #include "shared/geometry_records.h"
+#include "shared/intersect.h"
 #include "shared/light_record.h"
 
 ARGAND_SHARED_BEGIN
@@ -10,184 +12,198 @@ ARGAND_SHARED_BEGIN
 // A direction from a point towards a light.
 struct LightSample {
     vec3 wi;
-    real distance;      // to the light, a little less where it is a surface
-    vec3 radiance;      // arriving, divided by the density of the sample (among samples of this light)
+    real distance;      // free of obstacles if the light is seen; of a surface a little less than its distance
+    vec3 radiance;      // arriving, over the density of the sample; for lights without extent, irradiance across wi
     real pdf;           // solid-angle density; 0 for lights without extent
-    bool delta;         // a light without extent: no other way finds it
+    bool delta;         // a light without extent, which no other way of sampling finds
 };
-
-// Where shadow rays end short of an emitter, so that they do not meet it.
-CONSTANT real shadow_share = real(0.9999);
 
 FN vec3 light_color(IN(LightRecord) l) { return vec3(l.r, l.g, l.b); }
 FN vec3 light_position(IN(LightRecord) l) { return vec3(l.x, l.y, l.z); }
 FN vec3 light_direction(IN(LightRecord) l) { return vec3(l.dx, l.dy, l.dz); }
 
+// The ramp of a spot's falloff runs from cos_outer to this cosine. KHR_lights_punctual keeps it at least 0.001 wide, so
+// that a narrow cone's may end beyond 1.
+FN real spot_ramp_end(real cos_inner, real cos_outer) { return cos_outer + max(cos_inner - cos_outer, real(0.001)); }
+
 // Share of a spot's intensity at this angle from its axis: KHR_lights_punctual, "Inner and Outer Cone Angles".
 FN real spot_falloff(real cosine, real cos_inner, real cos_outer) {
-    real x = clamp((cosine - cos_outer) / max(cos_inner - cos_outer, real(0.001)), real(0.0), real(1.0));
+    real x = (cosine - cos_outer) / (spot_ramp_end(cos_inner, cos_outer) - cos_outer);
+    x = clamp(x, real(0.0), real(1.0));
     return x * x;
 }
 
-// The falloff's integral over all directions [sr].
-FN real spot_solid_angle(real cos_inner, real cos_outer) {
-    // Where the ramp is cut short by the least width of 0.001, it would end at a cosine above the inner one's.
-    real full = cos_outer + max(cos_inner - cos_outer, real(0.001));
-    real top = min(full, real(1.0));
-    real share = (top - cos_outer) / (full - cos_outer);
-    return real(2.0) * PI * ((full - cos_outer) * share * share * share / real(3.0) + (real(1.0) - top));
+// The falloff's integral over directions [sr]: of the ramp (to its end or to the axis), and of the full cone within it.
+// ramp_share: how much of the ramp there is.
+FN real spot_solid_angles(real cos_inner, real cos_outer, OUT(real) ramp, OUT(real) ramp_share) {
+    real end = spot_ramp_end(cos_inner, cos_outer);
+    ramp_share = min((real(1.0) - cos_outer) / (end - cos_outer), real(1.0));
+    ramp = real(2.0) * PI * (end - cos_outer) * ramp_share * ramp_share * ramp_share / real(3.0);
+    return ramp + real(2.0) * PI * max(real(1.0) - end, real(0.0));
 }
 
-// A uniform point's weights of the second and third vertex of a triangle.
-FN vec2 sample_triangle(vec2 u) {
-    real root = sqrt(u.x);
-    return vec2(root * (real(1.0) - u.y), root * u.y);
+// Unit normal of a triangle's front and its area; (0,0,0) and 0 if it has none.
+FN vec3 light_normal(IN(LightRecord) l, OUT(real) area) {
+    vec3 edge1 = vec3(l.dx, l.dy, l.dz) - light_position(l);
+    vec3 edge2 = vec3(l.ex, l.ey, l.ez) - light_position(l);
+    real length1, length2;
+    vec3 unit1 = unit_and_length(edge1, length1);
+    vec3 unit2 = unit_and_length(edge2, length2);
+    vec3 n = unit_and_length(cross3(unit1, unit2), area);   // the sine between the edges so far
+    area = real(0.5) * area * length1 * length2;
+    return n;
 }
 
-// Edges' cross product: along the normal, twice the area long.
-FN vec3 light_cross(IN(LightRecord) l) {
-    return cross(vec3(l.dx, l.dy, l.dz) - light_position(l), vec3(l.ex, l.ey, l.ez) - light_position(l));
-}
+FN real light_sides(IN(LightRecord) l) { return l.double_sided != 0u ? real(2.0) : real(1.0); }
 
-FN vec3 triangle_point(IN(LightRecord) l, vec2 u) {
-    vec2 b = sample_triangle(u);
-    return light_position(l) * (real(1.0) - b.x - b.y) + vec3(l.dx, l.dy, l.dz) * b.x + vec3(l.ex, l.ey, l.ez) * b.y;
-}
-
-// Power that a light sends into a scene with this bounding sphere: I times solid angle, E·πr², πLA, 4π·πr²·L.
+// Power that a light sends into a scene with this bounding sphere: I times solid angle, E·pi r², pi L A, 4 pi·pi r²·L.
 FN vec3 light_power(IN(LightRecord) l, real radius) {
+    real factor;
     if (l.kind == light_point) {
-        return light_color(l) * (real(4.0) * PI);
+        factor = real(4.0) * PI;
+    } else if (l.kind == light_spot) {
+        real ramp, ramp_share;
+        factor = spot_solid_angles(real(l.cos_inner), real(l.cos_outer), ramp, ramp_share);
+    } else if (l.kind == light_directional) {
+        factor = PI * radius * radius;
+    } else if (l.kind == light_sky) {
+        factor = real(4.0) * PI * PI * radius * radius;
+    } else {
+        real area;
+        light_normal(l, area);
+        factor = PI * area * light_sides(l);
     }
-    if (l.kind == light_spot) {
-        return light_color(l) * spot_solid_angle(real(l.cos_inner), real(l.cos_outer));
-    }
-    if (l.kind == light_directional) {
-        return light_color(l) * (PI * radius * radius);
-    }
-    if (l.kind == light_sky) {
-        return light_color(l) * (real(4.0) * PI * PI * radius * radius);
-    }
-    vec3 c = light_cross(l);
-    real area = real(0.5) * sqrt(dot(c, c));
-    return light_color(l) * (PI * area * (l.double_sided != 0u ? real(2.0) : real(1.0)));
+    return light_color(l) * factor;
 }
 
-// Lights are chosen in proportion to their mean power over the channels; this is an emissive triangle's per area and
-// side, which gives its density where a ray has hit it.
+// Mean over the channels of an emissive triangle's power per area and side, for choosing lights in proportion to power.
 FN real light_weight_of_emitter(vec3 radiance) { return PI * mean_component(radiance); }
+
+FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) {
+    real area;
+    vec3 n = light_normal(l, area);
+    vec2 b = sample_triangle(u);
+    vec3 error;
+    vec3 q = hit_point(light_position(l), vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y, error);
+    s.wi = unit_and_length(q - p, s.distance);
+    real cosine = -dot3(s.wi, n);
+    cosine = l.double_sided != 0u ? abs(cosine) : cosine;
+    // Edge-on, or in the triangle's plane but for rounding: no light arrives.
+    if (!(cosine > real(1e-6)) || !(area > real(0.0))) {
+        return false;
+    }
+    real solid_angle = area * cosine / s.distance / s.distance;
+    s.radiance = light_color(l) * solid_angle;
+    s.pdf = real(1.0) / solid_angle;
+    s.delta = false;
+    // The shadow ray starts up to p's error, and its end is up to q's error, off the straight line.
+    vec3 slack = error + abs(p) * error_bound(16);
+    s.distance = max(s.distance - real(2.0) * dot3(abs(n), slack) / cosine, real(0.0)) * (real(1.0) - error_bound(16));
+    return is_finite(s.pdf) && s.pdf > real(0.0);
+}
 
 // Samples a direction from p towards the light. False where none of its light arrives.
 FN bool light_sample(IN(LightRecord) l, vec3 p, vec2 u, OUT(LightSample) s) {
-    s.delta = true;
-    s.pdf = real(0.0);
+    s.wi = -light_direction(l);
     s.distance = real(far_away);
     s.radiance = light_color(l);
-    s.wi = -light_direction(l);
+    s.pdf = real(0.0);
+    s.delta = true;
     if (l.kind == light_directional) {
         return true;
     }
     if (l.kind == light_sky) {
         s.wi = sample_sphere(u);
-        s.delta = false;
-        s.pdf = real(0.25) * INV_PI;
         s.radiance = light_color(l) * (real(4.0) * PI);
+        s.pdf = UNIFORM_SPHERE_PDF;
+        s.delta = false;
         return true;
     }
-    vec3 q = l.kind == light_triangle ? triangle_point(l, u) : light_position(l);
-    vec3 d = q - p;
-    real largest = max(abs(d.x), max(abs(d.y), abs(d.z)));
-    if (!(largest > real(0.0))) {
+    if (l.kind == light_triangle) {
+        return sample_emitter(l, p, u, s);
+    }
+    s.wi = unit_and_length(light_position(l) - p, s.distance);
+    if (!(s.distance > real(0.0))) {
         return false;
     }
-    // Scaled by the largest component, so that squares neither over- nor underflow.
-    vec3 scaled = d / largest;
-    real length_scaled = sqrt(dot(scaled, scaled));
-    s.wi = scaled / length_scaled;
-    s.distance = length_scaled * largest;
-    if (l.kind != light_triangle) {
-        real falloff = l.kind == light_spot
-            ? spot_falloff(-dot(s.wi, light_direction(l)), real(l.cos_inner), real(l.cos_outer)) : real(1.0);
-        s.radiance = light_color(l) * falloff / s.distance / s.distance;
-        return falloff > real(0.0);
+    real share = real(1.0);
+    if (l.kind == light_spot) {
+        share = spot_falloff(-dot3(s.wi, light_direction(l)), real(l.cos_inner), real(l.cos_outer));
     }
-    vec3 c = light_cross(l);
-    real twice_area = sqrt(dot(c, c));
-    real cosine = -dot(s.wi, c) / max(twice_area, real(1e-37));
-    if (cosine < real(0.0) && l.double_sided != 0u) {
-        cosine = -cosine;
-    }
-    if (!(cosine > real(1e-7)) || !(twice_area > real(0.0))) {
-        return false;
-    }
-    s.delta = false;
-    real inverse_pdf = real(0.5) * twice_area * cosine / s.distance / s.distance;
-    s.pdf = real(1.0) / max(inverse_pdf, real(1e-37));
-    s.radiance = light_color(l) * inverse_pdf;
-    s.distance *= shadow_share;
-    return true;
+    s.radiance = light_color(l) * share / s.distance / s.distance;
+    return share > real(0.0) && is_finite3(s.radiance);
 }
 
-// Emits a photon. flux: what it carries if it is the light's only one. normal: of the emitting surface on the photon's
-// side, (0,0,0) if it does not start on one. Directional light and the sky start on a disc that covers the scene.
+// Solid-angle density with which light_sample, at a distance along wi from a point that sees the light's surface of unit
+// normal n there, gives wi; 0 for lights without extent and where the light does not shine.
+FN real light_pdf(IN(LightRecord) l, vec3 wi, real distance, vec3 n) {
+    if (l.kind == light_sky) {
+        return UNIFORM_SPHERE_PDF;
+    }
+    real cosine = -dot3(wi, n);
+    cosine = l.double_sided != 0u ? abs(cosine) : cosine;
+    if (l.kind != light_triangle || !(cosine > real(1e-6))) {
+        return real(0.0);
+    }
+    real area;
+    light_normal(l, area);
+    return area > real(0.0) ? distance / (area * cosine) * distance : real(0.0);
+}
+
+// Direction of a spot's photon, exactly in proportion to the falloff. On the ramp, where it grows with the square of the
+// distance from the outer cosine, that distance is the largest of three uniform numbers.
+FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
+    real cos_inner = real(l.cos_inner);
+    real cos_outer = real(l.cos_outer);
+    real ramp, ramp_share;
+    real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
+    real end = spot_ramp_end(cos_inner, cos_outer);
+    real below = (real(1.0) - end) * u.z;                       // 1 - cos θ, in the full cone
+    if (u.x * all < ramp) {
+        below = (real(1.0) - cos_outer) - max(u.z, max(v.x, v.y)) * ramp_share * (end - cos_outer);
+    }
+    below = clamp(below, real(0.0), real(2.0));
+    real s, c;
+    sincos_2pi(u.y, s, c);
+    real sine = safe_sqrt(below * (real(2.0) - below));
+    return to_world(make_frame(light_direction(l)), vec3(sine * c, sine * s, real(1.0) - below));
+}
+
+// Emits a photon. flux: what it carries if it is the light's only one, the light's power. normal: of the emitting surface
+// on the photon's side, (0,0,0) if it does not leave one; the origin has then been moved off the surface already.
+// Directional light and the sky start on a disc that covers the bounding sphere, outside of it.
 FN bool light_emit(IN(LightRecord) l, vec4 u, vec4 v, vec3 center, real radius, OUT(vec3) origin, OUT(vec3) direction,
                    OUT(vec3) normal, OUT(vec3) flux) {
-    normal = vec3(real(0.0));
     origin = light_position(l);
     direction = light_direction(l);
+    normal = vec3(real(0.0));
     flux = light_power(l, radius);
     if (l.kind == light_point) {
         direction = sample_sphere(vec2(u.x, u.y));
         return true;
     }
     if (l.kind == light_spot) {
-        // The falloff x² over its ramp, and 1 over the cap within: both inverted exactly.
-        real cos_outer = real(l.cos_outer);
-        real full = cos_outer + max(real(l.cos_inner) - cos_outer, real(0.001));
-        real top = min(full, real(1.0));
-        real share = (top - cos_outer) / (full - cos_outer);
-        real ramp = (full - cos_outer) * share * share * share / real(3.0);
-        real cap = real(1.0) - top;
-        real chosen = u.x * (ramp + cap);
-        real cosine = top + (chosen - ramp);
-        if (chosen < ramp) {
-            // Cube root of chosen / ramp in [0, 1): by Newton's method from above, for pow differs between drivers.
-            real target = chosen / ramp;
-            real root = real(1.0);
-            for (int i = 0; i < 24; ++i) {
-                root = root - (root * root * root - target) / (real(3.0) * max(root * root, real(1e-20)));
-            }
-            cosine = cos_outer + (top - cos_outer) * max(root, real(0.0));
-        }
-        cosine = min(cosine, real(1.0));
-        real s, c;
-        sincos_2pi(u.y, s, c);
-        real sine = safe_sqrt((real(1.0) - cosine) * (real(1.0) + cosine));
-        direction = to_world(make_frame(light_direction(l)), vec3(sine * c, sine * s, cosine));
+        direction = sample_spot(l, u, vec2(u.w, v.x));
         return true;
     }
-    if (l.kind == light_directional || l.kind == light_sky) {
-        if (l.kind == light_sky) {
-            direction = sample_sphere(vec2(u.x, u.y));
-        }
-        Frame f = make_frame(direction);
-        vec2 d = sample_disc(vec2(u.z, u.w));
-        origin = center + (f.x * d.x + f.y * d.y - f.z) * radius;
-        return true;
+    if (l.kind == light_triangle) {
+        real area;
+        normal = light_normal(l, area);
+        normal = l.double_sided != 0u && v.x < real(0.5) ? -normal : normal;
+        direction = to_world(make_frame(normal), sample_cosine_hemisphere(vec2(u.x, u.y)));
+        vec2 b = sample_triangle(vec2(u.z, u.w));
+        vec3 error;
+        origin = hit_point(origin, vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y, error);
+        origin = offset_ray_origin(origin, error, normal, direction);
+        return area > real(0.0);
     }
-    origin = triangle_point(l, vec2(u.z, u.w));
-    vec3 c = light_cross(l);
-    real length_c = sqrt(dot(c, c));
-    if (!(length_c > real(0.0))) {
-        return false;
+    if (l.kind == light_sky) {
+        direction = sample_sphere(vec2(u.x, u.y));
     }
-    normal = c / length_c;
-    if (l.double_sided != 0u && v.x < real(0.5)) {
-        normal = -normal;
-    }
-    vec3 local = sample_cosine_hemisphere(vec2(u.x, u.y));
-    direction = to_world(make_frame(normal), local);
-    return local.z > real(0.0);
+    Frame f = make_frame(direction);
+    vec2 d = sample_disc(vec2(u.z, u.w));
+    origin = center + (f.x * d.x + f.y * d.y - f.z * real(1.001)) * radius;
+    return true;
 }
 
 ARGAND_SHARED_END

@@ -5,11 +5,11 @@
 
 ARGAND_SHARED_BEGIN
 
-// A surface in glTF's terms; see Material in engine/scene/scene.hpp.
+// A surface in glTF's terms; see Material in engine/scene/scene.hpp. Lanes of 16 bytes.
 struct MaterialRecord {
     float32 base_r, base_g, base_b, metallic;
     float32 specular_r, specular_g, specular_b, specular;
-    float32 emission_r, emission_g, emission_b;
+    float32 emission_r, emission_g, emission_b;     // radiance [cd/m²]
     uint double_sided;
     float32 roughness, transmission, ior, thickness;
 };

@@ -1,40 +1,43 @@
 #ifndef ARGAND_SHARED_MATHS_H
 #define ARGAND_SHARED_MATHS_H
 
-#include "shared/prelude.h"
+#include "shared/elementary.h"
 
 ARGAND_SHARED_BEGIN
 
-CONSTANT real PI = real(3.14159265358979323846);
-CONSTANT real INV_PI = real(0.31830988618379067154);
-
 FN real sqr(real x) { return x * x; }
 
-// On the bits, for compilers may assume that isnan is false.
-FN bool is_finite(real x) { return (float_bits(float32(x)) & 0x7f800000u) != 0x7f800000u; }
+FN bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
 FN real max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 FN real mean_component(vec3 v) { return (v.x + v.y + v.z) * real(0.33333333333333333333); }
 
-// Rounding may have made a difference of squares slightly negative.
+// Of linear RGB with the primaries of BT.709.
+FN real luminance(vec3 c) { return real(0.2126) * c.x + real(0.7152) * c.y + real(0.0722) * c.z; }
+
+// For differences of squares, which rounding may have made slightly negative.
 FN real safe_sqrt(real x) { return sqrt(max(x, real(0.0))); }
 
-// Sine and cosine of 2 pi u, for u in [0, 1]: the built-ins differ between drivers. The argument is reduced exactly to
-// an eighth of the circle; there the Taylor series' first left-out term is below 2^-26.
-FN void sincos_2pi(real u, OUT(real) s, OUT(real) c) {
-    real quarter = floor(u * real(4.0) + real(0.5));
-    real x = (u - quarter * real(0.25)) * (real(2.0) * PI);
-    real x2 = x * x;
-    real sine = x * (real(1.0) + x2 * (real(-1.0) / real(6.0) + x2 * (real(1.0) / real(120.0) +
-                x2 * (real(-1.0) / real(5040.0) + x2 * (real(1.0) / real(362880.0) - x2 / real(39916800.0))))));
-    real cosine = real(1.0) + x2 * (real(-0.5) + x2 * (real(1.0) / real(24.0) + x2 * (real(-1.0) / real(720.0) +
-                  x2 * (real(1.0) / real(40320.0) + x2 * (real(-1.0) / real(3628800.0) + x2 / real(479001600.0))))));
-    uint q = uint(quarter) & 3u;
-    s = (q & 1u) != 0u ? cosine : sine;
-    c = (q & 1u) != 0u ? sine : cosine;
-    s = (q & 2u) != 0u ? -s : s;
-    c = (q == 1u || q == 2u) ? -c : c;
+// Products written out: drivers are free in the order in which their built-in ones add.
+FN real dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+FN vec3 cross3(vec3 a, vec3 b) {
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+// Unit vector along v and the length of v; (0,0,0) and 0 where v is zero or not finite. Scaled by the largest component
+// first, so that no square over- or underflows.
+FN vec3 unit_and_length(vec3 v, OUT(real) v_length) {
+    real largest = max_component(abs(v));
+    v_length = real(0.0);
+    if (!is_finite(largest) || !(largest > real(0.0))) {
+        return vec3(real(0.0));
+    }
+    vec3 scaled = v / largest;
+    real scaled_length = sqrt(dot3(scaled, scaled));    // at least 1
+    v_length = scaled_length * largest;
+    return scaled / scaled_length;
 }
 
 ARGAND_SHARED_END

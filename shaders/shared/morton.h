@@ -1,30 +1,89 @@
+// Morton codes: cells of a box numbered by the interleaved bits of their coordinates, x highest.
 #ifndef ARGAND_SHARED_MORTON_H
 #define ARGAND_SHARED_MORTON_H
 
-#include "shared/prelude.h"
+#include "shared/maths.h"
 
 ARGAND_SHARED_BEGIN
 
-// Two zero bits between any two of the lowest ten.
+// Spreads the lowest ten bits to every third place.
 FN uint spread_bits(uint v) {
-    v = (v * 0x00010001u) & 0xff0000ffu;
-    v = (v * 0x00000101u) & 0x0f00f00fu;
-    v = (v * 0x00000011u) & 0xc30c30c3u;
-    v = (v * 0x00000005u) & 0x49249249u;
-    return v;
+    v = v & 0x3ffu;
+    v = (v | (v << 16u)) & 0x030000ffu;
+    v = (v | (v << 8u)) & 0x0300f00fu;
+    v = (v | (v << 4u)) & 0x030c30c3u;
+    return (v | (v << 2u)) & 0x09249249u;
 }
 
-// Cell of x among 1,024 from low to high; a box without extent has one cell.
-FN uint morton_cell(real x, real low, real high) {
+// Cell of x of `cells` between low and high. Outside, the nearest; 0 where there is no extent or x is NaN.
+FN uint morton_cell(real x, real low, real high, real cells) {
     real extent = high - low;
-    real scaled = extent > real(0.0) ? (x - low) / extent * real(1024.0) : real(0.0);
-    return uint(clamp(scaled, real(0.0), real(1023.0)));
+    // Halves, so that a box as large as single precision's range has a finite extent.
+    if (!is_finite(extent)) {
+        x *= real(0.25);
+        low *= real(0.25);
+        extent = high * real(0.25) - low;
+    }
+    if (!(x > low) || !(extent > real(0.0))) {
+        return 0u;
+    }
+    // The quotient is at most about 1, or x lies outside.
+    return uint(min(min((x - low) / extent, real(1.0)) * cells, cells - real(1.0)));
 }
 
-// 30-bit Morton code of a point in a box.
+// 30 bits, ten for each axis.
 FN uint morton30(vec3 p, vec3 low, vec3 high) {
-    return spread_bits(morton_cell(p.x, low.x, high.x)) * 4u + spread_bits(morton_cell(p.y, low.y, high.y)) * 2u +
-           spread_bits(morton_cell(p.z, low.z, high.z));
+    uint x = morton_cell(p.x, low.x, high.x, real(1024.0));
+    uint y = morton_cell(p.y, low.y, high.y, real(1024.0));
+    uint z = morton_cell(p.z, low.z, high.z, real(1024.0));
+    return (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
+}
+
+// 63 bits, 21 for each axis: the low word in x, the high one in y.
+FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
+    uint x = morton_cell(p.x, low.x, high.x, real(2097152.0));
+    uint y = morton_cell(p.y, low.y, high.y, real(2097152.0));
+    uint z = morton_cell(p.z, low.z, high.z, real(2097152.0));
+    uint bottom = (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
+    uint middle = (spread_bits(x >> 10u) << 2u) | (spread_bits(y >> 10u) << 1u) | spread_bits(z >> 10u);
+    uint top = ((x >> 20u) << 2u) | ((y >> 20u) << 1u) | (z >> 20u);
+    return uvec2(bottom | (middle << 30u), (middle >> 2u) | (top << 28u));
+}
+
+// Zero bits above the highest one; 32 for 0.
+FN uint leading_zeros(uint v) {
+    uint n = 0u;
+    if (v == 0u) {
+        return 32u;
+    }
+    if ((v & 0xffff0000u) == 0u) {
+        n += 16u;
+        v = v << 16u;
+    }
+    if ((v & 0xff000000u) == 0u) {
+        n += 8u;
+        v = v << 8u;
+    }
+    if ((v & 0xf0000000u) == 0u) {
+        n += 4u;
+        v = v << 4u;
+    }
+    if ((v & 0xc0000000u) == 0u) {
+        n += 2u;
+        v = v << 2u;
+    }
+    return (v & 0x80000000u) == 0u ? n + 1u : n;
+}
+
+// Length of the common prefix of two codes as if each were followed by its index, which makes equal codes differ (Karras
+// 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees").
+FN uint common_prefix(uint code_a, uint index_a, uint code_b, uint index_b) {
+    return code_a != code_b ? leading_zeros(code_a ^ code_b) : 32u + leading_zeros(index_a ^ index_b);
+}
+
+FN uint common_prefix63(uvec2 code_a, uint index_a, uvec2 code_b, uint index_b) {
+    return code_a.y != code_b.y ? leading_zeros(code_a.y ^ code_b.y)
+                                : 32u + common_prefix(code_a.x, index_a, code_b.x, index_b);
 }
 
 ARGAND_SHARED_END

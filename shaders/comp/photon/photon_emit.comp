@@ -25,11 +25,6 @@ void main() {
     vec3 origin, direction, normal, flux;
     bool emitted = light_emit(light, u, v, scene_center(), scene[0].radius, origin, direction, normal, flux);
     flux = emitted ? flux * (batch.inverse_total / probability) : vec3(0.0);
-    if (normal != vec3(0.0)) {
-        // The point on an emitter is rounded: 4 units in the last place of its coordinates, and of its vertices'.
-        vec3 error = abs(origin) * 5.0e-7 + vec3(scene[0].radius * 1.0e-7);
-        origin = offset_ray_origin(origin, error, normal, direction);
-    }
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -1.0, direction.x, direction.y, direction.z, 0u);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);
     uvec3 units = uvec3(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
