@@ -47,7 +47,7 @@ TEST_F(ReadFile, DoesNotWaitForAPipe) {
 TEST_F(ReadFile, SaysThatPermissionsForbidIt) {
     namespace fs = std::filesystem;
     testing::write_text(directory / "secret", "x");
-    fs::permissions(directory.path(), fs::perms::others_all | fs::perms::owner_all);
+    fs::permissions(directory.path(), fs::perms::all);
     fs::permissions(directory / "secret", fs::perms::none);
     const bool is_root = geteuid() == 0; // who may read everything
     if (is_root) {
