@@ -33,7 +33,6 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
     const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
-    statistics.radius = settings.radius.value_or(default_radius(on_device.surface_area, settings.photons));
 
     EyeWorkspace eye = make_eye_workspace(
         device, settings, camera_record(scene.cameras[settings.camera], settings.width, settings.height), true);
@@ -57,6 +56,12 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                  scene.name, device.info().name);
         }
         const PhotonMap map = build_photon_map(device, on_device, workspace);
+        const auto stored = download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];
+        if (pass == 0) {
+            const double expected = double(stored) * static_cast<double>(photons) /
+                                    static_cast<double>(std::max<std::uint64_t>(emission.count, 1));
+            statistics.radius = settings.radius.value_or(default_radius(on_device.surface_area, expected));
+        }
         const Gather gather = [&](const Count& active) {
             gather_photons(device, on_device, map,
                            {.active = eye.active, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
@@ -69,7 +74,7 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                 return progress((static_cast<double>(pass) + share) / static_cast<double>(passes));
             });
         statistics.photons_emitted += emission.count;
-        statistics.photons_stored += download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];
+        statistics.photons_stored += stored;
         ++statistics.passes;
         add_flux_sums(statistics.flux, download<std::int64_t>(device, workspace.flux_sums, 12), unit);
     }

@@ -18,7 +18,7 @@ struct RenderSettings {
     std::string method = "photons";
     int width = 512;
     int height = 512;
-    std::uint32_t samples = 16;                 ///< eye paths per pixel
+    std::uint32_t samples = 8;                  ///< eye paths per pixel
     std::uint64_t photons = 200'000;            ///< photons emitted in all
     std::uint32_t bounces = 0xffff;             ///< the most scatterings between light and first estimated vertex
     std::optional<double> radius;               ///< of density estimation, in the scene's units

@@ -9,12 +9,14 @@ ARGAND_SHARED_BEGIN
 
 // A unit vector in 2×15 bits with the caustic bit on top; all bits set stand for a slot without a photon.
 CONSTANT uint no_photon = 0xffffffffu;
+CONSTANT uint photon_normal_mask = 0x3fffffffu;
+CONSTANT uint photon_caustic_bit = 0x40000000u;
 
 FN uint pack_photon_normal(vec3 normal, bool caustic) {
     uint packed = pack_unit(normal);
     uint x = (packed & 0xffffu) >> 1;
     uint y = packed >> 17;
-    return x | (y << 15) | (caustic ? 0x40000000u : 0u);
+    return x | (y << 15) | (caustic ? photon_caustic_bit : 0u);
 }
 
 FN vec3 unpack_photon_normal(uint packed) {
@@ -23,7 +25,7 @@ FN vec3 unpack_photon_normal(uint packed) {
     return unpack_unit(x | (y << 16));
 }
 
-FN bool photon_is_caustic(uint packed) { return (packed & 0x40000000u) != 0u; }
+FN bool photon_is_caustic(uint packed) { return (packed & photon_caustic_bit) != 0u; }
 
 // Weight [1/area] of a photon at the squared distance d2 in the tangent plane, of a kernel whose integral over the disc
 // of the squared radius r2 is 1 (Epanechnikov in two dimensions).

@@ -68,9 +68,6 @@ struct GatherRecord {
 // Photons in a leaf of the map.
 CONSTANT uint photons_per_block = 8u;
 
-// Random numbers of photons and of eye paths come from different dimensions.
-CONSTANT uint photon_dimension = 0x40000000u;
-
 // Counters of the photon map, on the device: indices into an array of uint.
 CONSTANT uint counter_active = 0u;          // photons still on their way
 CONSTANT uint counter_stored_slots = 1u;    // slots of the map used so far (a slot may hold no photon)

@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 #include "shared/camera.h"
 #include "shared/geometry_records.h"
 #include "shared/path_records.h"
-#include "shared/random.h"
+#include "shared/sampling.h"
 
 layout(set = 0, binding = 0) readonly buffer Cameras { CameraRecord camera[]; };
 layout(set = 0, binding = 1) writeonly buffer Rays { RayRecord rays[]; };
@@ -21,7 +21,7 @@ void main() {
     }
     uint pixel = batch.first_pixel + interleave(slot / batch.samples, batch.pixels);
     uint sample_index = batch.first_sample + slot % batch.samples;
-    vec4 u = random4(batch.seed, pixel, sample_index, 0u);
+    vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u);
     vec3 origin, direction;
     camera_ray(camera[0], float(pixel % batch.width) + u.x, float(pixel / batch.width) + u.y, origin, direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y, direction.z, 0u);

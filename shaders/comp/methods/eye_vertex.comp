@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 #include "shared/follow.h"
 #include "shared/lights.h"
 #include "shared/query_record.h"
-#include "shared/random.h"
+#include "shared/sampling.h"
 
 layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
 layout(set = 0, binding = 8) readonly buffer Active { uint active_slots[]; };
@@ -46,7 +46,7 @@ float emitter_density(MaterialRecord m, float distance, float cosine) {
 
 void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, Frame frame, MaterialRecord m, vec3 wo,
                   uint estimated, uint followed, float estimated_probability) {
-    vec4 u = random4(batch.seed, path.pixel, path.sample_index, path.vertices * 4u + 1u);
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
     float choice_probability;
     LightRecord light = lights[choose_light(u.x, choice_probability)];
     LightSample s;
@@ -137,7 +137,7 @@ void main() {
         return;
     }
 
-    vec4 u = random4(batch.seed, path.pixel, path.sample_index, path.vertices * 4u + 2u);
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 2u);
     bool takes_estimated = u.w < estimated_probability;
     BsdfSample s;
     uint lobes = takes_estimated ? estimated : followed;
@@ -154,8 +154,9 @@ void main() {
     path.vertices += 1u;
     if (path.vertices >= 3u) {
         float survival = min(max_component(throughput), 0.95);
-        vec4 roulette = random4(batch.seed, path.pixel, path.sample_index, path.vertices * 4u + 3u);
-        if (!(roulette.x < survival)) {
+        // What is left of the number that chose between the lobes is uniform again.
+        float left = takes_estimated ? u.w / probability : (u.w - estimated_probability) / probability;
+        if (!(left < survival)) {
             return;
         }
         throughput /= survival;

@@ -4,7 +4,7 @@ layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "shared/lights.h"
 #include "shared/photon.h"
-#include "shared/random.h"
+#include "shared/sampling.h"
 
 layout(set = 0, binding = 7) writeonly buffer Rays { RayRecord rays[]; };
 layout(set = 0, binding = 8) writeonly buffer Photons { PhotonPathRecord paths[]; };
@@ -18,8 +18,8 @@ void main() {
         return;
     }
     uint photon = batch.first + slot;
-    vec4 u = random4(batch.seed, photon, 0u, photon_dimension);
-    vec4 v = random4(batch.seed, photon, 0u, photon_dimension + 1u);
+    vec4 u = photon_random4(batch.seed, photon, 0u);
+    vec4 v = photon_random4(batch.seed, photon, 1u);
     float probability;
     LightRecord light = lights[choose_light(v.w, probability)];
     vec3 origin, direction, normal, flux;

@@ -39,7 +39,7 @@ void add(inout Sum sum, vec3 term) {
 float squared_distance(LbvhNode node, vec3 p) {
     vec3 outside = max(max(vec3(node.low_x, node.low_y, node.low_z) - p, p - vec3(node.high_x, node.high_y, node.high_z)),
                        vec3(0.0));
-    return dot(outside, outside);
+    return dot3(outside, outside);
 }
 
 void main() {
@@ -70,6 +70,7 @@ void main() {
     bool lambertian = !glossy || bsdf_lobes(m) == LOBE_DIFFUSE;
     vec3 p = vec3(query.x, query.y, query.z);
     vec3 normal = unpack_unit(query.geometric_normal);
+    uint own_normal = pack_photon_normal(normal, false);
     Frame frame = make_frame(unpack_unit(query.shading_normal));
     vec3 wo = to_local(frame, unpack_unit(query.direction));
     vec3 reflectance = lambertian ? bsdf_eval(m, wo, vec3(0.0, 0.0, 1.0), query.lobes) : vec3(0.0);
@@ -92,13 +93,15 @@ void main() {
         for (uint j = n.child * photons_per_block; j < end; ++j) {
             ++step;
             vec3 d = vec3(photons[j].x, photons[j].y, photons[j].z) - p;
-            float height = dot(d, normal);
-            float d2 = dot(d, d) - height * height;
+            float height = dot3(d, normal);
+            float d2 = dot3(d, d) - height * height;
             if (!(d2 < r2) || abs(height) > half_height) {
                 continue;
             }
             uint photon_normal = photons[j].normal;
-            if (dot(unpack_photon_normal(photon_normal), normal) < same_surface_cosine) {
+            // On flat surfaces the packed normals are the same, and nothing need be unpacked.
+            if ((photon_normal & photon_normal_mask) != own_normal &&
+                dot3(unpack_photon_normal(photon_normal), normal) < same_surface_cosine) {
                 continue;
             }
             vec3 term = vec3(photons[j].flux_r, photons[j].flux_g, photons[j].flux_b) * kernel_weight(d2, r2);

@@ -4,7 +4,7 @@ layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "shared/follow.h"
 #include "shared/photon.h"
-#include "shared/random.h"
+#include "shared/sampling.h"
 
 layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
 layout(set = 0, binding = 8) readonly buffer Active { uint active_slots[]; };
@@ -71,7 +71,7 @@ void main() {
         return;
     }
 
-    vec4 u = random4(batch.seed, batch.first + slot, depth + 1u, photon_dimension);
+    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth);
     BsdfSample s;
     vec3 scattered = vec3(0.0);
     if (bsdf_sample(m, wo, surface.front, followed | estimated, u, s)) {
@@ -84,8 +84,7 @@ void main() {
     }
     // Roulette keeps the flux of what goes on about equal.
     float survival = min(max_component(scattered) / max_component(flux), depth < 64u ? 1.0 : 0.95);
-    vec4 roulette = random4(batch.seed, batch.first + slot, depth + 1u, photon_dimension + 1u);
-    if (!(max_component(flux) > 0.0) || !(roulette.x < survival)) {
+    if (!(max_component(flux) > 0.0) || !(u.w < survival)) {
         ledgers[slot].absorbed += units_of(flux);
         return;
     }

@@ -1,0 +1,31 @@
+#ifndef ARGAND_SHARED_SAMPLING_H
+#define ARGAND_SHARED_SAMPLING_H
+
+#include "shared/sobol.h"
+
+ARGAND_SHARED_BEGIN
+
+// Which random numbers a path takes. The first few vertices share quasi-random sequences, where good distribution
+// pays most; further on a hash does as well and is cheaper.
+CONSTANT uint sobol_dimensions = 4u;
+
+// Eye paths: a sequence over the samples of each pixel.
+FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
+    if (dimension < sobol_dimensions) {
+        return sobol_random4(seed, pixel, sample_index, dimension);
+    }
+    return random4(seed, pixel, sample_index, dimension);
+}
+
+// Photons: one sequence over all of them.
+FN vec4 photon_random4(uint seed, uint photon, uint dimension) {
+    const uint of_photons = 0x40000000u;    // no pixel has this number
+    if (dimension < sobol_dimensions) {
+        return sobol_random4(seed, of_photons, photon, dimension);
+    }
+    return random4(seed, photon, of_photons, dimension);
+}
+
+ARGAND_SHARED_END
+
+#endif
