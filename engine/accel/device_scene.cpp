@@ -4,6 +4,7 @@
 #include "shared/follow.h"
 #include "shared/lights.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace argand {
@@ -80,6 +81,18 @@ std::vector<LightRecord> collect_lights(const Scene& scene) {
     return lights;
 }
 
+/// Area of the triangles before each, as a fraction of 2^32 of the whole.
+std::vector<std::uint32_t> area_sums(const Scene& scene, double total) {
+    std::vector<std::uint32_t> sums;
+    sums.reserve(scene.triangles.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        sums.push_back(static_cast<std::uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
+        sum += area(scene, i);
+    }
+    return sums;
+}
+
 std::vector<glm::vec4> padded(const std::vector<glm::vec3>& vectors) {
     std::vector<glm::vec4> result;
     result.reserve(vectors.size());
@@ -149,6 +162,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     result.triangles = upload(device, "triangles", triangles);
     result.materials = upload(device, "materials", materials);
     result.lights = upload(device, "lights", lights);
+    result.area_sums = upload(device, "area sums", area_sums(scene, result.surface_area));
     result.light_choices = upload(device, "light choices", alias_table(weights));
     result.bvh = build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
     return result;

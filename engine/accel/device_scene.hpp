@@ -16,6 +16,7 @@ struct DeviceScene {
     Buffer materials;           ///< MaterialRecord
     Buffer lights;              ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices;       ///< LightChoice per light
+    Buffer area_sums;           ///< uint per triangle: area of all before it, as a fraction of 2^32
     TriangleBvh bvh;
     SceneRecord record;         ///< the host's copy
     double surface_area = 0;    ///< of all triangles

@@ -51,17 +51,20 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                             .count = std::min(per_pass, photons - statistics.photons_emitted),
                             .bounces = settings.bounces};
         const double unit = power / static_cast<double>(per_pass) / units_per_photon;
-        if (!trace_photons(device, on_device, workspace, emission, static_cast<float>(unit))) {
+        const std::optional<StoredPhotons> stored =
+            trace_photons(device, on_device, workspace, emission, static_cast<float>(unit));
+        if (!stored) {
             fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer bounces or photons",
                  scene.name, device.info().name);
         }
-        const PhotonMap map = build_photon_map(device, on_device, workspace);
-        const auto stored = download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];
         if (pass == 0) {
-            const double expected = double(stored) * static_cast<double>(photons) /
+            const double expected = static_cast<double>(stored->photons) * static_cast<double>(photons) /
                                     static_cast<double>(std::max<std::uint64_t>(emission.count, 1));
             statistics.radius = settings.radius.value_or(default_radius(on_device.surface_area, expected));
         }
+        const PhotonMap map =
+            build_photon_map(device, on_device, workspace, *stored,
+                             area_samples(on_device.surface_area, statistics.radius), settings.seed + static_cast<std::uint32_t>(pass));
         const Gather gather = [&](const Count& active) {
             gather_photons(device, on_device, map,
                            {.active = eye.active, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
@@ -74,7 +77,7 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                 return progress((static_cast<double>(pass) + share) / static_cast<double>(passes));
             });
         statistics.photons_emitted += emission.count;
-        statistics.photons_stored += stored;
+        statistics.photons_stored += stored->photons;
         ++statistics.passes;
         add_flux_sums(statistics.flux, download<std::int64_t>(device, workspace.flux_sums, 12), unit);
     }

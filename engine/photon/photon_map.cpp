@@ -1,12 +1,14 @@
 #include "photon/photon_map.hpp"
 
 #include "kernels/flux_sum.hpp"
+#include "kernels/area_samples.hpp"
 #include "kernels/photon_advance.hpp"
 #include "kernels/photon_blocks.hpp"
 #include "kernels/photon_codes.hpp"
 #include "kernels/photon_count.hpp"
 #include "kernels/photon_emit.hpp"
 #include "kernels/photon_scatter.hpp"
+#include "kernels/photon_tally.hpp"
 #include "parallel/compact.hpp"
 #include "parallel/radix_sort.hpp"
 #include "shared/geometry_records.h"
@@ -31,6 +33,21 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.boxes = device.allocate("photon blocks", (capacity / photons_per_block + 1) * sizeof(BoxRecord));
+}
+
+/// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
+void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
+    const std::uint64_t most = device.info().limits.storage_range / sizeof(PhotonRecord);
+    const std::uint64_t capacity = std::min(wanted, most);
+    if (capacity <= w.capacity) {
+        return;
+    }
+    const Buffer kept = w.photons;
+    allocate_stored(device, w, capacity);
+    if (stored > 0) {
+        device.copy(BufferView(kept, 0, stored * sizeof(PhotonRecord)),
+                    BufferView(w.photons, 0, stored * sizeof(PhotonRecord)));
+    }
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -105,7 +122,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     return w;
 }
 
-std::optional<std::uint64_t> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                            const PhotonPass& pass, float flux_unit) {
     device.fill(w.counters, 0);
     for (std::uint64_t first = 0; first < pass.count; first += w.slots) {
@@ -132,12 +149,7 @@ std::optional<std::uint64_t> trace_photons(Device& device, const DeviceScene& sc
                 if (w.capacity >= most) {
                     return std::nullopt;
                 }
-                const Buffer kept = w.photons;
-                const std::uint64_t used = std::uint64_t(before[counter_stored_slots]) * sizeof(PhotonRecord);
-                allocate_stored(device, w, std::min(2 * w.capacity, most));
-                if (used > 0) {
-                    device.copy(BufferView(kept, 0, used), BufferView(w.photons, 0, used));
-                }
+                make_room(device, w, before[counter_stored_slots], 2 * w.capacity);
             }
         }
         const StageScope stage(device, "sum flux");
@@ -145,10 +157,34 @@ std::optional<std::uint64_t> trace_photons(Device& device, const DeviceScene& sc
                  kernels::flux_sum{.ledgers = w.ledgers, .sums = w.flux_sums, .params = {.count = batch.count}},
                  (batch.count + ledgers_per_thread - 1) / ledgers_per_thread);
     }
-    return download<std::uint32_t>(device, w.counters, 1, counter_stored_slots)[0];
+    dispatch(device, kernels::photon_tally{.photons = w.photons, .counters = w.counters},
+             (w.capacity + slots_per_tally - 1) / slots_per_tally);
+    const std::vector<std::uint32_t> counters = download<std::uint32_t>(device, w.counters, counter_count);
+    return StoredPhotons{counters[counter_stored_slots], counters[counter_photons]};
 }
 
-PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w) {
+PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const StoredPhotons& stored,
+                           std::uint64_t area_samples, std::uint32_t seed) {
+    PhotonMap map;
+    make_room(device, w, stored.slots, stored.slots + area_samples);
+    map.area_samples = static_cast<std::uint32_t>(std::min(area_samples, w.capacity - stored.slots));
+    if (map.area_samples > 1) {
+        const StageScope stage(device, "sample areas");
+        const auto step = static_cast<std::uint32_t>((1ull << 32) / map.area_samples);
+        dispatch(device,
+                 kernels::area_samples{
+                     .scene = scene.scene, .positions = scene.positions, .normals = scene.normals,
+                     .triangles = scene.triangles, .materials = scene.materials, .lights = scene.lights,
+                     .light_choices = scene.light_choices, .area_sums = scene.area_sums, .counters = w.counters,
+                     .photons = w.photons,
+                     .params = {.seed = seed, .count = map.area_samples, .step = step,
+                                .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
+                                .triangle_count = scene.record.triangle_count,
+                                .capacity = static_cast<std::uint32_t>(w.capacity)}},
+                 map.area_samples);
+        const auto slots = static_cast<std::uint32_t>(stored.slots + map.area_samples);
+        device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&slots, 1)));
+    }
     const Count slots(w.counters, counter_stored_slots, w.capacity);
     {
         const StageScope stage(device, "sort photons");
@@ -165,7 +201,6 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                       kernels::photon_blocks{.photons = w.photons, .order = w.order, .counters = w.counters,
                                              .sorted = w.sorted, .boxes = w.boxes},
                       w.counters, counter_blocks);
-    PhotonMap map;
     map.counters = w.counters;
     map.photons = w.sorted;
     map.lbvh = build_lbvh(device, w.boxes, Count(w.counters, counter_blocks, w.capacity / photons_per_block + 1));

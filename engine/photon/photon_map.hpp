@@ -14,6 +14,7 @@ struct PhotonMap {
     Buffer counters;            ///< counter_* of shared/photon_records.h
     Buffer photons;             ///< PhotonRecord
     Lbvh lbvh;                  ///< its boxes are blocks of photons_per_block photons
+    std::uint32_t area_samples = 0; ///< among the photons
 };
 
 /// Which photons a pass emits, and how far they go.
@@ -22,6 +23,12 @@ struct PhotonPass {
     std::uint64_t first = 0;    ///< number of the pass's first photon in the whole picture
     std::uint64_t count = 0;    ///< photons emitted; each light's power is shared by those it emits
     std::uint32_t bounces = 0;  ///< the most scatterings of a photon that is stored
+};
+
+/// What a pass has left behind.
+struct StoredPhotons {
+    std::uint64_t slots = 0;    ///< records in use, some of them empty
+    std::uint64_t photons = 0;
 };
 
 /// Device memory for tracing photons; grows with need.
@@ -39,12 +46,14 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
 std::uint64_t max_photons_per_pass(const Device& device);
 
 /// Emits photons from every light in proportion to power, traces them, and stores them where estimated lobes are, from
-/// the second hit on. Waits for the device. Adds flux to the workspace's sums in units of `flux_unit`. Returns the
-/// number of slots used, or nothing if the photons stored exceed the device's storage range: emit fewer in a pass.
-std::optional<std::uint64_t> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+/// the second hit on. Waits for the device. Adds flux to the workspace's sums in units of `flux_unit`. Returns
+/// nothing if the photons stored exceed the device's storage range: emit fewer in a pass.
+std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
                                            const PhotonPass& pass, float flux_unit);
 
-/// Builds the map over what trace_photons stored. Records only.
-PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace);
+/// Builds the map over what trace_photons stored and about so many samples of the surfaces' area, from which a query
+/// learns how much of its disc lies on surfaces; as many as there is room for, none for 0. Records only.
+PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                           const StoredPhotons& stored, std::uint64_t area_samples, std::uint32_t seed);
 
 } // namespace argand

@@ -15,4 +15,11 @@ double default_radius(double surface_area, double photons_stored) {
     return std::sqrt(in_disc * surface_area / (std::numbers::pi * n));
 }
 
+std::uint64_t area_samples(double surface_area, double radius) {
+    constexpr double samples_in_disc = 40;
+    constexpr double most = 1 << 20;
+    return static_cast<std::uint64_t>(
+        std::min(samples_in_disc * surface_area / (std::numbers::pi * radius * radius), most));
+}
+
 } // namespace argand

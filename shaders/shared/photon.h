@@ -7,10 +7,12 @@
 
 ARGAND_SHARED_BEGIN
 
-// A unit vector in 2×15 bits with the caustic bit on top; all bits set stand for a slot without a photon.
+// A unit vector in 2×15 bits, the caustic bit, and on top the bit of area samples; all bits set stand for a slot
+// without a record.
 CONSTANT uint no_photon = 0xffffffffu;
 CONSTANT uint photon_normal_mask = 0x3fffffffu;
 CONSTANT uint photon_caustic_bit = 0x40000000u;
+CONSTANT uint area_sample_bit = 0x80000000u;
 
 FN uint pack_photon_normal(vec3 normal, bool caustic) {
     uint packed = pack_unit(normal);
@@ -33,8 +35,11 @@ FN real kernel_weight(real d2, real r2) {
     return real(2.0) * INV_PI / r2 * max(real(0.0), real(1.0) - d2 / r2);
 }
 
+// The part of a disc that lies on surfaces is known from few samples of them: where it is small, it is not trusted.
+CONSTANT real least_coverage = real(0.1);
+
 // Photons off the tangent plane by more than this share of the radius belong to another surface.
-CONSTANT real disc_half_height = real(0.2);
+CONSTANT real disc_half_height = real(0.1);
 // Cosine of the angle between normals from which on a photon belongs to another surface.
 CONSTANT real same_surface_cosine = real(0.5);
 

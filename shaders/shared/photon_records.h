@@ -5,12 +5,12 @@
 
 ARGAND_SHARED_BEGIN
 
-// A photon as the map keeps it.
+// What the map keeps: a photon, or a sample of the surfaces' area, whose flux_r is the area that it stands for.
 struct PhotonRecord {
     float32 x, y, z;
     uint direction;             // where it came from, packed (pack_unit)
     float32 flux_r, flux_g, flux_b;
-    uint normal;                // of the surface, on the photon's side, packed with the caustic bit (photon.h)
+    uint normal;                // of the surface, on the photon's side (area samples: its front), packed (photon.h)
 };
 
 // A photon on its way, one per slot.
@@ -45,6 +45,16 @@ struct PhotonAdvanceParams {
     uint pad0, pad1;
 };
 
+struct AreaSampleParams {
+    uint seed;
+    uint count;
+    uint step;          // between two samples, in the units of the summed areas: 2^32 / count
+    float32 area;       // of one sample
+    uint triangle_count;
+    uint capacity;
+    uint pad0, pad1;
+};
+
 struct FluxSumParams {
     uint count;         // ledgers
     uint pad0, pad1, pad2;
@@ -54,7 +64,7 @@ struct PhotonGatherParams {
     float32 radius;
     uint budget;        // iterations of a dispatch
     uint first;         // whether this is the first dispatch of these queries
-    uint pad;
+    uint boundary_correction;   // whether the map holds area samples
 };
 
 // A query of the photon map between two dispatches: the node to go on with, and the sums so far.
@@ -62,8 +72,11 @@ struct GatherRecord {
     float32 indirect_r, indirect_g, indirect_b;
     uint node;
     float32 caustic_r, caustic_g, caustic_b;
-    uint pad;
+    float32 coverage;
 };
+
+// Slots that one invocation counts (photon_tally.comp).
+CONSTANT uint slots_per_tally = 64u;
 
 // Photons in a leaf of the map.
 CONSTANT uint photons_per_block = 8u;
@@ -71,11 +84,11 @@ CONSTANT uint photons_per_block = 8u;
 // Counters of the photon map, on the device: indices into an array of uint.
 CONSTANT uint counter_active = 0u;          // photons still on their way
 CONSTANT uint counter_stored_slots = 1u;    // slots of the map used so far (a slot may hold no photon)
-CONSTANT uint counter_stored = 2u;          // photons in the map
+CONSTANT uint counter_stored = 2u;          // records in the map
 CONSTANT uint counter_overflow = 3u;        // slots that were wanted beyond the capacity
 CONSTANT uint counter_next_active = 4u;
 CONSTANT uint counter_blocks = 5u;          // leaves of the map
-CONSTANT uint counter_non_finite = 6u;
+CONSTANT uint counter_photons = 6u;         // photons among them
 CONSTANT uint counter_count = 16u;
 
 ARGAND_SHARED_END

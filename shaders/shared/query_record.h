@@ -14,7 +14,7 @@ struct QueryRecord {
     uint geometric_normal;  // towards the eye's side, packed
     uint shading_normal;    // packed
     uint lobes;             // LOBE_* to be estimated
-    uint pad;
+    uint front;             // 1: the surface is seen from its front
 };
 
 ARGAND_SHARED_END

@@ -131,7 +131,7 @@ void main() {
         queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
                                     triangles[hit.triangle].w, throughput.x, throughput.y, throughput.z,
                                     pack_unit(-direction), pack_unit(surface.geometric_normal),
-                                    pack_unit(surface.shading_normal), estimated, 0u);
+                                    pack_unit(surface.shading_normal), estimated, surface.front ? 1u : 0u);
     }
     if (!(albedo > 0.0)) {
         return;

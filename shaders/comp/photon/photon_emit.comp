@@ -18,12 +18,15 @@ void main() {
         return;
     }
     uint photon = batch.first + slot;
-    vec4 u = photon_random4(batch.seed, photon, 0u);
+    vec4 a = photon_random4(batch.seed, photon, 0u);
     vec4 v = photon_random4(batch.seed, photon, 1u);
+    // Emission's and first scattering's directions take one set of jointly well distributed numbers: where the light is
+    // small, they decide where the photon is stored.
+    vec4 u = vec4(a.x, a.y, v.x, v.y);
     float probability;
     LightRecord light = lights[choose_light(v.w, probability)];
     vec3 origin, direction, normal, flux;
-    bool emitted = light_emit(light, u, v, scene_center(), scene[0].radius, origin, direction, normal, flux);
+    bool emitted = light_emit(light, u, v.zwxy, scene_center(), scene[0].radius, origin, direction, normal, flux);
     flux = emitted ? flux * (batch.inverse_total / probability) : vec3(0.0);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -1.0, direction.x, direction.y, direction.z, 0u);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);

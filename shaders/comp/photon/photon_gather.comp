@@ -54,6 +54,7 @@ void main() {
     }
     Sum indirect = Sum(vec3(0.0), vec3(0.0));
     Sum caustic = Sum(vec3(0.0), vec3(0.0));
+    float coverage = 0.0;
     uint blocks = counters[counter_blocks];
     uint node = blocks == 0u ? lbvh_end : blocks == 1u ? 1u : 0u;
     if (params.first == 0u) {
@@ -61,6 +62,7 @@ void main() {
         indirect.value = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
         caustic.value = vec3(g.caustic_r, g.caustic_g, g.caustic_b);
         node = g.node;
+        coverage = g.coverage;
         if (node == lbvh_end) {
             return;
         }
@@ -71,6 +73,7 @@ void main() {
     vec3 p = vec3(query.x, query.y, query.z);
     vec3 normal = unpack_unit(query.geometric_normal);
     uint own_normal = pack_photon_normal(normal, false);
+    uint front_normal = query.front != 0u ? own_normal : pack_photon_normal(-normal, false);
     Frame frame = make_frame(unpack_unit(query.shading_normal));
     vec3 wo = to_local(frame, unpack_unit(query.direction));
     vec3 reflectance = lambertian ? bsdf_eval(m, wo, vec3(0.0, 0.0, 1.0), query.lobes) : vec3(0.0);
@@ -89,6 +92,7 @@ void main() {
         }
         vec3 indirect_block = vec3(0.0);
         vec3 caustic_block = vec3(0.0);
+        float area_block = 0.0;
         uint end = min((n.child + 1u) * photons_per_block, counters[counter_stored]);
         for (uint j = n.child * photons_per_block; j < end; ++j) {
             ++step;
@@ -99,9 +103,17 @@ void main() {
                 continue;
             }
             uint photon_normal = photons[j].normal;
+            bool is_area = (photon_normal & area_sample_bit) != 0u;
             // On flat surfaces the packed normals are the same, and nothing need be unpacked.
-            if ((photon_normal & photon_normal_mask) != own_normal &&
-                dot3(unpack_photon_normal(photon_normal), normal) < same_surface_cosine) {
+            if ((photon_normal & photon_normal_mask) != (is_area ? front_normal : own_normal)) {
+                vec3 n = unpack_photon_normal(photon_normal);
+                float cosine = dot3(n, normal);
+                if ((is_area && query.front == 0u ? -cosine : cosine) < same_surface_cosine) {
+                    continue;
+                }
+            }
+            if (is_area) {
+                area_block += photons[j].flux_r * kernel_weight(d2, r2);
                 continue;
             }
             vec3 term = vec3(photons[j].flux_r, photons[j].flux_g, photons[j].flux_b) * kernel_weight(d2, r2);
@@ -119,17 +131,20 @@ void main() {
         }
         add(indirect, indirect_block);
         add(caustic, caustic_block);
+        coverage += area_block;
         node = n.escape;
     }
 
     if (node != lbvh_end) {
         gathers[slot] = GatherRecord(indirect.value.x, indirect.value.y, indirect.value.z, node, caustic.value.x,
-                                     caustic.value.y, caustic.value.z, 0u);
+                                     caustic.value.y, caustic.value.z, coverage);
         atomicAdd(unfinished[0], 1u);
         return;
     }
     gathers[slot].node = lbvh_end;
-    vec3 throughput = vec3(query.throughput_r, query.throughput_g, query.throughput_b);
+    // Photons fill only the part of the disc that lies on surfaces.
+    float scale = params.boundary_correction != 0u ? 1.0 / max(coverage, least_coverage) : 1.0;
+    vec3 throughput = scale * vec3(query.throughput_r, query.throughput_g, query.throughput_b);
     add_to_layer(slot, layer_indirect, throughput * indirect.value);
     add_to_layer(slot, layer_caustic, throughput * caustic.value);
 }

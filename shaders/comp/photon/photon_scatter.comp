@@ -72,6 +72,9 @@ void main() {
     }
 
     vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth);
+    if (depth == 0u) {
+        u.yz = photon_random4(batch.seed, batch.first + slot, 0u).zw;     // see photon_emit.comp
+    }
     BsdfSample s;
     vec3 scattered = vec3(0.0);
     if (bsdf_sample(m, wo, surface.front, followed | estimated, u, s)) {
