@@ -16,12 +16,25 @@ WHITE, RED, GREEN = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091
 SUNK = 0.01  # bodies reach this far into the floor: closed, and no face in the floor's plane
 
 
-def cornell():
-    """The empty box, 2 × 2 × 2, open to the camera, which stands before it (after the Cornell box of Goral et al.)."""
+def ceiling(x0, x1, z0, z1, y=2):
+    return quad((x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1))
+
+
+def cornell(light=False):
+    """The empty box, 2 × 2 × 2, open to the camera, which stands before it (after the Cornell box of Goral et al.);
+    with or without a light let into the ceiling, flush with it."""
     scene = Scene()
     l, r, b, t, n, f = -1, 1, 0, 2, 1, -1
     scene.add("floor", quad((l, b, n), (r, b, n), (r, b, f), (l, b, f)), lambertian(WHITE))
-    scene.add("ceiling", quad((l, t, f), (r, t, f), (r, t, n), (l, t, n)), lambertian(WHITE))
+    if light:
+        x, z, strength = 0.25, 0.2, 22
+        scene.add("ceiling, back", ceiling(l, r, f, -z), lambertian(WHITE))
+        scene.add("ceiling, front", ceiling(l, r, z, n), lambertian(WHITE))
+        scene.add("ceiling, left", ceiling(l, -x, -z, z), lambertian(WHITE))
+        scene.add("ceiling, right", ceiling(x, r, -z, z), lambertian(WHITE))
+        scene.add("light", ceiling(-x, x, -z, z), emitter((strength, 0.86 * strength, 0.68 * strength)))
+    else:
+        scene.add("ceiling", ceiling(l, r, f, n), lambertian(WHITE))
     scene.add("back wall", quad((l, b, f), (r, b, f), (r, t, f), (l, t, f)), lambertian(WHITE))
     scene.add("left wall", quad((l, b, n), (l, b, f), (l, t, f), (l, t, n)), lambertian(RED))
     scene.add("right wall", quad((r, b, f), (r, b, n), (r, t, n), (r, t, f)), lambertian(GREEN))
@@ -46,12 +59,6 @@ def add_boxes(scene):
     scene.add("short box", short_box(), lambertian(WHITE))
 
 
-def add_area_light(scene, strength=22):
-    """Faces down, a little below the ceiling."""
-    x, y, z = 0.25, 1.98, 0.2
-    scene.add("light", quad((-x, y, -z), (x, y, -z), (x, y, z), (-x, y, z)), emitter((strength, 0.86 * strength, 0.68 * strength)))
-
-
 def cornell_point():
     scene = cornell()
     add_boxes(scene)
@@ -60,26 +67,23 @@ def cornell_point():
 
 
 def cornell_area():
-    scene = cornell()
+    scene = cornell(light=True)
     add_boxes(scene)
-    add_area_light(scene)
     return scene
 
 
 def cornell_glass():
-    scene = cornell()
+    scene = cornell(light=True)
     scene.add("tall box", tall_box(), lambertian(WHITE))
     scene.add("glass sphere", resting_sphere(0.4, 0.35, 0.3), glass(0.8))
-    add_area_light(scene)
     return scene
 
 
 def cornell_mirror():
-    scene = cornell()
+    scene = cornell(light=True)
     # Turned so that the camera sees the room in it, not the darkness before the box.
     scene.add("mirror", tall_box(40), metal((0.95, 0.95, 0.95), 0))
     scene.add("short box", short_box(), lambertian(WHITE))
-    add_area_light(scene)
     return scene
 
 
@@ -126,27 +130,24 @@ def closed_box():
 
 
 def glossy():
-    scene = cornell()
+    scene = cornell(light=True)
     scene.add("steel box", tall_box(40), metal((0.8, 0.8, 0.82), 0.2))
     scene.add("gold sphere", resting_sphere(0.4, 0.35, 0.3), metal((1.0, 0.78, 0.34), 0.5))
-    add_area_light(scene)
     return scene
 
 
 def smooth_sphere():
     """So coarse, 80 triangles, that its interpolated normals are far from those of its faces."""
-    scene = cornell()
+    scene = cornell(light=True)
     scene.add("coarse sphere", resting_sphere(0.5, 0, 0, frequency=2), lambertian(WHITE))
-    add_area_light(scene)
     return scene
 
 
 def inside_glass():
     """The camera is within a glass sphere and looks at a box out of it."""
-    scene = cornell()
+    scene = cornell(light=True)
     add_boxes(scene)
     scene.add("glass sphere", sphere(0.3, 12).moved((0.25, 1.25, 0.6)), glass(0.6))
-    add_area_light(scene)
     scene.nodes = [node for node in scene.nodes if "camera" not in node]
     scene.cameras = []
     scene.camera((0.25, 1.2, 0.75), (-0.05, 0.75, -0.3), degrees=90)
