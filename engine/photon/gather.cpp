@@ -15,7 +15,7 @@ void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& m
                                                  .counters = map.counters, .gathers = target.partial,
                                                  .unfinished = unfinished, .layers = target.layers,
                                                  .params = {.radius = radius, .budget = budget, .first = first ? 1u : 0u,
-                                                            .boundary_correction = map.area_samples > 1 ? 1u : 0u},
+                                                            .boundary_correction = map.area_samples > 0 ? 1u : 0u},
                                                  .constants = {.glossy = scene.has_glossy}},
                           active.buffer, active.index);
     };

@@ -52,7 +52,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
                                            const PhotonPass& pass, float flux_unit);
 
 /// Builds the map over what trace_photons stored and about so many samples of the surfaces' area, from which a query
-/// learns how much of its disc lies on surfaces; as many as there is room for, none for 0. Records only.
+/// learns how much of its disc lies on surfaces; none if there is no room for them. Records only.
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
                            const StoredPhotons& stored, std::uint64_t area_samples, std::uint32_t seed);
 

@@ -18,8 +18,9 @@ double default_radius(double surface_area, double photons_stored) {
 std::uint64_t area_samples(double surface_area, double radius) {
     constexpr double samples_in_disc = 40;
     constexpr double most = 1 << 20;
-    return static_cast<std::uint64_t>(
-        std::min(samples_in_disc * surface_area / (std::numbers::pi * radius * radius), most));
+    // Where discs are so small that it would take more, edges hardly matter.
+    const double wanted = samples_in_disc * surface_area / (std::numbers::pi * radius * radius);
+    return wanted <= most ? static_cast<std::uint64_t>(wanted) : 0;
 }
 
 } // namespace argand

@@ -9,7 +9,8 @@ namespace argand {
 /// dimensions).
 double default_radius(double surface_area, double photons_stored);
 
-/// Number of samples of a surface of this area that tell a disc of this radius anywhere on it how much of it is covered.
+/// Number of samples of a surface of this area that tell a disc of this radius anywhere on it how much of it is covered; 0 if the disc
+/// is too small for that.
 std::uint64_t area_samples(double surface_area, double radius);
 
 } // namespace argand
