@@ -23,6 +23,17 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
     sums.unit = unit;
 }
 
+/// The radius for all passes, from the photons of the first.
+double radius_from(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace, const StoredPhotons& stored,
+                   std::uint64_t passes) {
+    const PhotonMap map = build_photon_map(device, scene, workspace, stored, 0, 0);
+    const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
+    const double in_all = static_cast<double>(stored.photons) * static_cast<double>(passes);
+    const double radius = median_radius(photons, photons_in_disc(in_all) / static_cast<double>(passes));
+    // Photons that all lie in one point, or none, say nothing.
+    return radius > 0 ? radius : 0.01 * scene.record.radius;
+}
+
 } // namespace
 
 /// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at least once, density
@@ -58,9 +69,8 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                  scene.name, device.info().name);
         }
         if (pass == 0) {
-            const double expected = static_cast<double>(stored->photons) * static_cast<double>(photons) /
-                                    static_cast<double>(std::max<std::uint64_t>(emission.count, 1));
-            statistics.radius = settings.radius.value_or(default_radius(on_device.surface_area, expected));
+            statistics.radius =
+                settings.radius ? *settings.radius : radius_from(device, on_device, workspace, *stored, passes);
         }
         const PhotonMap map =
             build_photon_map(device, on_device, workspace, *stored,

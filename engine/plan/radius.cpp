@@ -2,17 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <numbers>
+#include <vector>
 
 namespace argand {
 
-double default_radius(double surface_area, double photons_stored) {
+double photons_in_disc(double photons_stored) {
     // Measured on the Cornell boxes.
-    constexpr double reference_photons = 250'000;
-    constexpr double photons_in_disc = 110;
-    const double n = std::max(photons_stored, 1.0);
-    const double in_disc = photons_in_disc * std::pow(n / reference_photons, 2.0 / 3.0);
-    return std::sqrt(in_disc * surface_area / (std::numbers::pi * n));
+    constexpr double reference_photons = 200'000;
+    constexpr double in_disc = 150;
+    return std::max(in_disc * std::pow(photons_stored / reference_photons, 2.0 / 3.0), 4.0);
+}
+
+double median_radius(std::span<const PhotonRecord> photons, double in_disc) {
+    constexpr std::size_t samples = 1024;
+    if (photons.empty()) {
+        return 0;
+    }
+    // Neighbours in the plane are near in the order, but on both sides and with gaps.
+    const auto nearest = static_cast<std::size_t>(in_disc);
+    const std::size_t reach = 3 * nearest;
+    const auto position = [&](std::size_t i) { return glm::dvec3(photons[i].x, photons[i].y, photons[i].z); };
+    std::vector<double> radii;
+    std::vector<double> distances;
+    const std::size_t step = std::max<std::size_t>(photons.size() / samples, 1);
+    for (std::size_t i = step / 2; i < photons.size(); i += step) {
+        const std::size_t begin = i > reach ? i - reach : 0;
+        const std::size_t end = std::min(i + reach + 1, photons.size());
+        distances.clear();
+        for (std::size_t j = begin; j < end; ++j) {
+            const glm::dvec3 d = position(j) - position(i);
+            distances.push_back(glm::dot(d, d));
+        }
+        const auto last = distances.begin() + static_cast<std::ptrdiff_t>(std::min(nearest, distances.size() - 1));
+        std::nth_element(distances.begin(), last, distances.end());
+        radii.push_back(std::sqrt(*last));
+    }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
 }
 
 std::uint64_t area_samples(double surface_area, double radius) {
