@@ -49,8 +49,8 @@ struct Scratch {
     }
 };
 
-/// The path to replace: links are followed, so that they stay links. `mode` gets the existing file's permissions,
-/// `special` whether it is a pipe or a device.
+/// The path to replace: links are followed, so that they stay links. `mode` gets the existing file's
+/// permissions, `special` whether it is a pipe or a device.
 struct Destination {
     fs::path path;
     bool exists = false;
@@ -87,9 +87,11 @@ Destination resolve(const fs::path& target) {
     }
     const int code = errno;
     std::error_code none;
-    const fs::path parent = destination.path.has_parent_path() ? destination.path.parent_path() : fs::path(".");
+    const fs::path parent =
+        destination.path.has_parent_path() ? destination.path.parent_path() : fs::path(".");
     if (code == ENOENT && !fs::exists(parent, none)) {
-        fail_to_write(target, fmt::format("the directory '{}' does not exist", one_line(parent.string(), 4096)),
+        fail_to_write(target,
+                      fmt::format("the directory '{}' does not exist", one_line(parent.string(), 4096)),
                       "create it or choose another place");
     }
     if (code == ENOENT && !destination.path.has_filename()) {
@@ -106,7 +108,8 @@ void open_beside(const fs::path& target, const Destination& destination, Scratch
     static std::atomic<unsigned> counter{0};
     for (;;) {
         // A short name of its own: the target's may already be as long as a name can be.
-        fs::path path = destination.path.parent_path() / fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
+        fs::path path =
+            destination.path.parent_path() / fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
         const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) {
             scratch.path = std::move(path);

@@ -34,7 +34,9 @@ void catch_interrupts() {
     }
 }
 
-bool interrupted() { return signalled.load(std::memory_order_relaxed); }
+bool interrupted() {
+    return signalled.load(std::memory_order_relaxed);
+}
 
 void stop_if_interrupted(const char* work) {
     if (interrupted()) {
@@ -42,6 +44,8 @@ void stop_if_interrupted(const char* work) {
     }
 }
 
-void forget_interrupt() { signalled.store(false); }
+void forget_interrupt() {
+    signalled.store(false);
+}
 
 } // namespace argand

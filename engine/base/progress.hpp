@@ -6,10 +6,11 @@
 
 namespace argand {
 
-/// One line on a terminal that says how far the work is, "tracing photons  42 %  12 s left", redrawn in place at
-/// most ten times a second and erased at the end. Where the output is not a terminal, or `quiet`, nothing is printed.
+/// One line on a terminal that says how far the work is, "tracing photons  42 %  12 s left", redrawn in place
+/// at most ten times a second and erased at the end. Where the output is not a terminal, or `quiet`, nothing
+/// is printed.
 class Progress {
-  public:
+public:
     explicit Progress(std::string work, bool quiet = false, int descriptor = 2);
     ~Progress();
     Progress(const Progress&) = delete;
@@ -21,7 +22,7 @@ class Progress {
     /// Erases the line; also done on destruction.
     void erase();
 
-  private:
+private:
     using Clock = std::chrono::steady_clock;
     std::string work_;
     int descriptor_;

@@ -23,6 +23,8 @@ namespace {
 constexpr std::size_t longest_channel_name = 255;
 constexpr std::size_t longest_short_name = 31; // beyond it the file needs the flag for long names
 
+constexpr std::size_t decoder_overrun = 64; // tinyexr's PIZ decoder takes codes before it tests for their end
+
 struct Header : EXRHeader {
     Header() { InitEXRHeader(this); }
     ~Header() { FreeEXRHeader(this); }
@@ -52,20 +54,21 @@ void check_layers(const std::filesystem::path& path, std::span<const Layer> laye
     for (const Layer& layer : layers) {
         check_size_to_write(path, layer.image);
         if (layer.image.width != layers[0].image.width || layer.image.height != layers[0].image.height) {
-            fail("cannot write '{}': layer '{}' is {} × {} but the first is {} × {}", path.string(), layer.name,
-                 layer.image.width, layer.image.height, layers[0].image.width, layers[0].image.height);
+            fail("cannot write '{}': layer '{}' is {} × {} but the first is {} × {}", path.string(),
+                 layer.name, layer.image.width, layer.image.height, layers[0].image.width,
+                 layers[0].image.height);
         }
         if (!names.insert(layer.name).second) {
             fail("cannot write '{}': two layers are named '{}'", path.string(), layer.name);
         }
         if (layer.name.size() + 2 > longest_channel_name || layer.name.find('\0') != std::string::npos) {
-            fail("cannot write '{}': a layer's name is longer than {} bytes or holds a zero byte", path.string(),
-                 longest_channel_name - 2);
+            fail("cannot write '{}': a layer's name is longer than {} bytes or holds a zero byte",
+                 path.string(), longest_channel_name - 2);
         }
     }
     if (layers[0].image.pixels.size() * layers.size() * 3 > most_samples) {
-        fail("cannot write '{}': {} layers of {} × {} pixels are more than 4 GiB", path.string(), layers.size(),
-             layers[0].image.width, layers[0].image.height);
+        fail("cannot write '{}': {} layers of {} × {} pixels are more than 4 GiB", path.string(),
+             layers.size(), layers[0].image.width, layers[0].image.height);
     }
 }
 
@@ -98,7 +101,8 @@ Place place_of(const std::string& name) {
 }
 
 std::vector<float> plane_of(const Picture& picture, const Header& header, int channel) {
-    const std::size_t count = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+    const std::size_t count =
+        static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     std::vector<float> plane(count);
     if (header.requested_pixel_types[channel] == TINYEXR_PIXELTYPE_UINT) {
         const auto* samples = reinterpret_cast<const std::uint32_t*>(picture.images[channel]);
@@ -186,14 +190,16 @@ void write_exr(const std::filesystem::path& path, std::span<const Layer> layers)
 
 std::vector<Layer> read_exr(const std::filesystem::path& path) try {
     const std::string file = one_line(path.string(), 4096);
-    const std::vector<std::uint8_t> bytes = read_file(path);
+    std::vector<std::uint8_t> bytes = read_file(path);
     check_exr(bytes, file);
+    const std::size_t size = bytes.size();
+    bytes.resize(size + decoder_overrun);
 
     Header header;
     EXRVersion version{};
     const char* message = nullptr;
-    if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS ||
-        ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+    if (ParseEXRVersionFromMemory(&version, bytes.data(), size) != TINYEXR_SUCCESS ||
+        ParseEXRHeaderFromMemory(&header, &version, bytes.data(), size, &message) != TINYEXR_SUCCESS) {
         fail("cannot read '{}': {}", file, take_message(message));
     }
     for (int i = 0; i < header.num_channels; ++i) {
@@ -204,9 +210,10 @@ std::vector<Layer> read_exr(const std::filesystem::path& path) try {
     // A chunk states its rows; tinyexr would turn files whose chunks are stored bottom first upside down.
     header.line_order = 0;
     Picture picture;
-    // Where decoding fails tinyexr frees the picture, but no more channels than this says, and leaves the pointers.
+    // Where decoding fails tinyexr frees the picture, but no more channels than this says, and leaves the
+    // pointers.
     picture.num_channels = header.num_channels;
-    if (LoadEXRImageFromMemory(&picture, &header, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+    if (LoadEXRImageFromMemory(&picture, &header, bytes.data(), size, &message) != TINYEXR_SUCCESS) {
         InitEXRImage(&picture);
         fail("cannot read '{}': {} It is damaged; render or copy it again", file, take_message(message));
     }

@@ -11,7 +11,8 @@
 
 namespace argand {
 
-static_assert(std::endian::native == std::endian::little, "OpenEXR is little-endian; so are numbers read here");
+static_assert(std::endian::native == std::endian::little,
+              "OpenEXR is little-endian; so are numbers read here");
 
 namespace {
 
@@ -28,11 +29,12 @@ struct Compression {
 };
 
 constexpr Compression compressions[] = {
-    {"none", 1}, {"RLE", 1},   {"ZIPS", 1}, {"ZIP", 16},  {"PIZ", 32},
+    {"none", 1},  {"RLE", 1}, {"ZIPS", 1}, {"ZIP", 16}, {"PIZ", 32},
     {"PXR24", 0}, {"B44", 0}, {"B44A", 0}, {"DWAA", 0}, {"DWAB", 0},
 };
 
-/// Takes values from the front of a run of bytes; an Error, "it ends within WHERE", where there are not enough.
+/// Takes values from the front of a run of bytes; an Error, "it ends within WHERE", where there are not
+/// enough.
 struct Reader {
     Bytes bytes;
     std::string_view file;
@@ -46,7 +48,8 @@ struct Reader {
         return front;
     }
 
-    template <class T> T number(std::string_view where) {
+    template <class T>
+    T number(std::string_view where) {
         T value;
         std::memcpy(&value, take(sizeof(T), where).data(), sizeof(T));
         return value;
@@ -111,10 +114,13 @@ std::uint64_t check_channels(Reader channels) {
         ++count;
     }
     if (count == 0 || count > most_channels) {
-        fail("cannot read '{}': it has {} channels; 1 to {} can be read", channels.file, count, most_channels);
+        fail("cannot read '{}': it has {} channels; 1 to {} can be read", channels.file, count,
+             most_channels);
     }
     return bytes_per_pixel;
 }
+
+constexpr std::uint8_t no_compression = 0, piz = 4;
 
 struct Window {
     std::int64_t x0, y0, width, height;
@@ -130,15 +136,33 @@ Window check_window(Reader window) {
     constexpr std::int64_t farthest = 1 << 20;
     const bool near = std::min(x0, y0) >= -farthest && std::max(x1, y1) <= farthest;
     if (box.width < 1 || box.height < 1 || box.width > longest_side || box.height > longest_side || !near) {
-        fail("cannot read '{}': its data window ({}, {}) to ({}, {}) is empty or too large; the longest side is {}",
+        fail("cannot read '{}': its data window ({}, {}) to ({}, {}) is empty or too large; the longest side "
+             "is {}",
              window.file, x0, y0, x1, y1, longest_side);
     }
     return box;
 }
 
+/// The parts of a PIZ chunk, a bitmap of the values that occur and a Huffman code, must fill it: tinyexr
+/// reads as far as their sizes say.
+bool is_sound_piz(Reader chunk) {
+    constexpr std::size_t bitmap_size = 8192, huffman_header = 20;
+    const auto first = chunk.number<std::uint16_t>("its rows");
+    const auto last = chunk.number<std::uint16_t>("its rows");
+    if (last >= bitmap_size) {
+        return false;
+    }
+    if (first <= last) {
+        chunk.take(std::size_t{last} - first + 1, "its rows");
+    }
+    const auto length = chunk.number<std::uint32_t>("its rows");
+    return length == chunk.bytes.size() && length >= huffman_header;
+}
+
 /// Every chunk must lie within the file and hold the rows that its place in the table says.
-void check_chunks(Reader table, Bytes file, const Window& window, int rows_in_chunk, std::uint64_t row_bytes,
-                  bool compressed) {
+void check_chunks(Reader table, Bytes file, const Window& window, std::uint8_t method,
+                  std::uint64_t row_bytes) {
+    const int rows_in_chunk = compressions[method].rows_in_chunk;
     for (std::int64_t row = 0; row < window.height; row += rows_in_chunk) {
         const auto offset = table.number<std::uint64_t>("its table of rows");
         if (offset == 0) {
@@ -152,11 +176,16 @@ void check_chunks(Reader table, Bytes file, const Window& window, int rows_in_ch
         Reader chunk{file.subspan(offset), table.file};
         const auto first_row = chunk.number<std::int32_t>("its rows");
         const auto size = chunk.number<std::uint32_t>("its rows");
-        chunk.take(size, "its rows");
+        const Bytes data = chunk.take(size, "its rows");
         const std::int64_t rows = std::min<std::int64_t>(rows_in_chunk, window.height - row);
         const std::uint64_t full = row_bytes * static_cast<std::uint64_t>(rows);
-        if (first_row != window.y0 + row || size == 0 || size > full || (!compressed && size != full)) {
-            fail("cannot read '{}': the rows from {} on are damaged; render or copy it again", table.file, row);
+        // What compression would not make smaller is stored as it is.
+        const bool stored = size == full;
+        const bool sound = stored || (size > 0 && size < full && method != no_compression &&
+                                      (method != piz || is_sound_piz({data, table.file})));
+        if (first_row != window.y0 + row || !sound) {
+            fail("cannot read '{}': the rows from {} on are damaged; render or copy it again", table.file,
+                 row);
         }
     }
 }
@@ -176,8 +205,11 @@ void check_exr(Bytes bytes, std::string_view name) {
         fail("cannot read '{}': it is of OpenEXR version {}, not 2", name, version & 0xff);
     }
     if ((version & (tiled | deep | multi_part)) != 0) {
-        fail("cannot read '{}': it is a {} file, which is not supported; save it as single-part scan lines", name,
-             (version & deep) != 0 ? "deep" : (version & tiled) != 0 ? "tiled" : "multi-part");
+        fail("cannot read '{}': it is a {} file, which is not supported; save it as single-part scan lines",
+             name,
+             (version & deep) != 0    ? "deep"
+             : (version & tiled) != 0 ? "tiled"
+                                      : "multi-part");
     }
     if ((version & ~std::uint32_t{0xff | long_names}) != 0) {
         fail("cannot read '{}': its header has unknown flags; it is damaged or of a newer version", name);
@@ -194,7 +226,8 @@ void check_exr(Bytes bytes, std::string_view name) {
     if (header.contains("type")) {
         const Reader type = attribute(header, "type", 1, name);
         if (std::string(type.bytes.begin(), type.bytes.end()).c_str() != std::string_view("scanlineimage")) {
-            fail("cannot read '{}': its type is not 'scanlineimage'; save it as single-part scan lines", name);
+            fail("cannot read '{}': its type is not 'scanlineimage'; save it as single-part scan lines",
+                 name);
         }
     }
     const std::uint64_t row_bytes = bytes_per_pixel * static_cast<std::uint64_t>(window.width);
@@ -206,11 +239,11 @@ void check_exr(Bytes bytes, std::string_view name) {
     if (header.contains("chunkCount")) {
         const auto stated = attribute(header, "chunkCount", 4, name).number<std::int32_t>("its header");
         if (stated != (window.height + rows_in_chunk - 1) / rows_in_chunk) {
-            fail("cannot read '{}': its 'chunkCount' of {} does not fit its {} rows; it is damaged", name, stated,
-                 window.height);
+            fail("cannot read '{}': its 'chunkCount' of {} does not fit its {} rows; it is damaged", name,
+                 stated, window.height);
         }
     }
-    check_chunks(reader, bytes, window, rows_in_chunk, row_bytes, method != 0);
+    check_chunks(reader, bytes, window, method, row_bytes);
 }
 
 } // namespace argand

@@ -21,9 +21,11 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-[[noreturn]] void fail_unknown(std::string_view verb, const std::filesystem::path& path, std::string_view known) {
-    throw UsageError(fmt::format("cannot {} '{}': the extension '{}' is not that of a known picture format; use {}",
-                                 verb, one_line(path.string(), 4096), one_line(path.extension().string()), known));
+[[noreturn]] void fail_unknown(std::string_view verb, const std::filesystem::path& path,
+                               std::string_view known) {
+    throw UsageError(
+        fmt::format("cannot {} '{}': the extension '{}' is not that of a known picture format; use {}", verb,
+                    one_line(path.string(), 4096), one_line(path.extension().string()), known));
 }
 
 constexpr std::string_view writable = ".exr or .png";

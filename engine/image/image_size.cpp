@@ -9,7 +9,8 @@ void check_size_to_write(const std::filesystem::path& path, const Image& image) 
         fail("cannot write '{}': a picture of {} × {} pixels; each side must be 1 to {}", path.string(),
              image.width, image.height, longest_side);
     }
-    if (image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+    if (image.pixels.size() !=
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
         fail("cannot write '{}': the picture has {} pixels but its size is {} × {}", path.string(),
              image.pixels.size(), image.width, image.height);
     }

@@ -17,8 +17,8 @@ void check_finite(const Image& image, std::string_view name) {
         const glm::vec3& p = image.pixels[i];
         if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b)) {
             const auto width = static_cast<std::size_t>(image.width);
-            fail("cannot compare: pixel ({}, {}) of '{}' is not finite ({}, {}, {}); render it again", i % width,
-                 i / width, name, p.r, p.g, p.b);
+            fail("cannot compare: pixel ({}, {}) of '{}' is not finite ({}, {}, {}); render it again",
+                 i % width, i / width, name, p.r, p.g, p.b);
         }
     }
 }
@@ -43,7 +43,9 @@ glm::dvec3 mean_of(const Image& image) {
     return sum / static_cast<double>(image.pixels.size());
 }
 
-double mean_of_channels(const glm::dvec3& v) { return (v.r + v.g + v.b) / 3; }
+double mean_of_channels(const glm::dvec3& v) {
+    return (v.r + v.g + v.b) / 3;
+}
 
 /// difference² / scale², where 0/0 is no error.
 double relative(double squared_difference, double squared_scale) {

@@ -13,8 +13,8 @@
 #include <new>
 #include <vector>
 
-// Static, so that no other copy of stb in the program is meant; only what is used, so that a file that pretends to be
-// a PNG does not reach another decoder.
+// Static, so that no other copy of stb in the program is meant; only what is used, so that a file that
+// pretends to be a PNG does not reach another decoder.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -36,9 +36,13 @@ namespace {
 
 constexpr int rgb = 3;
 
-template <class T> using Samples = std::unique_ptr<T, decltype(&stbi_image_free)>;
+template <class T>
+using Samples = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
-template <class T> Samples<T> hold(T* samples) { return {samples, &stbi_image_free}; }
+template <class T>
+Samples<T> hold(T* samples) {
+    return {samples, &stbi_image_free};
+}
 
 void append(void* context, void* data, int size) {
     auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
@@ -68,7 +72,8 @@ int is_png(const stbi_uc* bytes, int size) {
     return size >= 8 && std::equal(std::begin(signature), std::end(signature), bytes) ? 1 : 0;
 }
 
-template <class T, class Convert> Image to_image(const T* samples, int width, int height, Convert convert) {
+template <class T, class Convert>
+Image to_image(const T* samples, int width, int height, Convert convert) {
     Image image{width, height, {}};
     image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -80,7 +85,8 @@ template <class T, class Convert> Image to_image(const T* samples, int width, in
 }
 
 /// Linear value of every code of an unsigned integer type that holds sRGB.
-template <class T> std::vector<float> decode_table() {
+template <class T>
+std::vector<float> decode_table() {
     constexpr std::size_t codes = std::size_t{std::numeric_limits<T>::max()} + 1;
     std::vector<float> table(codes);
     for (std::size_t i = 0; i < codes; ++i) {
@@ -110,8 +116,8 @@ void write_png(const std::filesystem::path& path, const Image& image, float expo
     std::vector<std::uint8_t> bytes;
     if (samples.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
         stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(), 0) == 0) {
-        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr", path.string(), image.width,
-             image.height);
+        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr", path.string(),
+             image.width, image.height);
     }
     write_atomically(path, bytes);
 }
@@ -121,7 +127,8 @@ Image read_png(const std::filesystem::path& path) try {
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
     if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
-        const auto samples = hold(stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, rgb));
+        const auto samples =
+            hold(stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, rgb));
         if (samples == nullptr) {
             fail_to_decode(path);
         }
@@ -141,8 +148,8 @@ Image read_png(const std::filesystem::path& path) try {
 Image read_hdr(const std::filesystem::path& path) try {
     const std::vector<std::uint8_t> bytes = read_bytes(path, "Radiance HDR", &stbi_is_hdr_from_memory);
     int width = 0, height = 0, channels = 0;
-    const auto samples =
-        hold(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, rgb));
+    const auto samples = hold(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width,
+                                                     &height, &channels, rgb));
     if (samples == nullptr) {
         fail_to_decode(path);
     }

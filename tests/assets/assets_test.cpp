@@ -24,11 +24,20 @@ struct Expected {
 };
 
 const std::vector<Expected> scenes = {
-    {"cornell_point.glb", 34, 7, 0, 1},   {"cornell_area.glb", 36, 8, 1, 0},    {"cornell_glass.glb", 2904, 8, 1, 0},
-    {"cornell_mirror.glb", 36, 8, 1, 0},  {"ring.glb", 3842, 2, 0, 1},          {"glossy.glb", 2904, 8, 1, 0},
-    {"spot.glb", 34, 7, 0, 1},            {"sky_room.glb", 34, 7, 0, 0},        {"courtyard.glb", 92, 6, 0, 1},
-    {"smooth_sphere.glb", 92, 7, 1, 0},   {"inside_glass.glb", 2916, 9, 1, 0},  {"plane_point.gltf", 2, 1, 0, 1},
-    {"closed_box.gltf", 12, 1, 1, 0},     {"furnace.glb", 2880, 1, 0, 0},
+    {"cornell_point.glb", 34, 7, 0, 1},
+    {"cornell_area.glb", 36, 8, 1, 0},
+    {"cornell_glass.glb", 2904, 8, 1, 0},
+    {"cornell_mirror.glb", 36, 8, 1, 0},
+    {"ring.glb", 3842, 2, 0, 1},
+    {"glossy.glb", 2904, 8, 1, 0},
+    {"spot.glb", 34, 7, 0, 1},
+    {"sky_room.glb", 34, 7, 0, 0},
+    {"courtyard.glb", 92, 6, 0, 1},
+    {"smooth_sphere.glb", 92, 7, 1, 0},
+    {"inside_glass.glb", 2916, 9, 1, 0},
+    {"plane_point.gltf", 2, 1, 0, 1},
+    {"closed_box.gltf", 12, 1, 1, 0},
+    {"furnace.glb", 2880, 1, 0, 0},
 };
 
 std::set<std::string> scene_files(const fs::path& where) {
@@ -106,7 +115,8 @@ TEST(Assets, BodiesFaceOutwardsAndRoomsInwards) {
     constexpr double pi = 3.14159265358979;
     EXPECT_NEAR(volume(load_gltf(folder / "cornell_area.glb"), "tall box"), 0.6 * 0.6 * 1.21, 1e-5);
     EXPECT_NEAR(volume(load_gltf(folder / "cornell_mirror.glb"), "mirror"), 0.6 * 0.6 * 1.21, 1e-5);
-    EXPECT_NEAR(volume(load_gltf(folder / "cornell_glass.glb"), "glass sphere") / (4 * pi / 3 * 0.064), 1, 0.005);
+    EXPECT_NEAR(volume(load_gltf(folder / "cornell_glass.glb"), "glass sphere") / (4 * pi / 3 * 0.064), 1,
+                0.005);
     EXPECT_NEAR(volume(load_gltf(folder / "closed_box.gltf"), "walls"), -8, 1e-5);
     // A ring of mean radius 1.04, 0.08 thick and 0.46 high, its corners rounded (Pappus).
     const double section = 0.08 * 0.46 - (4 - pi) * 0.025 * 0.025;
@@ -188,7 +198,8 @@ TEST(Assets, AreWhatTheScriptWrites) {
     ASSERT_EQ(scene_files(scratch.path()), scene_files(folder));
     for (const std::string& name : scene_files(folder)) {
         // Not EXPECT_EQ, which would print both.
-        EXPECT_TRUE(read_text(scratch / name) == read_text(folder / name)) << name << ": run assets/make_scenes.py";
+        EXPECT_TRUE(read_text(scratch / name) == read_text(folder / name))
+            << name << ": run assets/make_scenes.py";
     }
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// Permissions bind everyone but root, who becomes nobody for a while.
 class WithoutPrivilege {
-  public:
+public:
     WithoutPrivilege() {
         if (::geteuid() == 0) {
             was_root_ = ::seteuid(65534) == 0;
@@ -29,13 +29,13 @@ class WithoutPrivilege {
         }
     }
 
-  private:
+private:
     bool was_root_ = false;
 };
 
 /// Files of more than `bytes` cannot be written, as on a full disk.
 class FullDisk {
-  public:
+public:
     explicit FullDisk(rlim_t bytes) {
         ::getrlimit(RLIMIT_FSIZE, &before_);
         rlimit limit = before_;
@@ -48,18 +48,18 @@ class FullDisk {
         std::signal(SIGXFSZ, handler_);
     }
 
-  private:
+private:
     rlimit before_{};
     void (*handler_)(int) = SIG_DFL;
 };
 
 /// Relative paths are taken from here.
 class WorkingDirectory {
-  public:
+public:
     explicit WorkingDirectory(const fs::path& path) : before_(fs::current_path()) { fs::current_path(path); }
     ~WorkingDirectory() { fs::current_path(before_); }
 
-  private:
+private:
     fs::path before_;
 };
 
@@ -125,8 +125,8 @@ TEST(AtomicWrite, WritesToDevicesWithoutReplacingThem) {
 TEST(AtomicWrite, RefusesADirectory) {
     const ScratchDirectory scratch;
     fs::create_directory(scratch / "folder");
-    for (const fs::path& target : {scratch / "folder", scratch / "folder/", scratch / "folder/missing/..", fs::path("."),
-                                   fs::path("/")}) {
+    for (const fs::path& target : {scratch / "folder", scratch / "folder/", scratch / "folder/missing/..",
+                                   fs::path("."), fs::path("/")}) {
         EXPECT_THAT(error_of([&] { write_atomically(target, "x"); }),
                     ::testing::AnyOf(HasSubstr("directory"), HasSubstr("does not exist")))
             << target;
@@ -144,8 +144,10 @@ TEST(AtomicWrite, NamesWhatIsMissing) {
     EXPECT_THAT(message, HasSubstr("create it"));
     EXPECT_THAT(error_of([] { write_atomically("", "x"); }), HasSubstr("name is empty"));
     write_text(scratch / "file", "");
-    EXPECT_THAT(error_of([&] { write_atomically(scratch / "file/below.png", "x"); }), HasSubstr("Not a directory"));
-    EXPECT_THAT(error_of([&] { write_atomically(scratch / std::string(256, 'n'), "x"); }), HasSubstr("too long"));
+    EXPECT_THAT(error_of([&] { write_atomically(scratch / "file/below.png", "x"); }),
+                HasSubstr("Not a directory"));
+    EXPECT_THAT(error_of([&] { write_atomically(scratch / std::string(256, 'n'), "x"); }),
+                HasSubstr("too long"));
     fs::create_symlink("loop", scratch / "loop");
     EXPECT_THAT(error_of([&] { write_atomically(scratch / "loop", "x"); }), HasSubstr("symbolic links"));
 }
@@ -159,11 +161,13 @@ TEST(AtomicWrite, RespectsWriteProtection) {
     fs::permissions(scratch / "kept.png", fs::perms(0444));
     {
         const WithoutPrivilege nobody;
-        EXPECT_THAT(error_of([&] { write_atomically(scratch / "kept.png", "new"); }), HasSubstr("write-protected"));
+        EXPECT_THAT(error_of([&] { write_atomically(scratch / "kept.png", "new"); }),
+                    HasSubstr("write-protected"));
         const std::string message = error_of([&] { write_atomically(scratch / "locked/new.png", "new"); });
         EXPECT_THAT(message, HasSubstr("locked/new.png"));
         EXPECT_THAT(message, HasSubstr("Permission denied"));
-        EXPECT_THAT(error_of([&] { check_writable(scratch / "locked/new.png"); }), HasSubstr("Permission denied"));
+        EXPECT_THAT(error_of([&] { check_writable(scratch / "locked/new.png"); }),
+                    HasSubstr("Permission denied"));
     }
     EXPECT_EQ(read_text(scratch / "kept.png"), "old");
     EXPECT_TRUE(fs::is_empty(scratch / "locked"));
@@ -175,7 +179,8 @@ TEST(AtomicWrite, LeavesTheOldFileWhenTheDiskIsFull) {
     write_text(target, "old");
     {
         const FullDisk full(4096);
-        EXPECT_THAT(error_of([&] { write_atomically(target, std::string(100000, 'x')); }), HasSubstr("make room"));
+        EXPECT_THAT(error_of([&] { write_atomically(target, std::string(100000, 'x')); }),
+                    HasSubstr("make room"));
     }
     EXPECT_EQ(read_text(target), "old");
     EXPECT_THAT(scratch.names(), ElementsAre("picture.exr"));

@@ -9,7 +9,8 @@ using namespace argand::testing;
 namespace {
 
 TEST(Json, KeepsOrderAndEndsWithANewline) {
-    EXPECT_EQ(json_text({{"z", 1}, {"a", {1.5, "x"}}}), "{\n  \"z\": 1,\n  \"a\": [\n    1.5,\n    \"x\"\n  ]\n}\n");
+    EXPECT_EQ(json_text({{"z", 1}, {"a", {1.5, "x"}}}),
+              "{\n  \"z\": 1,\n  \"a\": [\n    1.5,\n    \"x\"\n  ]\n}\n");
 }
 
 TEST(Json, ExpressesWhatJsonCannot) {

@@ -17,7 +17,7 @@ namespace {
 
 /// A terminal of the test's own; `read` gives what was printed on it.
 class Terminal {
-  public:
+public:
     Terminal() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
         if (master_ >= 0 && ::grantpt(master_) == 0 && ::unlockpt(master_) == 0) {
             slave_ = ::open(::ptsname(master_), O_RDWR | O_NOCTTY);
@@ -38,7 +38,7 @@ class Terminal {
         return text;
     }
 
-  private:
+private:
     int master_ = -1, slave_ = -1;
 };
 

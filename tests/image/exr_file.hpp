@@ -7,25 +7,26 @@
 
 namespace argand::testing {
 
-/// An uncompressed scan-line OpenEXR file put together byte by byte, after "OpenEXR File Layout", so that readers are
-/// tested on what our writer does not write.
+/// An uncompressed scan-line OpenEXR file put together byte by byte, after "OpenEXR File Layout", so that
+/// readers are tested on what our writer does not write.
 struct ExrFile {
     struct Channel {
         std::string name;
-        std::uint32_t type; ///< 0 unsigned integer, 1 half, 2 float
+        std::uint32_t type;  ///< 0 unsigned integer, 1 half, 2 float
         std::string samples; ///< rows from the top, little-endian
         std::int32_t sampling = 1;
     };
 
     int width = 1, height = 1;
     std::int32_t x0 = 0, y0 = 0;
-    std::vector<Channel> channels; ///< in the file's order
+    std::vector<Channel> channels{}; ///< in the file's order
     std::uint32_t version = 2;
     std::uint8_t compression = 0;
     bool bottom_first = false;
-    std::string extra_attributes;
+    std::string extra_attributes{};
 
-    template <class T> static std::string number(T value) {
+    template <class T>
+    static std::string number(T value) {
         std::string bytes(sizeof(T), '\0');
         std::memcpy(bytes.data(), &value, sizeof(T));
         return bytes;
@@ -38,8 +39,8 @@ struct ExrFile {
     std::string header() const {
         std::string list;
         for (const Channel& channel : channels) {
-            list += channel.name + '\0' + number(channel.type) + std::string(4, '\0') + number(channel.sampling) +
-                    number(channel.sampling);
+            list += channel.name + '\0' + number(channel.type) + std::string(4, '\0') +
+                    number(channel.sampling) + number(channel.sampling);
         }
         const std::string window = number(x0) + number(y0) + number(x0 + width - 1) + number(y0 + height - 1);
         std::string bytes = number(std::uint32_t{20000630}) + number(version);

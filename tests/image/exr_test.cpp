@@ -71,8 +71,11 @@ TEST(Exr, KeepsLayersByName) {
     const ScratchDirectory scratch;
     const std::string long_name(200, 'n');
     // A name sorted before "R" must not come between the whole picture's channels and their layer.
-    const Layer written[] = {{"indirect", noise(9, 7, 2)}, {"", noise(9, 7, 1)},          {"Caustic", noise(9, 7, 3)},
-                             {"a.b", noise(9, 7, 4)},      {long_name, noise(9, 7, 5)}};
+    const Layer written[] = {{"indirect", noise(9, 7, 2)},
+                             {"", noise(9, 7, 1)},
+                             {"Caustic", noise(9, 7, 3)},
+                             {"a.b", noise(9, 7, 4)},
+                             {long_name, noise(9, 7, 5)}};
     write_exr(scratch / "a.exr", written);
     const std::vector<Layer> read = read_exr(scratch / "a.exr");
     ASSERT_EQ(read.size(), 5u);
@@ -116,9 +119,11 @@ TEST(Exr, RefusesPlacesItCannotWriteTo) {
 
 TEST(Exr, ReadsHalvesIntegersAndAnyChannelOrder) {
     ExrFile file{.width = 2, .height = 1};
-    const auto halves = ExrFile::number(std::uint16_t{0x3c00}) + ExrFile::number(std::uint16_t{0xc100}); // 1, −2.5
+    const auto halves =
+        ExrFile::number(std::uint16_t{0x3c00}) + ExrFile::number(std::uint16_t{0xc100}); // 1, −2.5
     const auto integers = ExrFile::number(std::uint32_t{7}) + ExrFile::number(std::uint32_t{4000000000});
-    file.channels = {{"R", 1, halves}, {"Z", 2, floats({9, 9})}, {"B", 0, integers}, {"G", 2, floats({0.5f, 1e-3f})}};
+    file.channels = {
+        {"R", 1, halves}, {"Z", 2, floats({9, 9})}, {"B", 0, integers}, {"G", 2, floats({0.5f, 1e-3f})}};
     const std::vector<Layer> read = read_bytes(file.bytes());
     ASSERT_EQ(read.size(), 1u);
     EXPECT_EQ(read[0].image.pixels[0], glm::vec3(1, 0.5f, 7));
@@ -169,7 +174,8 @@ TEST(ExrHostile, SaysWhatIsNotSupported) {
     EXPECT_THAT(error([](ExrFile& f) { f.channels[0].sampling = 0; }), HasSubstr("sub-sampled"));
     EXPECT_THAT(error([](ExrFile& f) { f.channels[0].type = 3; }), HasSubstr("unknown type 3"));
     EXPECT_THAT(error([](ExrFile& f) { f.channels[0].name = "Z"; }), HasSubstr("it has Z"));
-    EXPECT_THAT(error([](ExrFile& f) { f.channels[0].name = std::string(300, 'n'); }), HasSubstr("longer than"));
+    EXPECT_THAT(error([](ExrFile& f) { f.channels[0].name = std::string(300, 'n'); }),
+                HasSubstr("longer than"));
     EXPECT_THAT(error([](ExrFile& f) { f.channels.clear(); }), HasSubstr("0 channels"));
     const auto with = [&](const std::string& name, const std::string& type, const std::string& value) {
         return error([&](ExrFile& f) { f.extra_attributes = ExrFile::attribute(name, type, value); });
@@ -207,7 +213,8 @@ void expect_picture_or_error(const std::filesystem::path& path, const std::strin
     write_text(path, bytes);
     try {
         for (const Layer& layer : read_exr(path)) {
-            EXPECT_EQ(layer.image.pixels.size(), static_cast<std::size_t>(layer.image.width * layer.image.height));
+            EXPECT_EQ(layer.image.pixels.size(),
+                      static_cast<std::size_t>(layer.image.width * layer.image.height));
         }
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();

@@ -30,7 +30,8 @@ TEST(ImageFiles, ChoosesTheFormatByExtension) {
     EXPECT_EQ(read_image(scratch / "b.png")[0].image.pixels[0], glm::vec3(1, 0, 0));
     EXPECT_THAT(error_of([&] { write_image(scratch / "c.png", {}); }), HasSubstr("no picture"));
 
-    write_text(scratch / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"));
+    write_text(scratch / "a.hdr",
+               std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"));
     EXPECT_EQ(read_image(scratch / "a.hdr")[0].image.pixels[0], glm::vec3(1));
 }
 
@@ -41,7 +42,8 @@ TEST(ImageFiles, UnknownExtensionsAreUsageErrors) {
         EXPECT_THROW(check_image_writable(name), UsageError) << name;
     }
     EXPECT_THROW(read_image("a.jpg"), UsageError);
-    EXPECT_THAT(error_of([&] { write_image("a.jpg", layers); }), AllOf(HasSubstr("'.jpg'"), HasSubstr(".exr or .png")));
+    EXPECT_THAT(error_of([&] { write_image("a.jpg", layers); }),
+                AllOf(HasSubstr("'.jpg'"), HasSubstr(".exr or .png")));
     EXPECT_THAT(error_of([&] { read_image("a.jpg"); }), HasSubstr(".exr, .png or .hdr"));
 }
 

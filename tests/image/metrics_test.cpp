@@ -78,7 +78,8 @@ TEST(Metrics, RefusesSizesAndNonFinitePixels) {
                 AllOf(HasSubstr("'a.exr' (5 × 3)"), HasSubstr("'b.exr' (5 × 4)")));
     EXPECT_THAT(error_of([&] { compare({}, {}); }), HasSubstr("empty"));
     EXPECT_THAT(error_of([&] { compare(Image{5, 4, {}}, good); }), HasSubstr("empty"));
-    for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (const float value :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         Image bad = good;
         bad.pixels[13].g = value;
         EXPECT_THAT(error_of([&] { compare(good, bad, "a.exr", "b.exr"); }),
@@ -104,7 +105,8 @@ TEST(Metrics, DifferencePictureShowsWhereAndWhichWay) {
     EXPECT_NEAR(picture.pixels[2].b, 0.1 / std::sqrt(1.01), 1e-6);
     EXPECT_EQ(picture.pixels[2].r, 0);
     // Never beyond full colour, and a black reference is no trouble.
-    EXPECT_EQ(difference_picture(constant(1, 1, glm::vec3(1e30f)), constant(1, 1, glm::vec3(0))).pixels[0].r, 1);
+    EXPECT_EQ(difference_picture(constant(1, 1, glm::vec3(1e30f)), constant(1, 1, glm::vec3(0))).pixels[0].r,
+              1);
     EXPECT_EQ(difference_picture(b, b).pixels[2], glm::vec3(0));
 }
 

@@ -1,5 +1,5 @@
-#include "image/png.hpp"
 #include "image/pictures.hpp"
+#include "image/png.hpp"
 #include "image/srgb.hpp"
 #include "support/expect_error.hpp"
 #include "support/scratch_directory.hpp"
@@ -30,7 +30,8 @@ std::string chunk(const std::string& type, const std::string& data) {
 }
 
 /// A PNG put together by hand, with stored (not compressed) rows that each begin with their filter's byte.
-std::string png(std::uint32_t width, std::uint32_t height, int depth, int color_type, const std::string& rows) {
+std::string png(std::uint32_t width, std::uint32_t height, int depth, int color_type,
+                const std::string& rows) {
     std::uint32_t a = 1, b = 0;
     for (const char c : rows) {
         a = (a + static_cast<std::uint8_t>(c)) % 65521;
@@ -71,8 +72,8 @@ TEST(Png, EveryCodeSurvives) {
 }
 
 TEST(Png, FollowsTheStandardsCurve) {
-    // Values of IEC 61966-2-1, worked out by hand: 0.18 → 0.4613561 · 255 = 117.6, 0.5 → 187.5 (rounds to 188),
-    // the joint of line and curve 0.0031308 → 10.3.
+    // Values of IEC 61966-2-1, worked out by hand: 0.18 → 0.4613561 · 255 = 117.6, 0.5 → 187.5 (rounds to
+    // 188), the joint of line and curve 0.0031308 → 10.3.
     EXPECT_EQ(code_of(0.18f), 118);
     EXPECT_EQ(code_of(0.5f), 188);
     EXPECT_EQ(code_of(0.0031308f), 10);
@@ -130,8 +131,10 @@ TEST(Png, ReadsOtherKindsOfPng) {
     const auto linear = [](double code) { return static_cast<float>(srgb_decode(code)); };
     // 16 bits grey, RGB with alpha, 1 bit grey.
     EXPECT_EQ(read(png(1, 1, 16, 0, std::string("\0\x80\x01", 3)))[0], glm::vec3(linear(0x8001 / 65535.0)));
-    EXPECT_EQ(read(png(1, 1, 8, 6, std::string("\0\xff\x80\0\x10", 5)))[0], glm::vec3(1, linear(128 / 255.0), 0));
-    EXPECT_EQ(read(png(2, 1, 1, 0, std::string("\0\x40", 2))), (std::vector<glm::vec3>{glm::vec3(0), glm::vec3(1)}));
+    EXPECT_EQ(read(png(1, 1, 8, 6, std::string("\0\xff\x80\0\x10", 5)))[0],
+              glm::vec3(1, linear(128 / 255.0), 0));
+    EXPECT_EQ(read(png(2, 1, 1, 0, std::string("\0\x40", 2))),
+              (std::vector<glm::vec3>{glm::vec3(0), glm::vec3(1)}));
 }
 
 TEST(Png, RefusesWhatIsNoPictureAndWhereItCannotWrite) {
@@ -141,7 +144,8 @@ TEST(Png, RefusesWhatIsNoPictureAndWhereItCannotWrite) {
     EXPECT_TRUE(scratch.names().empty());
     std::filesystem::create_directory(scratch / "folder.png");
     EXPECT_THAT(error_of([&] { write_png(scratch / "folder.png", noise(1, 1, 1)); }), HasSubstr("directory"));
-    EXPECT_THAT(error_of([&] { write_png(scratch / "none/a.png", noise(1, 1, 1)); }), HasSubstr("does not exist"));
+    EXPECT_THAT(error_of([&] { write_png(scratch / "none/a.png", noise(1, 1, 1)); }),
+                HasSubstr("does not exist"));
 }
 
 TEST(PngHostile, NamesWhatIsWrong) {
@@ -171,7 +175,8 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
         write_text(scratch / "bad.png", bytes);
         try {
             const Image image = read_png(scratch / "bad.png");
-            EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+            EXPECT_EQ(image.pixels.size(),
+                      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
         } catch (const Error& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         }
@@ -181,7 +186,8 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
     }
     for (std::size_t place = 0; place < whole.size(); ++place) {
         for (const char value : {'\0', '\x01', '\x7f', '\xff'}) {
-            // A width of thousands of millions is stb's to refuse, but memory for 65536² would be too much for a test.
+            // A width of thousands of millions is stb's to refuse, but memory for 65536² would be too much
+            // for a test.
             if (place >= 16 && place < 24 && value != '\0') {
                 continue;
             }
@@ -212,7 +218,8 @@ TEST(Hdr, NamesWhatIsWrong) {
     EXPECT_THAT(error(""), HasSubstr("empty"));
     EXPECT_THAT(error("nothing"), HasSubstr("not a Radiance HDR"));
     EXPECT_THAT(error("#?RADIANCE\nFORMAT=strange\n\n-Y 1 +X 2\n"), HasSubstr("damaged"));
-    EXPECT_THAT(error("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 99999999 +X 99999999\n"), HasSubstr("damaged"));
+    EXPECT_THAT(error("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 99999999 +X 99999999\n"),
+                HasSubstr("damaged"));
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdlib.h>
 #include <stdexcept>
+#include <stdlib.h>
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace argand::testing {
 
 /// An empty directory of its own, removed with all that is in it at the end of the scope.
 class ScratchDirectory {
-  public:
+public:
     ScratchDirectory() {
         std::string name = (std::filesystem::temp_directory_path() / "argand-test-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) {
@@ -39,7 +39,7 @@ class ScratchDirectory {
         return found;
     }
 
-  private:
+private:
     std::filesystem::path path_;
 };
 
