@@ -3,10 +3,11 @@
 #include "base/environment.hpp"
 #include "device/device.hpp"
 
-#include <cstdlib>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -50,13 +51,14 @@ inline void PrintTo(const DeviceSetting& setting, std::ostream* out) {
 }
 
 /// The paths that kernels with variants take; a device without lanes that run serially takes the second
-/// twice.
+/// twice. "least" is the least that Argand is content with.
 inline std::vector<DeviceSetting> variant_settings() {
     return {{"default", "", ""},
             {"subgroups", "lane_serial", ""},
             {"shared", "lane_serial,subgroups", ""},
             {"least", "lane_serial,subgroups,push_descriptors,timestamps",
-             "invocations=128,shared_memory=16384,storage_buffers=16"}};
+             fmt::format("invocations={},shared_memory={},storage_buffers={}", Requirements::invocations,
+                         Requirements::shared_memory, Requirements::storage_buffers)}};
 }
 
 /// Opens devices with the API's validation on; any message from it fails the test.

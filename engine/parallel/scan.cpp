@@ -3,6 +3,9 @@
 #include "kernels/scan_parts_serial.hpp"
 #include "kernels/scan_parts_shared.hpp"
 #include "kernels/scan_parts_subgroup.hpp"
+#include "kernels/segment_totals.hpp"
+#include "kernels/segmented_scan_group.hpp"
+#include "kernels/segmented_scan_serial.hpp"
 #include "parallel/parts.hpp"
 
 namespace argand {
@@ -44,6 +47,39 @@ void exclusive_scan(Device& device, const Buffer& in, const Buffer& out, const C
 
 void inclusive_scan(Device& device, const Buffer& in, const Buffer& out, const Count& count) {
     scan(device, in, out, count, true);
+}
+
+void segmented_scan(Device& device, const Buffer& in, const Buffer& heads, const Buffer& out,
+                    const Count& count) {
+    check_room("scanning segments", in, count, sizeof(uint));
+    check_room("scanning segments", heads, count, sizeof(uint));
+    check_room("scanning segments", out, count, sizeof(uint));
+    if (count.bound == 0) {
+        return;
+    }
+    const Variant variant = variant_of(device.info());
+    const PartsRecord parts = variant_parts(variant, count);
+    const Buffer totals = device.scratch("scan: totals of parts", parts.parts * 2 * sizeof(uint));
+    if (parts.parts > 1) {
+        dispatch(device,
+                 kernels::segment_totals{.in_elements = in,
+                                         .heads = heads,
+                                         .counts = counts_or(count, in),
+                                         .part_totals = totals,
+                                         .params = {count_record(count), parts}},
+                 groups_of<kernels::segment_totals>(parts.parts));
+    }
+    for_variant<kernels::segmented_scan_serial, kernels::segmented_scan_group, kernels::segmented_scan_group>(
+        variant, parts, [&]<class Kernel>(std::uint64_t threads) {
+            dispatch(device,
+                     Kernel{.in_elements = in,
+                            .heads = heads,
+                            .counts = counts_or(count, in),
+                            .part_totals = totals,
+                            .out_elements = out,
+                            .params = {count_record(count), parts}},
+                     threads);
+        });
 }
 
 } // namespace argand

@@ -52,6 +52,11 @@ struct ScanParams {
     uint inclusive;
 };
 
+struct SegmentParams {
+    CountRecord count;
+    PartsRecord parts;
+};
+
 struct CompactParams {
     CountRecord count;
     PartsRecord parts;
