@@ -3,8 +3,10 @@
 #include "methods/methods.hpp"
 #include "photon/gather.hpp"
 #include "plan/radius.hpp"
+#include "shared/photon.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace argand {
 
@@ -23,15 +25,32 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
     sums.unit = unit;
 }
 
-/// The radius for all passes, from the photons of the first.
-double radius_from(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace, const StoredPhotons& stored,
-                   std::uint64_t passes) {
+/// The radii for all passes, from the photons of the first.
+GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                       const StoredPhotons& stored, std::uint64_t passes) {
     const PhotonMap map = build_photon_map(device, scene, workspace, stored, 0, 0);
     const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
-    const double in_all = static_cast<double>(stored.photons) * static_cast<double>(passes);
-    const double radius = median_radius(photons, photons_in_disc(in_all) / static_cast<double>(passes));
-    // Photons that all lie in one point, or none, say nothing.
-    return radius > 0 ? radius : 0.01 * scene.record.radius;
+    std::vector<PhotonRecord> caustic;
+    std::copy_if(photons.begin(), photons.end(), std::back_inserter(caustic),
+                 [](const PhotonRecord& photon) { return photon_is_caustic(photon.normal); });
+    const auto radius_of = [&](const std::vector<PhotonRecord>& some) {
+        const auto share = static_cast<double>(passes);
+        return median_radius(some, photons_in_disc(static_cast<double>(some.size()) * share) / share);
+    };
+    GatherRadii radii;
+    radii.indirect = radius_of(photons);
+    if (!(radii.indirect > 0)) {
+        // Photons that all lie in one point, or none, say nothing.
+        radii.indirect = 0.01 * scene.record.radius;
+    }
+    radii.caustic = radius_of(caustic);
+    // A radius that is little smaller gains nothing, and loses the boundary correction.
+    if (!(radii.caustic > 0) || radii.caustic > 0.5 * radii.indirect) {
+        radii.caustic = radii.indirect;
+    }
+    // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by one.
+    radii.caustic = std::max(radii.caustic, 0.25 * radii.indirect);
+    return radii;
 }
 
 } // namespace
@@ -44,6 +63,7 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
     const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
+    GatherRadii radii;
 
     EyeWorkspace eye = make_eye_workspace(
         device, settings, camera_record(scene.cameras[settings.camera], settings.width, settings.height), true);
@@ -69,8 +89,10 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                  scene.name, device.info().name);
         }
         if (pass == 0) {
-            statistics.radius =
-                settings.radius ? *settings.radius : radius_from(device, on_device, workspace, *stored, passes);
+            radii = settings.radius ? GatherRadii{*settings.radius, *settings.radius}
+                                    : radii_from(device, on_device, workspace, *stored, passes);
+            statistics.radius = radii.indirect;
+            statistics.caustic_radius = radii.caustic;
         }
         const PhotonMap map =
             build_photon_map(device, on_device, workspace, *stored,
@@ -79,7 +101,7 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
             gather_photons(device, on_device, map,
                            {.active = eye.active, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
                             .partial = partial},
-                           eye.traversal, static_cast<float>(statistics.radius), active);
+                           eye.traversal, radii, active);
         };
         const auto first_sample = static_cast<std::uint32_t>(pass * samples);
         statistics.interrupted =

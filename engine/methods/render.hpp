@@ -40,6 +40,7 @@ struct RenderStatistics {
     std::uint64_t photons_emitted = 0;
     std::uint64_t photons_stored = 0;
     double radius = 0;                          ///< that was used; 0: none
+    double caustic_radius = 0;                  ///< the same for caustic photons
     std::uint64_t non_finite = 0;               ///< samples left out because they were not finite
     FluxSums flux;
     bool interrupted = false;                   ///< the picture holds the passes that were finished

@@ -5,7 +5,7 @@
 namespace argand {
 
 void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
-                    Traversal& traversal, float radius, const Count& active, std::uint32_t budget) {
+                    Traversal& traversal, const GatherRadii& radii, const Count& active, std::uint32_t budget) {
     const StageScope stage(device, "gather photons");
     const auto run = [&](const Buffer& unfinished, bool first) {
         dispatch_indirect(device,
@@ -14,7 +14,9 @@ void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& m
                                                  .nodes = map.lbvh.nodes, .photons = map.photons,
                                                  .counters = map.counters, .gathers = target.partial,
                                                  .unfinished = unfinished, .layers = target.layers,
-                                                 .params = {.radius = radius, .budget = budget, .first = first ? 1u : 0u,
+                                                 .params = {.radius = static_cast<float>(radii.indirect),
+                                                            .caustic_radius = static_cast<float>(radii.caustic),
+                                                            .budget = budget, .first = first ? 1u : 0u,
                                                             .boundary_correction = map.area_samples > 0 ? 1u : 0u},
                                                  .constants = {.glossy = scene.has_glossy}},
                           active.buffer, active.index);

@@ -15,10 +15,16 @@ struct GatherTarget {
     Buffer partial;             ///< GatherRecord: queries between two dispatches
 };
 
+/// Radii of density estimation, in the scene's units; caustics are sharp, and have one of their own, at most the other.
+struct GatherRadii {
+    double indirect = 0;
+    double caustic = 0;
+};
+
 /// Adds to the layers of every query the radiance that estimated lobes scatter towards the eye: density estimation with
-/// the Epanechnikov kernel over the photons within `radius` (Jensen 1996). Queries that take more iterations than one
+/// the Epanechnikov kernel over the photons within the radii (Jensen 1996). Queries that take more iterations than one
 /// dispatch allows are counted in traversal.unfinished; if traversal.careful is set, gone on with until they are done.
 void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
-                    Traversal& traversal, float radius, const Count& active, std::uint32_t budget = gather_budget);
+                    Traversal& traversal, const GatherRadii& radii, const Count& active, std::uint32_t budget = gather_budget);
 
 } // namespace argand

@@ -62,9 +62,11 @@ struct FluxSumParams {
 
 struct PhotonGatherParams {
     float32 radius;
+    float32 caustic_radius;     // of caustic photons, at most `radius`
     uint budget;        // iterations of a dispatch
     uint first;         // whether this is the first dispatch of these queries
     uint boundary_correction;   // whether the map holds area samples
+    uint pad0, pad1, pad2;
 };
 
 // A query of the photon map between two dispatches: the node to go on with, and the sums so far.

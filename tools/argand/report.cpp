@@ -42,6 +42,7 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
               {"photons", settings.photons},
               {"bounces", settings.bounces},
               {"radius", statistics.radius},
+              {"caustic_radius", statistics.caustic_radius},
               {"follow_roughness", settings.follow_roughness},
               {"seed", settings.seed},
               {"camera", scene.cameras[settings.camera].name},

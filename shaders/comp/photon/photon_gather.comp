@@ -78,6 +78,7 @@ void main() {
     vec3 wo = to_local(frame, unpack_unit(query.direction));
     vec3 reflectance = lambertian ? bsdf_eval(m, wo, vec3(0.0, 0.0, 1.0), query.lobes) : vec3(0.0);
     float r2 = params.radius * params.radius;
+    float caustic_r2 = params.caustic_radius * params.caustic_radius;
     float half_height = params.radius * disc_half_height;
 
     for (uint step = 0u; step < params.budget && node != lbvh_end; ++step) {
@@ -116,7 +117,7 @@ void main() {
                 area_block += photons[j].flux_r * kernel_weight(d2, r2);
                 continue;
             }
-            vec3 term = vec3(photons[j].flux_r, photons[j].flux_g, photons[j].flux_b) * kernel_weight(d2, r2);
+            vec3 term = vec3(photons[j].flux_r, photons[j].flux_g, photons[j].flux_b);
             if (lambertian) {
                 term *= reflectance;
             } else {
@@ -124,9 +125,9 @@ void main() {
                 term *= wi.z > 0.0 ? bsdf_eval(m, wo, wi, query.lobes) : vec3(0.0);
             }
             if (photon_is_caustic(photon_normal)) {
-                caustic_block += term;
+                caustic_block += term * kernel_weight(d2, caustic_r2);
             } else {
-                indirect_block += term;
+                indirect_block += term * kernel_weight(d2, r2);
             }
         }
         add(indirect, indirect_block);
@@ -144,7 +145,9 @@ void main() {
     gathers[slot].node = lbvh_end;
     // Photons fill only the part of the disc that lies on surfaces.
     float scale = params.boundary_correction != 0u ? 1.0 / max(coverage, least_coverage) : 1.0;
-    vec3 throughput = scale * vec3(query.throughput_r, query.throughput_g, query.throughput_b);
-    add_to_layer(slot, layer_indirect, throughput * indirect.value);
-    add_to_layer(slot, layer_caustic, throughput * caustic.value);
+    // The coverage is known of the whole disc only.
+    float caustic_scale = caustic_r2 < r2 ? 1.0 : scale;
+    vec3 throughput = vec3(query.throughput_r, query.throughput_g, query.throughput_b);
+    add_to_layer(slot, layer_indirect, throughput * scale * indirect.value);
+    add_to_layer(slot, layer_caustic, throughput * caustic_scale * caustic.value);
 }
