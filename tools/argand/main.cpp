@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
     add_compare_command(app);
     add_inspect_command(app);
     add_devices_command(app);
+    add_bench_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "bench/bench.hpp"
+
+namespace argand {
+
+/// Photons emitted, traced and stored per second in a Cornell box; photons sorted and built into a map; eye paths with a
+/// query of the map each.
+std::vector<BenchRow> bench_photons(Device& device);
+
+} // namespace argand

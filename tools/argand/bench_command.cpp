@@ -1,0 +1,93 @@
+#include "commands.hpp"
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+#include "bench/bench.hpp"
+#include "bench/bench_photons.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace argand {
+
+namespace {
+
+struct BenchOptions {
+    std::vector<std::string> names;
+    std::string device;
+    bool json = false;
+};
+
+struct NamedBench {
+    const char* name;
+    std::vector<BenchRow> (*measure)(Device&);
+};
+
+constexpr NamedBench benches[] = {{"parallel", bench_parallel}, {"photons", bench_photons}};
+
+std::string names() {
+    std::string all;
+    for (const NamedBench& bench : benches) {
+        all += (all.empty() ? "" : ", ") + std::string(bench.name);
+    }
+    return all;
+}
+
+void print(const BenchRow& row) {
+    fmt::print("{:<28}{:>10}  {:>10.3g} s  {:>10.4g} {}", row.name, row.n, row.seconds, row.rate, row.unit);
+    if (row.bound > 0) {
+        fmt::print("  {:>5.1f} % of {:.4g}", 100 * row.rate / row.bound, row.bound);
+    }
+    if (!row.peer.empty()) {
+        fmt::print("  {:.3g} x {} ({:.4g})", row.rate / row.peer_rate, row.peer, row.peer_rate);
+    }
+    fmt::print("\n");
+}
+
+nlohmann::ordered_json to_json(const BenchRow& row) {
+    return {{"name", row.name}, {"n", row.n},         {"seconds", row.seconds}, {"rate", row.rate},
+            {"unit", row.unit}, {"bound", row.bound}, {"peer", row.peer},       {"peer_rate", row.peer_rate}};
+}
+
+void run(const BenchOptions& options) {
+    for (const std::string& name : options.names) {
+        if (std::none_of(std::begin(benches), std::end(benches), [&](const NamedBench& b) { return name == b.name; })) {
+            throw UsageError(fmt::format("measuring '{}': there is no such benchmark; choose from {}", name,
+                                         names()));
+        }
+    }
+    const std::unique_ptr<Device> device = open_device(options.device);
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const NamedBench& bench : benches) {
+        if (!options.names.empty() &&
+            std::find(options.names.begin(), options.names.end(), bench.name) == options.names.end()) {
+            continue;
+        }
+        for (const BenchRow& row : bench.measure(*device)) {
+            if (options.json) {
+                rows.push_back(to_json(row));
+            } else {
+                print(row);
+            }
+        }
+    }
+    if (options.json) {
+        fmt::print("{}", json_text(rows));
+    }
+}
+
+} // namespace
+
+void add_bench_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "Measure how fast the parts are on a device");
+    auto options = std::make_shared<BenchOptions>();
+    command->add_option("name", options->names, fmt::format("Any of {} (default: all)", names()));
+    command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
+    command->add_flag("--json", options->json, "Print JSON, one object per measurement");
+    command->footer("Rates are items per second: median of several runs, GPU time. The bound is what the rate would be if\n"
+                    "only memory traffic counted, at the copy rate measured in the same run; the peer does the same on\n"
+                    "the host.\n\nExample:\n  argand bench parallel --json");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace argand
