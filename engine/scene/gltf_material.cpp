@@ -89,7 +89,7 @@ void read_extensions(const FactorReader& read, const json* object, Material& mat
         add_note(read.scene,
                  "the attenuation of KHR_materials_volume is not understood yet: volumes are clear");
     }
-    if (material.transmission > 0 && material.roughness > 0) {
+    if (material.transmission > 0 && material.metallic < 1 && material.roughness > 0) {
         add_note(read.scene, "rough transmission is not understood yet: such surfaces are rendered smooth");
     }
 

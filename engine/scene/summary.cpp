@@ -14,7 +14,7 @@ using json = nlohmann::ordered_json;
 
 template <class Vector>
 json numbers(const Vector& v) {
-    return json::array({v.x, v.y, v.z});
+    return json::array({v.x + 0, v.y + 0, v.z + 0}); // −0 + 0 is 0, which reads better
 }
 
 double degrees(double radians) {
@@ -187,12 +187,13 @@ void append_list(std::string& text, const char* title, const json& list, Line li
 } // namespace
 
 std::string describe(const Material& material) {
+    // KHR_materials_transmission is for the dielectric part: metal does not transmit.
+    if (material.metallic >= 1) {
+        return material.roughness <= 0 ? "mirror" : "metal";
+    }
     if (material.transmission > 0) {
         const char* solid = material.thickness > 0 ? "glass" : "thin glass";
         return material.transmission < 1 ? fmt::format("part {}", solid) : solid;
-    }
-    if (material.metallic >= 1) {
-        return material.roughness <= 0 ? "mirror" : "metal";
     }
     if (material.metallic > 0) {
         return "part metal";

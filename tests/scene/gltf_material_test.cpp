@@ -126,7 +126,8 @@ TEST(GltfMaterial, NotesAColourOfWrongLength) {
 TEST(GltfMaterial, NamesWhatItDoesNotUnderstand) {
     EXPECT_TRUE(has_note(with_material({{"alphaMode", "BLEND"}}).load(), "alpha modes"));
     EXPECT_FALSE(has_note(with_material({{"alphaMode", "OPAQUE"}}).load(), "alpha modes"));
-    const json rough{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    const json rough{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                     {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
     EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));
     const json tinted =
         extension("KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 3}});

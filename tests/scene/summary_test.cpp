@@ -30,6 +30,7 @@ TEST(Describe, NamesEachKindOfMaterial) {
     EXPECT_EQ(kind(0, 0, 1, 1, 1), "glass");
     EXPECT_EQ(kind(0, 0, 1, 1, 0), "thin glass");
     EXPECT_EQ(kind(0, 0, 1, 0.5f, 1), "part glass");
+    EXPECT_EQ(kind(1, 0, 1, 1, 1), "mirror"); // metal does not transmit
 }
 
 /// A lamp and a wall, all kinds of lights, one camera, an animation, an extension that is not understood.
