@@ -18,6 +18,10 @@ namespace {
 // allows.
 constexpr std::uint64_t slots_on_cpu = 1u << 17;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
+// Light from photons is smooth, and asking for it costs more than all the rest: every other sample asks.
+constexpr std::uint32_t samples_per_query = 2;
+// Of the paths that ask the photon map, among EyeWorkspace::counts.
+constexpr std::uint32_t asking_count = 2;
 // Vertices recorded before the host asks whether any path is left.
 constexpr int vertices_between_checks = 4;
 
@@ -51,7 +55,7 @@ void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                                                   .active_slots = w.active, .counts = w.counts, .rays = w.rays,
                                                   .paths = w.paths, .layers = w.layers,
                                                   .shadow_rays = w.shadow_rays, .shadows = w.shadows,
-                                                  .queries = w.queries, .alive = w.alive, .batch = batch,
+                                                  .queries = w.queries, .alive = w.alive, .asks = w.asks, .batch = batch,
                                                   .constants = {.photon_map = gather != nullptr}},
                               w.counts);
         }
@@ -67,7 +71,11 @@ void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                               w.counts);
         }
         if (gather) {
-            gather(active);
+            {
+                const StageScope stage(device, "compact");
+                compact(device, w.asks, w.active, w.asking, w.counts, asking_count, active);
+            }
+            gather(Count(w.counts, asking_count, slots));
         }
         {
             const StageScope stage(device, "compact");
@@ -110,6 +118,8 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     w.shadows = per_slot("shadow contributions", sizeof(ShadowRecord));
     w.occluded = per_slot("shadow ray flags", 4);
     w.queries = device.allocate("photon map queries", queries ? w.slots * sizeof(QueryRecord) : sizeof(QueryRecord));
+    w.asks = device.allocate("eye path flags", queries ? w.slots * 4 : 4);
+    w.asking = device.allocate("asking eye paths", queries ? w.slots * 4 : 4);
     w.counts = device.allocate("eye path counts", 16);
     w.traversal = make_traversal(device, w.slots);
     w.film = device.allocate("film", pixels * sizeof(FilmRecord));
@@ -136,6 +146,9 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
             batch.width = static_cast<std::uint32_t>(settings.width);
             batch.height = static_cast<std::uint32_t>(settings.height);
             batch.bounces = settings.bounces;
+            batch.query_first = first_sample;
+            batch.query_step = std::min(samples_per_query, samples);
+            batch.query_weight = static_cast<float>(samples) / static_cast<float>((samples + batch.query_step - 1) / batch.query_step);
             trace_batch(device, scene, w, batch, gather);
             if (!w.traversal.careful && download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
                 w.traversal.careful = true;

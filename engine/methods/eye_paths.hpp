@@ -9,7 +9,9 @@ namespace argand {
 /// Device memory for eye paths that are traced together.
 struct EyeWorkspace {
     std::uint64_t slots = 0;
-    Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows, occluded, queries, counts;
+    Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows, occluded;
+    Buffer queries, asks, asking;   ///< of the photon map: QueryRecord and flag per slot, slots that ask
+    Buffer counts;
     Traversal traversal;
     Buffer film;                ///< FilmRecord per pixel
 };
@@ -18,9 +20,9 @@ struct EyeWorkspace {
 EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, const CameraRecord& camera,
                                 bool queries);
 
-/// Answers the queries of EyeWorkspace::queries of the active paths, adding to their layers; counts those it could not
+/// Answers the queries of the so many slots in EyeWorkspace::asking, adding to their layers; counts those it could not
 /// finish in EyeWorkspace::traversal.unfinished.
-using Gather = std::function<void(const Count& active)>;
+using Gather = std::function<void(const Count& asking)>;
 
 /// Traces paths for the samples [first, first + count) of every pixel and adds them to the film. Without `gather` these
 /// are the paths of a path tracer; with it, light that estimated lobes scatter more than once is left to the photon

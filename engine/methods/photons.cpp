@@ -97,11 +97,11 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
         const PhotonMap map =
             build_photon_map(device, on_device, workspace, *stored,
                              area_samples(on_device.surface_area, statistics.radius), settings.seed + static_cast<std::uint32_t>(pass));
-        const Gather gather = [&](const Count& active) {
+        const Gather gather = [&](const Count& asking) {
             gather_photons(device, on_device, map,
-                           {.active = eye.active, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
+                           {.slots = eye.asking, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
                             .partial = partial},
-                           eye.traversal, radii, active);
+                           eye.traversal, radii, asking);
         };
         const auto first_sample = static_cast<std::uint32_t>(pass * samples);
         statistics.interrupted =

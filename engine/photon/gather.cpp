@@ -5,11 +5,11 @@
 namespace argand {
 
 void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
-                    Traversal& traversal, const GatherRadii& radii, const Count& active, std::uint32_t budget) {
+                    Traversal& traversal, const GatherRadii& radii, const Count& asking, std::uint32_t budget) {
     const StageScope stage(device, "gather photons");
     const auto run = [&](const Buffer& unfinished, bool first) {
         dispatch_indirect(device,
-                          kernels::photon_gather{.active_slots = target.active, .counts = target.counts,
+                          kernels::photon_gather{.active_slots = target.slots, .counts = target.counts,
                                                  .queries = target.queries, .materials = scene.materials,
                                                  .nodes = map.lbvh.nodes, .photons = map.photons,
                                                  .counters = map.counters, .gathers = target.partial,
@@ -17,9 +17,10 @@ void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& m
                                                  .params = {.radius = static_cast<float>(radii.indirect),
                                                             .caustic_radius = static_cast<float>(radii.caustic),
                                                             .budget = budget, .first = first ? 1u : 0u,
-                                                            .boundary_correction = map.area_samples > 0 ? 1u : 0u},
+                                                            .boundary_correction = map.area_samples > 0 ? 1u : 0u,
+                                                            .count_index = asking.index},
                                                  .constants = {.glossy = scene.has_glossy}},
-                          active.buffer, active.index);
+                          asking.buffer, asking.index);
     };
     if (!traversal.careful) {
         run(traversal.unfinished, true);

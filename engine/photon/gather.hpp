@@ -9,8 +9,8 @@ inline constexpr std::uint32_t gather_budget = 16384;
 
 /// What a gather reads and adds to, per slot of an eye path.
 struct GatherTarget {
-    Buffer active, counts;      ///< slots, and their number (index 0)
-    Buffer queries;             ///< QueryRecord
+    Buffer slots, counts;       ///< slots that ask, and the buffer that holds their number
+    Buffer queries;             ///< QueryRecord per slot
     Buffer layers;              ///< LayersRecord
     Buffer partial;             ///< GatherRecord: queries between two dispatches
 };
@@ -25,6 +25,6 @@ struct GatherRadii {
 /// the Epanechnikov kernel over the photons within the radii (Jensen 1996). Queries that take more iterations than one
 /// dispatch allows are counted in traversal.unfinished; if traversal.careful is set, gone on with until they are done.
 void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
-                    Traversal& traversal, const GatherRadii& radii, const Count& active, std::uint32_t budget = gather_budget);
+                    Traversal& traversal, const GatherRadii& radii, const Count& asking, std::uint32_t budget = gather_budget);
 
 } // namespace argand

@@ -54,6 +54,9 @@ struct EyeBatch {
     uint first_sample, samples;     // per pixel in this batch
     uint width, height;
     uint bounces;                   // the most scatterings between the light and the first estimated vertex
+    uint query_first, query_step;   // samples that ask the photon map: query_first, query_first + query_step, ...
+    float32 query_weight;           // of what they learn: all samples over those that ask
+    uint pad;
 };
 
 ARGAND_SHARED_END

@@ -29,11 +29,11 @@ FN vec3 unpack_photon_normal(uint packed) {
 
 FN bool photon_is_caustic(uint packed) { return (packed & photon_caustic_bit) != 0u; }
 
-// Weight [1/area] of a photon at the squared distance d2 in the tangent plane, of a kernel whose integral over the disc
-// of the squared radius r2 is 1 (Epanechnikov in two dimensions).
-FN real kernel_weight(real d2, real r2) {
-    return real(2.0) * INV_PI / r2 * max(real(0.0), real(1.0) - d2 / r2);
-}
+// Epanechnikov's kernel in two dimensions, at a squared distance in the tangent plane in units of the squared radius r2:
+// times kernel_scale / r2 its integral over the disc is 1.
+FN real kernel_weight(real squared_distance) { return max(real(0.0), real(1.0) - squared_distance); }
+
+CONSTANT real kernel_scale = real(0.63661977236758134308);     // 2 / π
 
 // The part of a disc that lies on surfaces is known from few samples of them: where it is small, it is not trusted.
 CONSTANT real least_coverage = real(0.1);

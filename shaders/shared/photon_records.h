@@ -66,7 +66,8 @@ struct PhotonGatherParams {
     uint budget;        // iterations of a dispatch
     uint first;         // whether this is the first dispatch of these queries
     uint boundary_correction;   // whether the map holds area samples
-    uint pad0, pad1, pad2;
+    uint count_index;           // of the number of queries
+    uint pad0, pad1;
 };
 
 // A query of the photon map between two dispatches: the node to go on with, and the sums so far.

@@ -9,7 +9,7 @@ ARGAND_SHARED_BEGIN
 struct QueryRecord {
     float32 x, y, z;
     uint material;
-    float32 throughput_r, throughput_g, throughput_b;   // of the path to the eye; r < 0: nothing is asked
+    float32 throughput_r, throughput_g, throughput_b;   // of the path to the eye
     uint direction;         // towards the eye, packed (pack_unit)
     uint geometric_normal;  // towards the eye's side, packed
     uint shading_normal;    // packed

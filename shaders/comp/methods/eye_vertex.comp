@@ -17,6 +17,7 @@ layout(set = 0, binding = 13) writeonly buffer ShadowRays { RayRecord shadow_ray
 layout(set = 0, binding = 14) writeonly buffer Shadows { ShadowRecord shadows[]; };
 layout(set = 0, binding = 15) writeonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 16) writeonly buffer Alive { uint alive[]; };
+layout(set = 0, binding = 17) writeonly buffer Asks { uint asks[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: light that estimated lobes scatter more than once is left to the photon map.
@@ -87,7 +88,7 @@ void main() {
     alive[i] = 0u;
     shadow_rays[slot] = no_ray;
     if (photon_map) {
-        queries[slot].throughput_r = -1.0;
+        asks[i] = 0u;
     }
 
     if (hit.triangle == no_triangle) {
@@ -127,9 +128,12 @@ void main() {
     if (scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
         sample_light(slot, path, throughput, surface, frame, m, wo, estimated, followed, estimated_probability);
     }
-    if (photon_map && estimated != 0u && batch.bounces > 0u) {
+    if (photon_map && estimated != 0u && batch.bounces > 0u &&
+        (path.sample_index - batch.query_first) % batch.query_step == 0u) {
+        vec3 asked = throughput * batch.query_weight;
+        asks[i] = 1u;
         queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
-                                    triangles[hit.triangle].w, throughput.x, throughput.y, throughput.z,
+                                    triangles[hit.triangle].w, asked.x, asked.y, asked.z,
                                     pack_unit(-direction), pack_unit(surface.geometric_normal),
                                     pack_unit(surface.shading_normal), estimated, surface.front ? 1u : 0u);
     }

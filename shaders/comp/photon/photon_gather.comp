@@ -44,14 +44,11 @@ float squared_distance(LbvhNode node, vec3 p) {
 
 void main() {
     uint i = THREAD_INDEX;
-    if (i >= counts[0]) {
+    if (i >= counts[params.count_index]) {
         return;
     }
     uint slot = active_slots[i];
     QueryRecord query = queries[slot];
-    if (query.throughput_r < 0.0) {
-        return;
-    }
     Sum indirect = Sum(vec3(0.0), vec3(0.0));
     Sum caustic = Sum(vec3(0.0), vec3(0.0));
     float coverage = 0.0;
@@ -79,6 +76,8 @@ void main() {
     vec3 reflectance = lambertian ? bsdf_eval(m, wo, vec3(0.0, 0.0, 1.0), query.lobes) : vec3(0.0);
     float r2 = params.radius * params.radius;
     float caustic_r2 = params.caustic_radius * params.caustic_radius;
+    float inverse_r2 = 1.0 / r2;
+    float inverse_caustic_r2 = 1.0 / caustic_r2;
     float half_height = params.radius * disc_half_height;
 
     for (uint step = 0u; step < params.budget && node != lbvh_end; ++step) {
@@ -114,7 +113,7 @@ void main() {
                 }
             }
             if (is_area) {
-                area_block += photons[j].flux_r * kernel_weight(d2, r2);
+                area_block += photons[j].flux_r * kernel_weight(d2 * inverse_r2);
                 continue;
             }
             vec3 term = vec3(photons[j].flux_r, photons[j].flux_g, photons[j].flux_b);
@@ -125,14 +124,15 @@ void main() {
                 term *= wi.z > 0.0 ? bsdf_eval(m, wo, wi, query.lobes) : vec3(0.0);
             }
             if (photon_is_caustic(photon_normal)) {
-                caustic_block += term * kernel_weight(d2, caustic_r2);
+                caustic_block += term * kernel_weight(d2 * inverse_caustic_r2);
             } else {
-                indirect_block += term * kernel_weight(d2, r2);
+                indirect_block += term * kernel_weight(d2 * inverse_r2);
             }
         }
-        add(indirect, indirect_block);
-        add(caustic, caustic_block);
-        coverage += area_block;
+        // The kernel's factor is the same for all.
+        add(indirect, indirect_block * (kernel_scale * inverse_r2));
+        add(caustic, caustic_block * (kernel_scale * inverse_caustic_r2));
+        coverage += area_block * (kernel_scale * inverse_r2);
         node = n.escape;
     }
 
