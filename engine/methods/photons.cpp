@@ -111,7 +111,9 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
         statistics.photons_emitted += emission.count;
         statistics.photons_stored += stored->photons;
         ++statistics.passes;
-        add_flux_sums(statistics.flux, download<std::int64_t>(device, workspace.flux_sums, 12), unit);
+        // Every pass emits all of the lights' power.
+        add_flux_sums(statistics.flux, download<std::int64_t>(device, workspace.flux_sums, 12),
+                      unit / static_cast<double>(statistics.passes));
     }
     result.layers = resolve_film(device, eye, settings, statistics);
     return result;
