@@ -25,15 +25,15 @@ constexpr std::uint32_t asking_count = 2;
 // Vertices recorded before the host asks whether any path is left.
 constexpr int vertices_between_checks = 4;
 
-/// One batch. The film is left alone if a ray or query ran out of iterations: the caller then repeats it with care.
-void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeBatch& batch,
+/// Traces the paths of a batch to their end.
+void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera, const EyeBatch& batch,
                  const Gather& gather) {
     const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
     device.fill(w.traversal.unfinished, 0);
     {
         const StageScope stage(device, "camera rays");
         dispatch(device,
-                 kernels::camera_rays{.camera = w.camera, .rays = w.rays, .paths = w.paths, .layers = w.layers,
+                 kernels::camera_rays{.camera = camera, .rays = w.rays, .paths = w.paths, .layers = w.layers,
                                       .active_slots = w.active, .batch = batch},
                  slots);
         const auto count = static_cast<std::uint32_t>(slots);
@@ -90,6 +90,12 @@ void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
             }
         }
     }
+}
+
+/// One batch. The film is left alone if a ray or query ran out of iterations: the caller then repeats it with care.
+void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeBatch& batch,
+                 const Gather& gather) {
+    trace_paths(device, scene, w, w.camera, batch, gather);
     const StageScope stage(device, "film");
     dispatch(device,
              kernels::film_add{.layers = w.layers, .unfinished = w.traversal.unfinished, .film = w.film,
@@ -161,6 +167,32 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
         }
     }
     return true;
+}
+
+std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                                      const RenderSettings& settings, const Camera& camera) {
+    constexpr int longer_side = 48;
+    const int longer = std::max(settings.width, settings.height);
+    EyeBatch batch{};
+    batch.seed = settings.seed;
+    batch.width = static_cast<std::uint32_t>(std::max(settings.width * longer_side / longer, 1));
+    batch.height = static_cast<std::uint32_t>(std::max(settings.height * longer_side / longer, 1));
+    batch.pixels = static_cast<std::uint32_t>(std::min<std::uint64_t>(batch.width * batch.height, w.slots));
+    batch.samples = 1;
+    batch.bounces = settings.bounces;
+    batch.query_step = 1;
+    batch.query_weight = 1;
+    const CameraRecord record = camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
+    const Buffer small_picture = upload<CameraRecord>(device, "camera", std::span(&record, 1));
+    std::vector<glm::vec3> positions;
+    trace_paths(device, scene, w, small_picture, batch, [&](const Count& asking) {
+        const auto count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
+        const std::vector<QueryRecord> queries = download<QueryRecord>(device, w.queries, batch.pixels);
+        for (const std::uint32_t slot : download<std::uint32_t>(device, w.asking, count)) {
+            positions.emplace_back(queries[slot].x, queries[slot].y, queries[slot].z);
+        }
+    });
+    return positions;
 }
 
 std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& w, const RenderSettings& settings,

@@ -30,6 +30,10 @@ using Gather = std::function<void(const Count& asking)>;
 bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& workspace, const RenderSettings& settings,
                      std::uint32_t first_sample, std::uint32_t samples, const Gather& gather, const OnProgress& progress);
 
+/// Points at which eye paths of a small version of the picture would ask the photon map. Waits for the device.
+std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
+                                      const RenderSettings& settings, const Camera& camera);
+
 /// The film's means as layers, and the counts that belong to them.
 std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& workspace, const RenderSettings& settings,
                                 RenderStatistics& statistics);

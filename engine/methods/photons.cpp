@@ -25,31 +25,36 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
     sums.unit = unit;
 }
 
-/// The radii for all passes, from the photons of the first.
+/// The radii for all passes, from the photons of the first and the points at which the picture will ask for them. The
+/// radius of caustics follows from where their photons are, which is where the caustics are.
 GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
-                       const StoredPhotons& stored, std::uint64_t passes) {
+                       const StoredPhotons& stored, std::uint64_t passes, const std::vector<glm::vec3>& queries) {
+    constexpr std::size_t caustic_samples = 1024;
     const PhotonMap map = build_photon_map(device, scene, workspace, stored, 0, 0);
     const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
     std::vector<PhotonRecord> caustic;
     std::copy_if(photons.begin(), photons.end(), std::back_inserter(caustic),
                  [](const PhotonRecord& photon) { return photon_is_caustic(photon.normal); });
-    const auto radius_of = [&](const std::vector<PhotonRecord>& some) {
-        const auto share = static_cast<double>(passes);
-        return median_radius(some, photons_in_disc(static_cast<double>(some.size()) * share) / share);
+    std::vector<glm::vec3> in_caustics;
+    for (std::size_t i = 0; i < caustic.size(); i += std::max<std::size_t>(caustic.size() / caustic_samples, 1)) {
+        in_caustics.emplace_back(caustic[i].x, caustic[i].y, caustic[i].z);
+    }
+
+    const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
+    const auto share = static_cast<double>(passes);
+    const auto radius_of = [&](const std::vector<PhotonRecord>& some, const std::vector<glm::vec3>& points) {
+        const double in_disc = photons_in_disc(static_cast<double>(some.size()) * share) / share;
+        return median_radius(some, points, center - scene.record.radius, center + scene.record.radius, in_disc);
     };
     GatherRadii radii;
-    radii.indirect = radius_of(photons);
-    if (!(radii.indirect > 0)) {
-        // Photons that all lie in one point, or none, say nothing.
-        radii.indirect = 0.01 * scene.record.radius;
-    }
-    radii.caustic = radius_of(caustic);
-    // A radius that is little smaller gains nothing, and loses the boundary correction.
-    if (!(radii.caustic > 0) || radii.caustic > 0.5 * radii.indirect) {
-        radii.caustic = radii.indirect;
-    }
-    // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by one.
-    radii.caustic = std::max(radii.caustic, 0.25 * radii.indirect);
+    // Without photons, or with all of them in one point, nothing is to be learnt.
+    const double learnt = radius_of(photons, queries);
+    radii.indirect = learnt > 0 ? learnt : 0.01 * scene.record.radius;
+    const double learnt_of_caustics = radius_of(caustic, in_caustics);
+    // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by one. And a radius
+    // that is little smaller gains nothing, and loses the boundary correction.
+    const bool sharp = learnt_of_caustics > 0 && learnt_of_caustics < 0.5 * radii.indirect;
+    radii.caustic = sharp ? std::max(learnt_of_caustics, 0.25 * radii.indirect) : radii.indirect;
     return radii;
 }
 
@@ -90,7 +95,9 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
         }
         if (pass == 0) {
             radii = settings.radius ? GatherRadii{*settings.radius, *settings.radius}
-                                    : radii_from(device, on_device, workspace, *stored, passes);
+                                    : radii_from(device, on_device, workspace, *stored, passes,
+                                                 sample_queries(device, on_device, eye, settings,
+                                                                scene.cameras[settings.camera]));
             statistics.radius = radii.indirect;
             statistics.caustic_radius = radii.caustic;
         }

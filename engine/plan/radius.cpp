@@ -1,8 +1,9 @@
 #include "plan/radius.hpp"
 
+#include "shared/morton.h"
+
 #include <algorithm>
 #include <cmath>
-#include <glm/glm.hpp>
 #include <numbers>
 #include <vector>
 
@@ -15,24 +16,29 @@ double photons_in_disc(double photons_stored) {
     return std::max(in_disc * std::pow(photons_stored / reference_photons, 2.0 / 3.0), 4.0);
 }
 
-double median_radius(std::span<const PhotonRecord> photons, double in_disc) {
-    constexpr std::size_t samples = 1024;
-    if (photons.empty()) {
+double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points, glm::vec3 low,
+                     glm::vec3 high, double in_disc) {
+    if (photons.empty() || points.empty()) {
         return 0;
+    }
+    std::vector<std::uint32_t> codes;
+    codes.reserve(photons.size());
+    for (const PhotonRecord& photon : photons) {
+        codes.push_back(morton30({photon.x, photon.y, photon.z}, low, high));
     }
     // Neighbours in the plane are near in the order, but on both sides and with gaps.
     const auto nearest = static_cast<std::size_t>(in_disc);
     const std::size_t reach = 3 * nearest;
-    const auto position = [&](std::size_t i) { return glm::dvec3(photons[i].x, photons[i].y, photons[i].z); };
     std::vector<double> radii;
     std::vector<double> distances;
-    const std::size_t step = std::max<std::size_t>(photons.size() / samples, 1);
-    for (std::size_t i = step / 2; i < photons.size(); i += step) {
-        const std::size_t begin = i > reach ? i - reach : 0;
-        const std::size_t end = std::min(i + reach + 1, photons.size());
+    for (const glm::vec3& point : points) {
+        const auto place = static_cast<std::size_t>(
+            std::lower_bound(codes.begin(), codes.end(), morton30(point, low, high)) - codes.begin());
+        const std::size_t begin = place > reach ? place - reach : 0;
+        const std::size_t end = std::min(place + reach + 1, photons.size());
         distances.clear();
         for (std::size_t j = begin; j < end; ++j) {
-            const glm::dvec3 d = position(j) - position(i);
+            const glm::dvec3 d = glm::dvec3(photons[j].x, photons[j].y, photons[j].z) - glm::dvec3(point);
             distances.push_back(glm::dot(d, d));
         }
         const auto last = distances.begin() + static_cast<std::ptrdiff_t>(std::min(nearest, distances.size() - 1));

@@ -3,6 +3,7 @@
 #include "shared/photon_records.h"
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 
 namespace argand {
@@ -11,10 +12,11 @@ namespace argand {
 /// falls as 1 / (n r²): the balance lies at r ∝ n^(−1/6) (Silverman 1986, §4.3, in two dimensions).
 double photons_in_disc(double photons_stored);
 
-/// Radius within which half of the photons have `in_disc` or more others, in the scene's units: the median over a
-/// sample of photons of the distance to the last of the nearest, looked for among those near it in the order of the
-/// Morton codes. It follows the surfaces that light reaches, whatever else is in the scene. 0 without photons.
-double median_radius(std::span<const PhotonRecord> in_morton_order, double in_disc);
+/// Radius within which half of the points have `in_disc` or more photons, in the scene's units: the median of the
+/// distance to the last of the nearest, looked for among the photons that are near in the order of the Morton codes,
+/// in which they come. `low`, `high`: the box of the codes. 0 without photons or points.
+double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points, glm::vec3 low,
+                     glm::vec3 high, double in_disc);
 
 /// Number of samples of a surface of this area that tell a disc of this radius anywhere on it how much of it is
 /// covered; 0 if the disc is too small for that.
