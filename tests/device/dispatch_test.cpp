@@ -1,0 +1,160 @@
+#include "base/error.hpp"
+#include "device_fixture.hpp"
+#include "kernels/add_neighbour.hpp"
+#include "kernels/mark_threads.hpp"
+
+namespace argand {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+class Dispatch : public DeviceTest {
+protected:
+    /// Visits per index after `run` got a buffer of `n` zeros.
+    template <class Run>
+    static Words visits(Device& device, std::size_t n, const Run& run) {
+        const Buffer buffer = upload(device, "visits", Words(n, 0));
+        run(kernels::mark_threads{.visits = buffer});
+        return download<std::uint32_t>(device, buffer, n);
+    }
+};
+
+TEST_F(Dispatch, VisitsEachIndexOnce) {
+    Device& device = open();
+    for (const std::uint32_t n :
+         {1u, 7u, 8u, 9u, 1000u, 600'000u}) { // the last needs more than 65,535 groups
+        SCOPED_TRACE(n);
+        EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }), Words(n, 1));
+    }
+}
+
+TEST_F(Dispatch, OfNoThreadsDoesNothing) {
+    Device& device = open();
+    EXPECT_EQ(visits(device, 100, [&](const auto& kernel) { dispatch(device, kernel, 0); }), Words(100, 0));
+}
+
+TEST_F(Dispatch, SpillsIntoFurtherDimensions) {
+    Device& device = open({"few groups", "", "groups=5"});
+    for (const std::uint32_t n : {40u, 41u, 199u, 200u, 201u, 1000u}) { // 5, 6, 25, 25, 26 and 125 groups
+        SCOPED_TRACE(n);
+        EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }), Words(n, 1));
+    }
+}
+
+TEST_F(Dispatch, IndirectRunsAsManyThreadsAsTheCountSays) {
+    for (const char* limit : {"", "groups=300"}) {
+        Device& device = open({"indirect", "", limit});
+        constexpr std::uint32_t n = 100'000;
+        for (const std::uint32_t count : {0u, 1u, 8u, 9u, 2400u, 2401u, 50'000u, n}) {
+            SCOPED_TRACE(testing::Message() << count << " threads, limit " << limit);
+            const Buffer counts = upload(device, "counts", Words{n, count});
+            const Words visited =
+                visits(device, n, [&](const auto& kernel) { dispatch_indirect(device, kernel, counts, 1); });
+            // Groups are of 8; the spill rounds up to whole rows, whose surplus kernels test against the
+            // count.
+            EXPECT_EQ(Words(visited.begin(), visited.begin() + count), Words(count, 1));
+            const std::uint32_t row = *limit ? 2400 : 8;
+            const std::uint32_t end = std::min(n, (count + row - 1) / row * row);
+            EXPECT_EQ(Words(visited.begin() + end, visited.end()), Words(n - end, 0));
+        }
+    }
+}
+
+TEST_F(Dispatch, IndirectCountsThatKernelsWrote) {
+    Device& device = open();
+    constexpr std::uint32_t n = 5000;
+    const Buffer counts = upload(device, "counts", Words{500});
+    Words expected(n, 0);
+    EXPECT_EQ(visits(device, n,
+                     [&](const auto& kernel) {
+                         for (std::uint32_t i = 0; i < 3; ++i) {
+                             dispatch_indirect(device, kernel, counts);
+                             device.fill(counts, (i + 1) * 1000);
+                             for (std::uint32_t k = 0; k < (i == 0 ? 504 : i * 1000); ++k) {
+                                 ++expected[k];
+                             }
+                         }
+                     }),
+              expected);
+}
+
+TEST_F(Dispatch, MoreIndirectDispatchesThanTheirRingHolds) {
+    Device& device = open();
+    const Buffer counts = upload(device, "counts", Words{16});
+    EXPECT_EQ(visits(device, 32,
+                     [&](const auto& kernel) {
+                         for (int i = 0; i < 1500; ++i) {
+                             dispatch_indirect(device, kernel, counts);
+                         }
+                     }),
+              [] {
+                  Words expected(32, 0);
+                  std::fill_n(expected.begin(), 16, 1500u);
+                  return expected;
+              }());
+}
+
+class Barriers : public DeviceTest, public testing::WithParamInterface<DeviceSetting> {};
+
+/// What add_neighbour does.
+Words with_neighbours(const Words& values) {
+    Words result(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        result[i] = values[i] + values[(i + values.size() - 1) % values.size()];
+    }
+    return result;
+}
+
+TEST_P(Barriers, DependentDispatchesSeeEachOther) {
+    Device& device = open(GetParam());
+    Words expected(3000);
+    for (std::uint32_t i = 0; i < expected.size(); ++i) {
+        expected[i] = i;
+    }
+    const Buffer a = upload(device, "a", expected);
+    const Buffer b = device.allocate("b", a.size());
+    for (int i = 0; i < 100; ++i) {
+        dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b}, expected.size());
+        dispatch(device, kernels::add_neighbour{.from_values = b, .to_values = a}, expected.size());
+        expected = with_neighbours(with_neighbours(expected));
+        if (i % 10 == 9) {
+            device.submit(); // more submissions than may be under way at once
+        }
+    }
+    EXPECT_EQ(download<std::uint32_t>(device, a, expected.size()), expected);
+}
+
+TEST_P(Barriers, TransfersAndDispatchesSeeEachOther) {
+    Device& device = open(GetParam());
+    constexpr std::size_t n = 20'000;
+    const Buffer a = upload(device, "a", Words(n, 1));
+    const Buffer b = upload(device, "b", Words(n, 2));
+    dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b}, n); // b = 2
+    device.fill(a, 5);                                                             // after the read
+    device.copy(b, BufferView(a, 0, n * 2));                                       // a = 2 | 5
+    dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b}, n); // b = 4 | 10, 7 at edges
+    const Words nines(n, 9);
+    device.upload(a, 0, std::as_bytes(std::span(nines)));
+    dispatch(device, kernels::mark_threads{.visits = b}, n);
+    Words expected(n, 11);
+    std::fill_n(expected.begin(), n / 2, 5u);
+    expected[0] = expected[n / 2] = 8;
+    EXPECT_EQ(download<std::uint32_t>(device, b, n), expected);
+    EXPECT_EQ(download<std::uint32_t>(device, a, n), nines);
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, Barriers,
+                         testing::Values(DeviceSetting{"default", "", ""},
+                                         DeviceSetting{"no_push_descriptors", "push_descriptors", ""}),
+                         [](const auto& setting) { return setting.param.name; });
+
+TEST_F(Dispatch, AWiderGroupThanTheDeviceAllowsIsAnError) {
+    Device& device = open();
+    KernelInfo wide = kernels::mark_threads::info;
+    wide.local_size[0] = device.info().limits.invocations + 1;
+    const Buffer visits = device.allocate("visits", 64);
+    EXPECT_THROW(device.dispatch(wide, kernels::mark_threads{.visits = visits}.arguments(), 1), Error);
+}
+
+} // namespace
+} // namespace argand

@@ -1,0 +1,83 @@
+#include "base/error.hpp"
+#include "device_fixture.hpp"
+#include "support/expect_error.hpp"
+
+namespace argand {
+namespace {
+
+using argand::testing::error_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Memory : public DeviceTest {};
+
+TEST_F(Memory, PeaksByName) {
+    Device& device = open();
+    const std::uint64_t before = device.memory().current;
+    {
+        const Buffer a = device.allocate("photons", 1 << 20);
+        {
+            const Buffer b = device.allocate("photons", 1 << 21);
+            EXPECT_GE(device.memory_by_name().at("photons").current, 3u << 20);
+        }
+        const Buffer c = device.allocate("nodes", 1 << 20);
+        const MemoryUse photons = device.memory_by_name().at("photons");
+        EXPECT_GE(photons.current, 1u << 20);
+        EXPECT_LT(photons.current, 2u << 20);
+        EXPECT_GE(photons.peak, 3u << 20);
+        EXPECT_GE(device.memory_by_name().at("nodes").peak, 1u << 20);
+    }
+    EXPECT_EQ(device.memory_by_name().at("photons").current, 0u);
+    EXPECT_EQ(device.memory_by_name().at("nodes").current, 0u);
+    EXPECT_EQ(device.memory().current, before);
+    EXPECT_GE(device.memory().peak, before + (3u << 20));
+    EXPECT_LT(device.memory().peak, before + (5u << 20));
+}
+
+TEST_F(Memory, CopiesOfABufferShareIt) {
+    Device& device = open();
+    Buffer copy;
+    {
+        const Buffer buffer = device.allocate("shared", 1000);
+        copy = buffer;
+    }
+    EXPECT_GT(device.memory_by_name().at("shared").current, 0u);
+    copy = Buffer();
+    EXPECT_EQ(device.memory_by_name().at("shared").current, 0u);
+}
+
+TEST_F(Memory, CommandsKeepBuffersAlive) {
+    Device& device = open();
+    const Buffer to = device.allocate("to", 40'000);
+    {
+        const Buffer from = upload(device, "from", std::vector<std::uint32_t>(10'000, 77));
+        device.copy(from, to);
+    }
+    EXPECT_GT(device.memory_by_name().at("from").current, 0u);
+    EXPECT_EQ(download<std::uint32_t>(device, to, 10'000), std::vector<std::uint32_t>(10'000, 77));
+    EXPECT_EQ(device.memory_by_name().at("from").current, 0u);
+}
+
+TEST_F(Memory, ScratchIsSharedAndGrows) {
+    Device& device = open();
+    const Buffer small = device.scratch("scratch", 100);
+    EXPECT_EQ(device.scratch("scratch", 60).storage(), small.storage());
+    EXPECT_NE(device.scratch("another", 60).storage(), small.storage());
+    EXPECT_GE(device.scratch("scratch", 5000).size(), 5000u);
+    EXPECT_GE(device.scratch("scratch", 10).size(), 5000u);
+}
+
+TEST_F(Memory, TooMuchIsAnErrorThatNamesTheBuffer) {
+    Device& range = open({"", "", "storage_range=1MiB"});
+    EXPECT_EQ(range.allocate("as much as goes", 1 << 20).size(), 1u << 20);
+    EXPECT_THAT(error_of([&] { range.allocate("photon map", (1 << 20) + 1); }),
+                AllOf(HasSubstr("'photon map'"), HasSubstr("1048577"), HasSubstr("1048576")));
+    Device& memory = open({"", "", "memory=4MiB"});
+    const Buffer first = memory.allocate("first", 3 << 20);
+    EXPECT_THAT(error_of([&] { memory.allocate("photon map", 2 << 20); }),
+                AllOf(HasSubstr("'photon map'"), HasSubstr("memory")));
+    EXPECT_EQ(memory.allocate("small", 1 << 19).size(), 1u << 19);
+}
+
+} // namespace
+} // namespace argand
