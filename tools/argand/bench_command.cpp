@@ -4,6 +4,7 @@
 #include "base/json.hpp"
 #include "bench/bench.hpp"
 #include "bench/bench_photons.hpp"
+#include "bench/bench_rays.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -23,7 +24,7 @@ struct NamedBench {
     std::vector<BenchRow> (*measure)(Device&);
 };
 
-constexpr NamedBench benches[] = {{"parallel", bench_parallel}, {"photons", bench_photons}};
+constexpr NamedBench benches[] = {{"parallel", bench_parallel}, {"rays", bench_rays}, {"photons", bench_photons}};
 
 std::string names() {
     std::string all;

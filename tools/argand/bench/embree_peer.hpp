@@ -1,0 +1,27 @@
+#pragma once
+
+#include "bench/bench_scene.hpp"
+
+#include <memory>
+
+namespace argand {
+
+/// Embree on the same scene and rays, one ray at a time, on all of the machine's threads. Rates are 0 where the build
+/// did not find it.
+class EmbreePeer {
+public:
+    explicit EmbreePeer(const BenchScene& scene);
+    ~EmbreePeer();
+    EmbreePeer(const EmbreePeer&) = delete;
+    EmbreePeer& operator=(const EmbreePeer&) = delete;
+
+    static const char* name() { return "Embree 3, rtcIntersect1"; }
+    double closest_rate(const BenchRays& rays) const;
+    double occluded_rate(const BenchRays& rays) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace argand
