@@ -1,4 +1,4 @@
-#include "bench/bench.hpp"
+#include "bench.hpp"
 #include "parallel/compact.hpp"
 #include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"

@@ -1,6 +1,6 @@
-#include "bench/bench_photons.hpp"
+#include "bench_photons.hpp"
 
-#include "bench/cornell_scene.hpp"
+#include "cornell_scene.hpp"
 #include "methods/render.hpp"
 #include "photon/photon_map.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/bench.hpp"
+#include "bench.hpp"
 
 namespace argand {
 

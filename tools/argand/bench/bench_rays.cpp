@@ -1,8 +1,8 @@
-#include "bench/bench_rays.hpp"
+#include "bench_rays.hpp"
 
 #include "accel/triangle_bvh.hpp"
-#include "bench/bench_scene.hpp"
-#include "bench/embree_peer.hpp"
+#include "bench_scene.hpp"
+#include "embree_peer.hpp"
 #include "shared/geometry_records.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "bench/bench_scene.hpp"
+#include "bench_scene.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "bench/cornell_scene.hpp"
+#include "cornell_scene.hpp"
 
 namespace argand {
 

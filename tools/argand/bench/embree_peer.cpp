@@ -1,4 +1,4 @@
-#include "bench/embree_peer.hpp"
+#include "embree_peer.hpp"
 
 #ifdef ARGAND_HAVE_EMBREE
 

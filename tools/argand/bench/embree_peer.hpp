@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/bench_scene.hpp"
+#include "bench_scene.hpp"
 
 #include <memory>
 
