@@ -1,0 +1,63 @@
+#pragma once
+
+#include "support/scratch_directory.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+namespace argand::testing {
+
+struct Outcome {
+    int exit_code = -1;                 ///< -1: ended by a signal
+    std::string out, error;
+};
+
+/// Runs the command-line tool in a directory of its own.
+class ArgandTest : public ::testing::Test {
+protected:
+    static std::string asset(const std::string& name) { return ARGAND_SOURCE_DIR "/assets/" + name; }
+
+    /// Path of a file in the directory.
+    std::string file(const std::string& name) const { return (directory_ / name).string(); }
+
+    std::vector<std::string> files() const {
+        std::vector<std::string> names = directory_.names();
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    /// `arguments` as a shell reads them; `environment`: NAME=VALUE ...
+    Outcome argand(const std::string& arguments, const std::string& environment = "") const {
+        const ScratchDirectory streams;
+        const std::string command = "cd '" + directory_.path().string() + "' && env " + environment +
+                                    " '" ARGAND_EXECUTABLE "' " + arguments + " >'" + (streams / "out").string() +
+                                    "' 2>'" + (streams / "error").string() + "' </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(streams / "out"), read_text(streams / "error")};
+    }
+
+    /// Expects this exit code, one line that holds `text`, nothing on the standard output and no new file.
+    void expect_failure(const std::string& arguments, int exit_code, const std::string& text,
+                        const std::string& environment = "") const {
+        SCOPED_TRACE(arguments);
+        const std::vector<std::string> before = files();
+        const Outcome run = argand(arguments, environment);
+        EXPECT_EQ(run.exit_code, exit_code) << run.error;
+        EXPECT_THAT(run.error, ::testing::StartsWith("argand: "));
+        EXPECT_THAT(run.error, ::testing::HasSubstr(text));
+        EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+        EXPECT_EQ(run.out, "");
+        EXPECT_EQ(files(), before);
+    }
+
+private:
+    ScratchDirectory directory_;
+};
+
+} // namespace argand::testing

@@ -1,0 +1,114 @@
+// Whatever is wrong, the tool says so in one line, leaves nothing half-written and does not crash.
+#include "argand_run.hpp"
+
+namespace argand::testing {
+namespace {
+
+constexpr int failure = 1;
+constexpr int usage = 2;
+
+using BadInput = ArgandTest;
+
+TEST_F(BadInput, ScenesThatCannotBeRead) {
+    expect_failure("render missing.glb", failure, "missing.glb");
+    expect_failure("inspect missing.glb", failure, "missing.glb");
+    expect_failure("render .", failure, "'.'");
+    write_text(file("empty.glb"), "");
+    expect_failure("render empty.glb", failure, "empty.glb");
+    write_text(file("bad.gltf"), "{\"asset\": {\"version\": \"2.0\"},");
+    expect_failure("render bad.gltf", failure, "bad.gltf");
+    write_text(file("nothing.gltf"), R"({"asset": {"version": "2.0"}})");
+    expect_failure("render nothing.gltf", failure, "nothing.gltf");
+    const std::string whole = read_text(asset("cornell_point.glb"));
+    for (const std::size_t length : {std::size_t(11), std::size_t(100), whole.size() / 2, whole.size() - 1}) {
+        write_text(file("truncated.glb"), whole.substr(0, length));
+        expect_failure("render truncated.glb", failure, "truncated.glb");
+    }
+}
+
+TEST_F(BadInput, SceneWithoutArea) {
+    // Three vertices in one point.
+    write_text(file("flat.gltf"), R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [0, 0, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" +
+                                      std::string(48, 'A') + R"("}]})");
+    expect_failure("render flat.gltf --size 8x8", failure, "flat.gltf");
+}
+
+TEST_F(BadInput, OutputsThatCannotBeWritten) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
+    expect_failure(scene + "-o missing/picture.png", failure, "missing");
+    expect_failure(scene + "-o picture.jpg", usage, "picture.jpg");
+    expect_failure(scene + "-o .", usage, ".png");
+    expect_failure(scene + "-o good.png -o missing/bad.exr", failure, "missing");
+    expect_failure(scene + "-o good.png --json missing/report.json", failure, "missing");
+    expect_failure("render missing.glb -o picture.png", failure, "missing.glb");
+}
+
+TEST_F(BadInput, Usage) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' ";
+    expect_failure("", usage, "--help");
+    expect_failure("paint", usage, "--help");
+    expect_failure("render", usage, "scene");
+    expect_failure(scene + "--unknown", usage, "--unknown");
+    for (const char* size : {"0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "-8x8", "8.5x8", "eightxeight",
+                             "1000000x8", "99999999999999999999x8", "''", "'8 x8'"}) {
+        expect_failure(scene + "--size " + size, usage, "--size");
+    }
+    for (const char* option : {"--spp 0", "--spp -1", "--spp many", "--photons -1", "--photons 1e30", "--bounces -1",
+                               "--radius 0", "--radius -1", "--seed -1", "--exposure much"}) {
+        const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+        expect_failure(scene + option, usage, name);
+    }
+    expect_failure(scene + "--method rays", usage, "photons, path");
+    expect_failure(scene + "--backend cuda", usage, "vulkan");
+    expect_failure("compare", usage, "a");
+    expect_failure("inspect", usage, "scene");
+}
+
+TEST_F(BadInput, CamerasThatAreNotThere) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --camera ";
+    expect_failure(scene + "nobody", failure, "nobody");
+    expect_failure(scene + "99", failure, "99");
+    expect_failure(scene + "-1", failure, "-1");
+}
+
+TEST_F(BadInput, DevicesThatAreNotThere) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
+    expect_failure(scene + "--device 99", failure, "devices");
+    expect_failure(scene + "--device 'no such device'", failure, "no such device");
+    expect_failure(scene, failure, "no such device", "ARGAND_DEVICE='no such device'");
+    expect_failure(scene, usage, "ARGAND_DISABLE", "ARGAND_DISABLE=everything");
+    expect_failure(scene, usage, "ARGAND_LIMIT", "ARGAND_LIMIT=storage_range=little");
+    expect_failure(scene, failure, "storage", "ARGAND_LIMIT=storage_range=4KiB");
+}
+
+TEST_F(BadInput, NoDriverAndNoLoader) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
+    expect_failure(scene, failure, "driver", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
+    expect_failure("devices", failure, "driver", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
+    // A file of the loader's name that is none, in the way of the true one.
+    const ScratchDirectory libraries;
+    write_text(libraries / "libvulkan.so.1", "");
+    write_text(libraries / "libvulkan.so", "");
+    expect_failure(scene, failure, "Vulkan", "LD_LIBRARY_PATH='" + libraries.path().string() + "'");
+    expect_failure("devices", failure, "Vulkan", "LD_LIBRARY_PATH='" + libraries.path().string() + "'");
+}
+
+TEST_F(BadInput, PicturesThatCannotBeCompared) {
+    const std::string render = "render '" + asset("cornell_point.glb") + "' -q --spp 1 --photons 0 ";
+    ASSERT_EQ(argand(render + "--size 4x4 -o a.exr").exit_code, 0);
+    ASSERT_EQ(argand(render + "--size 4x6 -o b.exr").exit_code, 0);
+    expect_failure("compare a.exr b.exr", failure, "b.exr");
+    expect_failure("compare a.exr missing.exr", failure, "missing.exr");
+    expect_failure("compare a.exr a.exr --layer glow", failure, "glow");
+    expect_failure("compare a.exr a.exr -o missing/difference.png", failure, "missing");
+    write_text(file("bad.exr"), "not a picture");
+    expect_failure("compare a.exr bad.exr", failure, "bad.exr");
+}
+
+} // namespace
+} // namespace argand::testing

@@ -1,0 +1,159 @@
+// What the commands print and write when all is well.
+#include "argand_run.hpp"
+#include "image/files.hpp"
+
+namespace argand::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Commands : public ArgandTest {
+protected:
+    /// A render of a few pixels that is expected to work.
+    Outcome render(const std::string& options, const std::string& scene = "cornell_glass.glb") const {
+        const Outcome run = argand("render '" + asset(scene) + "' --size 6x4 --spp 2 --photons 2000 " + options);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return run;
+    }
+};
+
+TEST_F(Commands, HelpOfEachHasAnExample) {
+    for (const char* command : {"", "render", "compare", "inspect", "devices"}) {
+        const Outcome run = argand(std::string(command) + " --help");
+        EXPECT_EQ(run.exit_code, 0) << command;
+        EXPECT_EQ(run.error, "") << command;
+        EXPECT_THAT(run.out, HasSubstr("Example")) << command;
+        EXPECT_THAT(run.out, HasSubstr(std::string("argand ") + command)) << command;
+    }
+    EXPECT_THAT(argand("--version").out, HasSubstr("argand "));
+}
+
+TEST_F(Commands, PictureIsNamedAfterTheScene) {
+    const Outcome run = render("");
+    EXPECT_THAT(files(), ElementsAre("cornell_glass.png"));
+    EXPECT_THAT(run.out, HasSubstr("cornell_glass.png"));
+}
+
+TEST_F(Commands, QuietPrintsNothing) {
+    const Outcome run = render("-q -o picture.png");
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.error, "");
+}
+
+TEST_F(Commands, SeveralOutputsHoldTheSamePictureAndItsLayers) {
+    render("-q -o a.exr -o b.png --output c.exr --exposure 1");
+    EXPECT_THAT(files(), ElementsAre("a.exr", "b.png", "c.exr"));
+    EXPECT_TRUE(read_text(file("a.exr")) == read_text(file("c.exr")));
+    const std::vector<Layer> layers = read_image(file("a.exr"));
+    for (const char* name : {"", "direct", "indirect", "caustic"}) {
+        const Image* image = find_layer(layers, name);
+        ASSERT_NE(image, nullptr) << name;
+        EXPECT_EQ(image->width, 6);
+        EXPECT_EQ(image->height, 4);
+    }
+}
+
+TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
+    render("-q -o a.png --json report.json --bounces 3 --seed 7 --exposure 0.5 --radius 0.25 --camera 0");
+    const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
+    const nlohmann::json& p = report.at("parameters");
+    EXPECT_EQ(p.at("method"), "photons");
+    EXPECT_EQ(p.at("width"), 6);
+    EXPECT_EQ(p.at("height"), 4);
+    EXPECT_EQ(p.at("spp"), 2);
+    EXPECT_EQ(p.at("photons"), 2000);
+    EXPECT_EQ(p.at("bounces"), 3);
+    EXPECT_EQ(p.at("radius"), 0.25);
+    EXPECT_EQ(p.at("seed"), 7);
+    EXPECT_EQ(p.at("exposure"), 0.5);
+    EXPECT_TRUE(p.contains("camera"));
+    EXPECT_TRUE(p.contains("follow_roughness"));
+    EXPECT_EQ(report.at("scene"), "cornell_glass.glb");
+    EXPECT_THAT(report.at("outputs"), ElementsAre("a.png"));
+    for (const char* key : {"backend", "name", "driver", "api_version", "kind", "subgroup_size"}) {
+        EXPECT_TRUE(report.at("device").contains(key)) << key;
+    }
+    for (const char* key : {"load", "open_device", "render", "write"}) {
+        EXPECT_GT(report.at("wall_seconds").at(key), 0) << key;
+    }
+    ASSERT_FALSE(report.at("stages").empty());
+    for (const nlohmann::json& stage : report.at("stages")) {
+        EXPECT_GE(stage.at("gpu_seconds"), 0) << stage;
+        EXPECT_GT(stage.at("runs"), 0) << stage;
+    }
+    EXPECT_EQ(report.at("photons_emitted"), 2000);
+    EXPECT_GT(report.at("photons_stored"), 0);
+    EXPECT_EQ(report.at("non_finite_samples"), 0);
+    EXPECT_EQ(report.at("interrupted"), false);
+    for (int channel = 0; channel < 3; ++channel) {
+        const nlohmann::json& flux = report.at("flux");
+        const double emitted = flux.at("emitted").at(channel);
+        const double rest = flux.at("absorbed").at(channel).get<double>() +
+                            flux.at("escaped").at(channel).get<double>() + flux.at("cut").at(channel).get<double>();
+        EXPECT_GT(emitted, 0);
+        EXPECT_NEAR(emitted, rest, 1e-9 * emitted);
+    }
+    const nlohmann::json& memory = report.at("memory");
+    std::uint64_t largest = 0;
+    for (const auto& [name, bytes] : memory.at("peak_bytes_by_name").items()) {
+        largest = std::max(largest, bytes.get<std::uint64_t>());
+    }
+    EXPECT_GT(largest, 0u);
+    EXPECT_GE(memory.at("peak_bytes").get<std::uint64_t>(), largest);
+}
+
+TEST_F(Commands, PathTracingReportsNoPhotons) {
+    render("-q -o a.png --method path --json report.json");
+    const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
+    EXPECT_EQ(report.at("parameters").at("method"), "path");
+    EXPECT_EQ(report.at("photons_emitted"), 0);
+    EXPECT_EQ(report.at("samples_per_pixel"), 2);
+}
+
+TEST_F(Commands, CompareMeasuresAndDrawsTheDifference) {
+    render("-q -o a.exr --seed 1");
+    render("-q -o b.exr --seed 2");
+    const Outcome run = argand("compare a.exr b.exr -o difference.png --json");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(files(), ElementsAre("a.exr", "b.exr", "difference.png"));
+    const nlohmann::json metrics = nlohmann::json::parse(run.out);
+    EXPECT_GT(metrics.at("relMSE"), 0);
+    const Outcome same = argand("compare a.exr a.exr --layer indirect");
+    EXPECT_EQ(same.exit_code, 0) << same.error;
+    EXPECT_THAT(same.out, HasSubstr("relMSE 0\n"));
+}
+
+TEST_F(Commands, InspectSaysWhatIsThere) {
+    const Outcome text = argand("inspect '" + asset("cornell_glass.glb") + "'");
+    EXPECT_EQ(text.exit_code, 0) << text.error;
+    EXPECT_THAT(text.out, HasSubstr("triangles"));
+    EXPECT_THAT(text.out, HasSubstr("KHR_materials_transmission"));
+    const Outcome json = argand("inspect '" + asset("cornell_glass.glb") + "' --json");
+    EXPECT_EQ(json.exit_code, 0) << json.error;
+    EXPECT_TRUE(nlohmann::json::parse(json.out).is_object());
+}
+
+TEST_F(Commands, DevicesListsWhatThereIs) {
+    const Outcome run = argand("devices");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(run.out, HasSubstr("0: "));
+}
+
+TEST_F(Commands, DeviceByNameAndByIndex) {
+    const Outcome devices = argand("devices");
+    const std::size_t begin = devices.out.find(": ") + 2;
+    const std::string name = devices.out.substr(begin, devices.out.find(' ', begin) - begin);
+    render("-q -o a.exr --device 0");
+    render("-q -o b.exr --device '" + name + "'");
+    EXPECT_THAT(files(), ElementsAre("a.exr", "b.exr"));
+}
+
+TEST_F(Commands, NotesSayWhatWasMadeUp) {
+    const Outcome run = render("-o a.png", "sky_room.glb");
+    EXPECT_THAT(run.error, HasSubstr("argand: note: "));
+    EXPECT_THAT(run.error, HasSubstr("sky"));
+}
+
+} // namespace
+} // namespace argand::testing
