@@ -121,7 +121,9 @@ void trace(const Work& work, RunKernel run_kernel) {
 
 Traversal make_traversal(Device& device, std::uint64_t max_rays) {
     Traversal traversal;
-    traversal.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max_rays, 1, max_slots));
+    const std::uint64_t range = device.info().limits.storage_range / sizeof(std::uint32_t);
+    const std::uint64_t most = std::min<std::uint64_t>(max_slots, (range - suspended_head) / suspended_stride);
+    traversal.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max_rays, 1, most));
     traversal.unfinished = device.allocate("unfinished rays", sizeof(std::uint32_t));
     traversal.suspended = device.allocate(
         "suspended rays",

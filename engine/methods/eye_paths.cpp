@@ -6,6 +6,7 @@
 #include "kernels/shadow_add.hpp"
 #include "parallel/compact.hpp"
 #include "shared/geometry_records.h"
+#include "shared/photon_records.h"
 #include "shared/query_record.h"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ constexpr std::uint64_t slots_on_cpu = 1u << 17;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
 // Light from photons is smooth, and asking for it costs more than all the rest: every other sample asks.
 constexpr std::uint32_t samples_per_query = 2;
+// The film adds a pixel's samples in one loop: well below the 65,535 iterations after which lavapipe ends loops.
+constexpr std::uint64_t most_samples_at_once = 1u << 14;
 // Of the paths that ask the photon map, among EyeWorkspace::counts.
 constexpr std::uint32_t asking_count = 2;
 // Vertices recorded before the host asks whether any path is left.
@@ -110,7 +113,7 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     const std::uint64_t pixels = std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
     EyeWorkspace w;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, pixels * settings.samples);
-    w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(LayersRecord));
+    w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(GatherRecord));    // the largest per slot
     const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
     w.camera = upload<CameraRecord>(device, "camera", std::span(&camera, 1));
     w.rays = per_slot("eye rays", sizeof(RayRecord));
@@ -137,7 +140,8 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
                      std::uint32_t first_sample, std::uint32_t samples, const Gather& gather,
                      const OnProgress& progress) {
     const std::uint64_t pixels = std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
-    const std::uint64_t samples_at_once = std::clamp<std::uint64_t>(w.slots / pixels, 1, samples);
+    const std::uint64_t samples_at_once =
+        std::min(std::clamp<std::uint64_t>(w.slots / pixels, 1, samples), most_samples_at_once);
     const std::uint64_t pixels_at_once = std::min(pixels, w.slots / samples_at_once);
     const double batches = static_cast<double>(pixels) * samples;
     double done = 0;

@@ -78,13 +78,15 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
     std::uint64_t photons = settings.bounces > 0 && on_device.record.light_count > 0 ? settings.photons : 0;
     std::uint64_t per_pass = std::clamp<std::uint64_t>(photons, 1, max_photons_per_pass(device));
     std::uint64_t passes = std::max<std::uint64_t>((photons + per_pass - 1) / per_pass, 1);
+    // All passes count the same, so they must be of one size: a small last one would be the noise of the picture.
+    per_pass = std::max<std::uint64_t>((photons + passes - 1) / passes, 1);
     PhotonWorkspace workspace = make_photon_workspace(device, photons > 0 ? per_pass : 0);
     double power = std::max({on_device.power.r, on_device.power.g, on_device.power.b});
     std::uint32_t samples = static_cast<std::uint32_t>((settings.samples + passes - 1) / passes);
 
     for (std::uint64_t pass = 0; pass < passes && !statistics.interrupted; ++pass) {
         PhotonPass emission{.seed = settings.seed, .first = statistics.photons_emitted,
-                            .count = std::min(per_pass, photons - statistics.photons_emitted),
+                            .count = photons * (pass + 1) / passes - photons * pass / passes,
                             .bounces = settings.bounces};
         const double unit = power / static_cast<double>(per_pass) / units_per_photon;
         const std::optional<StoredPhotons> stored =

@@ -167,9 +167,10 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                            std::uint64_t area_samples, std::uint32_t seed) {
     PhotonMap map;
     make_room(device, w, stored.slots, stored.slots + area_samples);
-    // The step between two samples has 32 bits, so one alone cannot be.
-    if (area_samples > 1 && area_samples <= w.capacity - stored.slots) {
-        map.area_samples = static_cast<std::uint32_t>(area_samples);
+    // A quarter of what is asked for will do. The step between two samples has 32 bits, so one alone cannot be.
+    const std::uint64_t fitting = std::min(area_samples, w.capacity - stored.slots);
+    if (fitting > 1 && 4 * fitting >= area_samples) {
+        map.area_samples = static_cast<std::uint32_t>(fitting);
         const StageScope stage(device, "sample areas");
         const auto step = static_cast<std::uint32_t>((1ull << 32) / map.area_samples);
         dispatch(device,

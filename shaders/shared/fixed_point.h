@@ -23,6 +23,9 @@ FN uvec2 fixed_from_float(float32 x, int fraction_bits) {
     if ((bits >> 31u) != 0u || bits > 0x7f800000u) {
         return uvec2(0u, 0u);
     }
+    if (bits == 0x7f800000u) {
+        return uvec2(0xffffffffu, 0xffffffffu);
+    }
     uint mantissa = bits & 0x007fffffu;
     int exponent = int(bits >> 23u);
     if (exponent > 0) {
@@ -37,12 +40,11 @@ FN uvec2 fixed_from_float(float32 x, int fraction_bits) {
     if (shift <= 0) {
         return uvec2(mantissa >> uint(-shift), 0u);
     }
-    if (bits == 0x7f800000u || (mantissa != 0u && shift > 40)) {
-        // 24 bits and a shift by 40 fill 64; subnormal numbers have fewer, but no fraction makes them that large.
+    if (shift > 40) {   // 24 bits and a shift by 40 fill 64; subnormal numbers never get here
         return uvec2(0xffffffffu, 0xffffffffu);
     }
     if (shift >= 32) {
-        return uvec2(0u, shift > 40 ? 0u : mantissa << uint(shift - 32));
+        return uvec2(0u, mantissa << uint(shift - 32));
     }
     return uvec2(mantissa << uint(shift), mantissa >> uint(32 - shift));
 }

@@ -12,7 +12,7 @@ ARGAND_SHARED_BEGIN
 // A direction from a point towards a light.
 struct LightSample {
     vec3 wi;
-    real distance;      // free of obstacles if the light is seen; of a surface a little less than its distance
+    real distance;      // free of obstacles if the light is seen; a surface's is a little less than that of the point
     vec3 radiance;      // arriving, over the density of the sample; for lights without extent, irradiance across wi
     real pdf;           // solid-angle density; 0 for lights without extent
     bool delta;         // a light without extent, which no other way of sampling finds
@@ -22,24 +22,23 @@ FN vec3 light_color(IN(LightRecord) l) { return vec3(l.r, l.g, l.b); }
 FN vec3 light_position(IN(LightRecord) l) { return vec3(l.x, l.y, l.z); }
 FN vec3 light_direction(IN(LightRecord) l) { return vec3(l.dx, l.dy, l.dz); }
 
-// The ramp of a spot's falloff runs from cos_outer to this cosine. KHR_lights_punctual keeps it at least 0.001 wide, so
-// that a narrow cone's may end beyond 1.
-FN real spot_ramp_end(real cos_inner, real cos_outer) { return cos_outer + max(cos_inner - cos_outer, real(0.001)); }
+// Width in cos θ of the ramp of a spot's falloff, which begins at cos_outer. KHR_lights_punctual keeps it at least 0.001
+// wide, so that the ramp of a narrow cone may be cut short by the axis.
+FN real spot_ramp(real cos_inner, real cos_outer) { return max(cos_inner - cos_outer, real(0.001)); }
 
 // Share of a spot's intensity at this angle from its axis: KHR_lights_punctual, "Inner and Outer Cone Angles".
 FN real spot_falloff(real cosine, real cos_inner, real cos_outer) {
-    real x = (cosine - cos_outer) / (spot_ramp_end(cos_inner, cos_outer) - cos_outer);
-    x = clamp(x, real(0.0), real(1.0));
+    real x = clamp((cosine - cos_outer) / spot_ramp(cos_inner, cos_outer), real(0.0), real(1.0));
     return x * x;
 }
 
-// The falloff's integral over directions [sr]: of the ramp (to its end or to the axis), and of the full cone within it.
-// ramp_share: how much of the ramp there is.
+// The falloff's integral over directions [sr]; ramp: the part of it that lies on the ramp, ramp_share: how much of the
+// ramp there is.
 FN real spot_solid_angles(real cos_inner, real cos_outer, OUT(real) ramp, OUT(real) ramp_share) {
-    real end = spot_ramp_end(cos_inner, cos_outer);
-    ramp_share = min((real(1.0) - cos_outer) / (end - cos_outer), real(1.0));
-    ramp = real(2.0) * PI * (end - cos_outer) * ramp_share * ramp_share * ramp_share / real(3.0);
-    return ramp + real(2.0) * PI * max(real(1.0) - end, real(0.0));
+    real width = spot_ramp(cos_inner, cos_outer);
+    ramp_share = min((real(1.0) - cos_outer) / width, real(1.0));
+    ramp = real(2.0) * PI * width * ramp_share * ramp_share * ramp_share / real(3.0);
+    return ramp + real(2.0) * PI * max((real(1.0) - cos_outer) - width, real(0.0));
 }
 
 // Unit normal of a triangle's front and its area; (0,0,0) and 0 if it has none.
@@ -67,7 +66,7 @@ FN vec3 light_power(IN(LightRecord) l, real radius) {
     } else if (l.kind == light_directional) {
         factor = PI * radius * radius;
     } else if (l.kind == light_sky) {
-        factor = real(4.0) * PI * PI * radius * radius;
+        factor = real(39.478417604357434) * radius * radius;    // 4 pi²
     } else {
         real area;
         light_normal(l, area);
@@ -96,13 +95,15 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
     s.radiance = light_color(l) * solid_angle;
     s.pdf = real(1.0) / solid_angle;
     s.delta = false;
-    // The shadow ray starts up to p's error, and its end is up to q's error, off the straight line.
-    vec3 slack = error + abs(p) * error_bound(16);
-    s.distance = max(s.distance - real(2.0) * dot3(abs(n), slack) / cosine, real(0.0)) * (real(1.0) - error_bound(16));
+    // What rounding the ends, and the intersection with the emitter, can make of the distance.
+    real slack = (error.x + max_component(abs(p)) * error_bound(16)) / cosine;
+    s.distance = max(s.distance - slack, real(0.0)) * (real(1.0) - error_bound(16));
     return is_finite(s.pdf) && s.pdf > real(0.0);
 }
 
-// Samples a direction from p towards the light. False where none of its light arrives.
+// Samples a direction towards the light from p, the very origin of the shadow ray: seen from the surface's point the
+// emitter lies elsewhere, by the offset of the origin, which on a large floor is more than the rounding allowed for here.
+// False where none of its light arrives.
 FN bool light_sample(IN(LightRecord) l, vec3 p, vec2 u, OUT(LightSample) s) {
     s.wi = -light_direction(l);
     s.distance = real(far_away);
@@ -157,10 +158,10 @@ FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     real cos_outer = real(l.cos_outer);
     real ramp, ramp_share;
     real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
-    real end = spot_ramp_end(cos_inner, cos_outer);
-    real below = (real(1.0) - end) * u.z;                       // 1 - cos θ, in the full cone
+    real width = spot_ramp(cos_inner, cos_outer);
+    real below = ((real(1.0) - cos_outer) - width) * u.z;       // 1 - cos θ, in the full cone
     if (u.x * all < ramp) {
-        below = (real(1.0) - cos_outer) - max(u.z, max(v.x, v.y)) * ramp_share * (end - cos_outer);
+        below = (real(1.0) - cos_outer) - max(u.z, max(v.x, v.y)) * ramp_share * width;
     }
     below = clamp(below, real(0.0), real(2.0));
     real s, c;

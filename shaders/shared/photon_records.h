@@ -76,6 +76,8 @@ struct GatherRecord {
     uint node;
     float32 caustic_r, caustic_g, caustic_b;
     float32 coverage;
+    float32 indirect_compensation_r, indirect_compensation_g, indirect_compensation_b, pad0;    // of the sums, see Sum
+    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, pad1;
 };
 
 // Slots that one invocation counts (photon_tally.comp).

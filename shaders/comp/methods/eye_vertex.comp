@@ -51,7 +51,8 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
     float choice_probability;
     LightRecord light = lights[choose_light(u.x, choice_probability)];
     LightSample s;
-    if (!light_sample(light, surface.position, u.yz, s) || !(dot(s.wi, surface.geometric_normal) > 0.0)) {
+    vec3 o = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, surface.geometric_normal);
+    if (!light_sample(light, o, u.yz, s) || !(dot(s.wi, surface.geometric_normal) > 0.0)) {
         return;
     }
     vec3 wi = to_local(frame, s.wi);
@@ -70,7 +71,7 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
     uint followed_layer = !behind_estimated                        ? layer_direct
                           : (path.state & path_followed) != 0u ? layer_caustic
                                                                 : layer_indirect;
-    shadow_rays[slot] = make_ray(surface, s.wi, s.distance);
+    shadow_rays[slot] = RayRecord(o.x, o.y, o.z, s.distance, s.wi.x, s.wi.y, s.wi.z, 0u);
     shadows[slot] = ShadowRecord(e.x, e.y, e.z, behind_estimated ? layer_indirect : layer_direct, f.x, f.y, f.z,
                                  followed_layer);
 }

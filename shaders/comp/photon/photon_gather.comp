@@ -58,6 +58,9 @@ void main() {
         GatherRecord g = gathers[slot];
         indirect.value = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
         caustic.value = vec3(g.caustic_r, g.caustic_g, g.caustic_b);
+        indirect.compensation =
+            vec3(g.indirect_compensation_r, g.indirect_compensation_g, g.indirect_compensation_b);
+        caustic.compensation = vec3(g.caustic_compensation_r, g.caustic_compensation_g, g.caustic_compensation_b);
         node = g.node;
         coverage = g.coverage;
         if (node == lbvh_end) {
@@ -138,7 +141,9 @@ void main() {
 
     if (node != lbvh_end) {
         gathers[slot] = GatherRecord(indirect.value.x, indirect.value.y, indirect.value.z, node, caustic.value.x,
-                                     caustic.value.y, caustic.value.z, coverage);
+                                     caustic.value.y, caustic.value.z, coverage, indirect.compensation.x,
+                                     indirect.compensation.y, indirect.compensation.z, 0.0, caustic.compensation.x,
+                                     caustic.compensation.y, caustic.compensation.z, 0.0);
         atomicAdd(unfinished[0], 1u);
         return;
     }

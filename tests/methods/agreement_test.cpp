@@ -1,0 +1,92 @@
+// The photon mapper against the path tracer: whole pictures and layers.
+#include "rendering.hpp"
+
+namespace argand::testing {
+namespace {
+
+/// relMSE of a picture whose reference is known only through two independent noisy ones: the product of the two
+/// differences has the squared error of the picture as its mean, whatever the references' own noise.
+double rel_mse(const Image& image, const Image& reference, const Image& other) {
+    glm::dvec3 square_of_mean = (mean(reference) + mean(other)) / 2.0;
+    square_of_mean *= square_of_mean;
+    const double floor = 0.01 * (square_of_mean.r + square_of_mean.g + square_of_mean.b) / 3;
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::dvec3 p(image.pixels[i]), a(reference.pixels[i]), b(other.pixels[i]);
+        const glm::dvec3 error = (p - a) * (p - b) / ((a + b) * (a + b) / 4.0 + floor);
+        sum += (error.r + error.g + error.b) / 3;
+    }
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+struct Reference {
+    RenderResult a, b;
+};
+
+class Agreement : public RenderTest {
+protected:
+    Reference reference(const Scene& scene, int size, std::uint32_t samples) {
+        RenderSettings settings = settings_of("path", size, samples);
+        settings.seed = 1;
+        RenderResult a = render(scene, settings);
+        settings.seed = 2;
+        return {std::move(a), render(scene, settings)};
+    }
+
+    static double error(const RenderResult& photons, const Reference& reference, const std::string& name = "") {
+        return rel_mse(layer(photons, name), layer(reference.a, name), layer(reference.b, name));
+    }
+
+    RenderResult photons(const Scene& scene, int size, std::uint64_t count, std::optional<double> radius = {}) {
+        RenderSettings settings = settings_of("photons", size, 32);
+        settings.photons = count;
+        settings.radius = radius;
+        return render(scene, settings);
+    }
+
+    /// Mean radiance of a layer is the same within `tolerance`.
+    void expect_same_mean(const Scene& scene, int size, std::uint32_t samples, const std::string& name, double tolerance) {
+        const glm::dvec3 expected = mean(layer(render(scene, settings_of("path", size, samples)), name));
+        const glm::dvec3 actual = mean(layer(photons(scene, size, 100'000), name));
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_RELATIVE(actual[channel], expected[channel], tolerance) << scene.name << ", " << name << ", " << channel;
+        }
+    }
+};
+
+TEST_F(Agreement, MeanRadianceOfEachLayer) {
+    for (const char* name : {"cornell_point.glb", "spot.glb"}) {
+        const Scene scene = load_asset(name);
+        expect_same_mean(scene, 16, 256, "direct", 0.02);
+        expect_same_mean(scene, 16, 256, "indirect", 0.05);
+    }
+}
+
+TEST_F(Agreement, ShadingNormals) {
+    // A coarse sphere with interpolated normals: light that photons scatter from it must be weighted by their ratio.
+    Scene scene = room_scene();
+    add_sphere(scene, {0.4f, -0.4f, 0.2f}, 0.5f, 4, true, 2);
+    expect_same_mean(scene, 16, 512, "indirect", 0.05);
+}
+
+TEST_F(Agreement, CameraInsideGlass) {
+    // A Lambertian block in the glass in which the camera is too: what it reflects comes to it through glass.
+    Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(0.5f)));
+    add_sphere(scene, glm::vec3(0), 0.8f, 12, false, add_material(scene, glass(1.5f, true)));
+    add_box(scene, {-0.2f, -0.2f, -0.5f}, {0.2f, 0.2f, -0.3f}, add_material(scene, lambertian(glm::vec3(0.6f))), false);
+    scene.cameras = {look_at({0, 0, 0.3f}, {0, 0, -1}, 20)};
+    expect_same_mean(scene, 8, 4096, "", 0.05);
+}
+
+TEST_F(Agreement, ErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
+    const Scene scene = room_scene();
+    const Reference truth = reference(scene, 24, 1024);
+    const double few = error(photons(scene, 24, 10'000, 0.3), truth, "indirect");
+    const double more = error(photons(scene, 24, 100'000, 0.15), truth, "indirect");
+    const double many = error(photons(scene, 24, 1'000'000, 0.07), truth, "indirect");
+    EXPECT_LT(more, 0.6 * few);
+    EXPECT_LT(many, 0.6 * more);
+}
+
+} // namespace
+} // namespace argand::testing

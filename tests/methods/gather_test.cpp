@@ -1,0 +1,219 @@
+// Density estimation over photons made by hand, against the sum in double precision.
+#include "rendering.hpp"
+
+#include "photon/gather.hpp"
+#include "shared/bsdf.h"
+#include "shared/path_records.h"
+#include "shared/photon.h"
+#include "shared/query_record.h"
+
+#include <random>
+
+namespace argand::testing {
+namespace {
+
+constexpr float albedo = 0.5f;
+
+struct Query {
+    glm::vec3 position{0};
+    glm::vec3 normal{0, 1, 0};
+};
+
+/// What a query adds to a path's layers.
+struct Gathered {
+    glm::dvec3 indirect{0}, caustic{0};
+    bool finished = true;
+};
+
+class GatherPhotons : public RenderTest {
+protected:
+    GatherPhotons() : random_(5) {}
+
+    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+
+    PhotonRecord photon(glm::vec3 position, bool caustic = false, glm::vec3 normal = {0, 1, 0}) {
+        return {position.x, position.y, position.z, pack_unit({0, 1, 0}),
+                uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_photon_normal(normal, caustic)};
+    }
+
+    std::vector<Gathered> gather(const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, float radius,
+                                 std::uint32_t budget, bool careful = true,
+                                 std::uint64_t area_samples = 0) {
+        const DeviceScene scene = upload_scene(device(), floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
+        PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
+        device().upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
+        std::vector<std::uint32_t> counters(counter_count, 0);
+        counters[counter_stored_slots] = static_cast<std::uint32_t>(photons.size());
+        device().upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
+        const PhotonMap map = build_photon_map(device(), scene, workspace, {photons.size(), photons.size()}, area_samples, 0);
+
+        const std::size_t n = queries.size();
+        std::vector<std::uint32_t> active;
+        std::vector<QueryRecord> records;
+        for (const Query& q : queries) {
+            active.push_back(static_cast<std::uint32_t>(active.size()));
+            records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, pack_unit(q.normal),
+                               pack_unit(q.normal), pack_unit(q.normal), LOBE_DIFFUSE, 1});
+        }
+        const std::uint32_t count = static_cast<std::uint32_t>(n);
+        GatherTarget target{.slots = upload(device(), "slots", active),
+                            .counts = upload(device(), "counts", std::vector<std::uint32_t>{count, 0, 0, 0}),
+                            .queries = upload(device(), "queries", records),
+                            .layers = upload(device(), "layers", std::vector<LayersRecord>(n)),
+                            .partial = device().allocate("partial", n * sizeof(GatherRecord))};
+        Traversal traversal = make_traversal(device(), n);
+        traversal.careful = careful;
+        device().fill(traversal.unfinished, 0);
+        gather_photons(device(), scene, map, target, traversal, {radius, radius}, Count(target.counts, 0, n), budget);
+        const bool finished = download<std::uint32_t>(device(), traversal.unfinished, 1)[0] == 0;
+        std::vector<Gathered> result;
+        for (const LayersRecord& l : download<LayersRecord>(device(), target.layers, n)) {
+            EXPECT_EQ(l.direct_r, 0);
+            result.push_back({{l.indirect_r, l.indirect_g, l.indirect_b}, {l.caustic_r, l.caustic_g, l.caustic_b}, finished});
+        }
+        return result;
+    }
+
+    std::mt19937 random_;
+};
+
+Gathered expected_sum(const std::vector<PhotonRecord>& photons, const Query& query, double radius) {
+    Gathered sum;
+    for (const PhotonRecord& p : photons) {
+        if (p.normal == no_photon) {
+            continue;
+        }
+        const glm::dvec3 d = glm::dvec3(p.x, p.y, p.z) - glm::dvec3(query.position);
+        const double height = glm::dot(d, glm::dvec3(query.normal));
+        const double d2 = glm::dot(d, d) - height * height;
+        const bool same_surface = std::abs(height) <= disc_half_height * radius &&
+                                  glm::dot(glm::dvec3(unpack_photon_normal(p.normal)), glm::dvec3(query.normal)) >= same_surface_cosine;
+        if (d2 < radius * radius && same_surface) {
+            const double weight = 2 / (double(pi) * radius * radius) * (1 - d2 / (radius * radius)) * albedo / double(pi);
+            (photon_is_caustic(p.normal) ? sum.caustic : sum.indirect) += glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * weight;
+        }
+    }
+    return sum;
+}
+
+void expect_near(const Gathered& actual, const Gathered& expected, double tolerance) {
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_RELATIVE(actual.indirect[channel], expected.indirect[channel], tolerance);
+        EXPECT_RELATIVE(actual.caustic[channel], expected.caustic[channel], tolerance);
+    }
+}
+
+TEST_F(GatherPhotons, IsTheKernelsSumOverThoseWithinTheRadius) {
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 10'000; ++i) {
+        photons.push_back(photon({uniform(-1, 1), 0, uniform(-1, 1)}, i % 3 == 0));
+    }
+    std::vector<Query> queries;
+    for (int i = 0; i < 200; ++i) {
+        queries.push_back({{uniform(-1, 1), 0, uniform(-1, 1)}});
+    }
+    for (const float radius : {0.05f, 0.4f, 5.0f}) {
+        const std::vector<Gathered> sums = gather(photons, queries, radius, gather_budget, false);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            ASSERT_TRUE(sums[i].finished);
+            expect_near(sums[i], expected_sum(photons, queries[i], radius), 1e-4);
+        }
+    }
+}
+
+TEST_F(GatherPhotons, LeavesOutOtherSurfacesAndEmptySlots) {
+    const float radius = 0.5f;
+    PhotonRecord empty = photon({0, 0, 0});
+    empty.normal = no_photon;
+    const std::vector<PhotonRecord> photons{
+        photon({0.1f, 0, 0}), photon({0.1f, 0.9f * disc_half_height * radius, 0}),
+        photon({0.1f, 1.1f * disc_half_height * radius, 0}), photon({0, 0, 0}, false, {0, -1, 0}),
+        photon({0, 0, 0}, false, glm::normalize(glm::vec3(1, 0.9f, 0))), photon({0.51f, 0, 0}), empty,
+        photon({0, 0, 0}, false, {1, 0, 0})};
+    const Gathered sum = gather(photons, {Query{}}, radius, gather_budget)[0];
+    expect_near(sum, expected_sum(photons, Query{}, radius), 1e-5);
+    expect_near(sum, expected_sum({photons[0], photons[1], photons[4]}, Query{}, radius), 1e-5);
+}
+
+TEST_F(GatherPhotons, FewPhotons) {
+    for (const std::size_t n : {0u, 1u, 2u, 7u, 8u, 9u, 17u}) {
+        SCOPED_TRACE(n);
+        std::vector<PhotonRecord> photons;
+        for (std::size_t i = 0; i < n; ++i) {
+            photons.push_back(photon({uniform(-0.1f, 0.1f), 0, uniform(-0.1f, 0.1f)}, i % 2 == 0));
+        }
+        expect_near(gather(photons, {Query{}}, 0.3f, gather_budget)[0], expected_sum(photons, Query{}, 0.3), 1e-5);
+    }
+}
+
+TEST_F(GatherPhotons, MillionInOnePointIsTheExactSum) {
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 1'000'000; ++i) {
+        photons.push_back(photon({0.25f, 0, -0.5f}, i % 5 == 0));
+    }
+    const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
+    const std::vector<Gathered> sums = gather(photons, queries, 0.1f, gather_budget);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        expect_near(sums[i], expected_sum(photons, queries[i], 0.1f), 1e-5);
+    }
+    EXPECT_GT(sums[1].caustic.g, 0);
+    EXPECT_EQ(sums[2].indirect, glm::dvec3(0));
+    // In one dispatch there is no end to it: that is said, and nothing is added.
+    const Gathered hurried = gather(photons, {queries[0]}, 0.1f, gather_budget, false)[0];
+    EXPECT_FALSE(hurried.finished);
+    EXPECT_EQ(hurried.indirect, glm::dvec3(0));
+}
+
+TEST_F(GatherPhotons, RadiusAsLargeAsTheSceneIsTheExactSum) {
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 1'000'000; ++i) {
+        photons.push_back(photon({uniform(-1, 1), 0, uniform(-1, 1)}, i % 5 == 0));
+    }
+    const std::vector<Query> queries{{{0, 0, 0}}, {{1, 0, 1}}};
+    const std::vector<Gathered> sums = gather(photons, queries, 3, gather_budget);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        expect_near(sums[i], expected_sum(photons, queries[i], 3), 1e-5);
+    }
+}
+
+TEST_F(GatherPhotons, EdgesOfSurfacesLoseNothing) {
+    // Photons spread evenly: the estimate is the same in the middle, at an edge and in a corner, where half and three
+    // quarters of the disc lie off the surface.
+    constexpr int side = 200;
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < side * side; ++i) {
+        const glm::vec3 p((2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1);
+        photons.push_back(photon(p));
+        photons.back().flux_r = photons.back().flux_g = photons.back().flux_b = 4.0f / (side * side);
+    }
+    const std::vector<Query> queries{{{0, 0, 0}}, {{1, 0, 0.1f}}, {{-0.9f, 0, 0.1f}}, {{1, 0, 1}}};
+    const std::vector<Gathered> corrected = gather(photons, queries, 0.3f, gather_budget, true, 40'000);
+    for (const Gathered& sum : corrected) {
+        EXPECT_RELATIVE(sum.indirect.g, albedo / double(pi), 0.03);
+    }
+    const std::vector<Gathered> plain = gather(photons, queries, 0.3f, gather_budget);
+    EXPECT_RELATIVE(plain[1].indirect.g, 0.5 * albedo / double(pi), 0.03);
+    EXPECT_RELATIVE(plain[3].indirect.g, 0.25 * albedo / double(pi), 0.03);
+}
+
+TEST_F(GatherPhotons, InterruptedQueriesGiveTheSameBits) {
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 10'000; ++i) {
+        photons.push_back(photon({uniform(-1, 1), 0, uniform(-1, 1)}, i % 3 == 0));
+    }
+    std::vector<Query> queries;
+    for (int i = 0; i < 100; ++i) {
+        queries.push_back({{uniform(-1, 1), 0, uniform(-1, 1)}});
+    }
+    const std::vector<Gathered> whole = gather(photons, queries, 0.5f, 60'000);
+    for (const std::uint32_t budget : {100u, 1000u, 1001u}) {
+        const std::vector<Gathered> parts = gather(photons, queries, 0.5f, budget);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            EXPECT_EQ(parts[i].indirect, whole[i].indirect) << budget;
+            EXPECT_EQ(parts[i].caustic, whole[i].caustic) << budget;
+        }
+    }
+}
+
+} // namespace
+} // namespace argand::testing

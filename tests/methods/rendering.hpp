@@ -1,0 +1,100 @@
+#pragma once
+
+#include "device_fixture.hpp"
+#include "image/files.hpp"
+#include "image/metrics.hpp"
+#include "methods/render.hpp"
+#include "scene/gltf.hpp"
+#include "scenes.hpp"
+
+#include <array>
+#include <string>
+
+namespace argand::testing {
+
+inline Scene load_asset(const std::string& name) {
+    return load_gltf(std::string(ARGAND_SOURCE_DIR "/assets/") + name);
+}
+
+inline const Image& layer(const RenderResult& result, const std::string& name) {
+    return *find_layer(result.layers, name);
+}
+
+/// Mean over the rectangle x0 <= x < x1, y0 <= y < y1.
+inline glm::dvec3 mean(const Image& image, int x0, int y0, int x1, int y1) {
+    glm::dvec3 sum(0);
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            sum += glm::dvec3(image.pixels[static_cast<std::size_t>(y * image.width + x)]);
+        }
+    }
+    return sum / static_cast<double>((x1 - x0) * (y1 - y0));
+}
+
+inline glm::dvec3 mean(const Image& image) {
+    return mean(image, 0, 0, image.width, image.height);
+}
+
+inline RenderSettings settings_of(const std::string& method, int size, std::uint32_t samples) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.width = size;
+    settings.height = size;
+    settings.samples = samples;
+    return settings;
+}
+
+inline RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings) {
+    return argand::render(device, scene, settings, [](double) { return true; });
+}
+
+inline bool same_bits(const Image& a, const Image& b) {
+    return a.width == b.width && a.height == b.height && a.pixels == b.pixels;
+}
+
+inline bool same_bits(const RenderResult& a, const RenderResult& b) {
+    bool same = a.layers.size() == b.layers.size();
+    for (std::size_t i = 0; same && i < a.layers.size(); ++i) {
+        same = same_bits(a.layers[i].image, b.layers[i].image);
+    }
+    return same;
+}
+
+#define EXPECT_RELATIVE(actual, expected, tolerance)                                                                   \
+    EXPECT_NEAR(actual, expected, (tolerance) * std::abs(expected))
+
+/// Renders on one device, opened once for each test.
+class RenderTest : public DeviceTest {
+protected:
+    Device& device() {
+        if (!device_) {
+            device_ = &open();
+        }
+        return *device_;
+    }
+
+    RenderResult render(const Scene& scene, const RenderSettings& settings) {
+        RenderResult result = testing::render(device(), scene, settings);
+        EXPECT_EQ(result.statistics.non_finite, 0u) << scene.name << ", " << settings.method;
+        return result;
+    }
+
+    /// Mean radiance that reaches `from` along a narrow bundle of parallel rays from `to`.
+    glm::dvec3 radiance(Scene scene, const RenderSettings& settings, glm::vec3 from, glm::vec3 to,
+                        const std::string& layer_name = "") {
+        scene.cameras = {parallel_rays(from, to, 1e-4f * glm::distance(from, to))};
+        return mean(layer(render(scene, settings), layer_name));
+    }
+
+private:
+    Device* device_ = nullptr;
+};
+
+/// The same for every method.
+class EveryMethod : public RenderTest, public ::testing::WithParamInterface<std::string> {};
+
+#define INSTANTIATE_METHODS(suite)                                                                                     \
+    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(method_names()),                                      \
+                             [](const auto& method) { return method.param; })
+
+} // namespace argand::testing

@@ -1,0 +1,71 @@
+// The same bits from run to run, whatever the device does in parallel and whatever fast paths it has.
+#include "rendering.hpp"
+#include "support/scratch_directory.hpp"
+
+#include <cstdlib>
+
+namespace argand::testing {
+namespace {
+
+class Repeat : public EveryMethod {
+protected:
+    RenderSettings settings(std::uint32_t seed = 0) const {
+        RenderSettings settings = settings_of(GetParam(), 24, 4);
+        settings.photons = 20'000;
+        settings.seed = seed;
+        return settings;
+    }
+};
+
+TEST_P(Repeat, SeedsGiveTheirOwnBitsEachTime) {
+    const Scene scene = load_asset("cornell_glass.glb");
+    const RenderResult first = render(scene, settings());
+    EXPECT_TRUE(same_bits(render(scene, settings()), first));
+    EXPECT_FALSE(same_bits(layer(render(scene, settings(1)), ""), layer(first, "")));
+}
+
+TEST_P(Repeat, FallbacksGiveTheSameBits) {
+    const Scene scene = load_asset("cornell_mirror.glb");
+    const RenderResult expected = render(scene, settings());
+    const DeviceSetting ways[] = {{"serial", "subgroups,push_descriptors,timestamps", ""},
+                                  {"subgroups", "lane_serial", ""},
+                                  {"shared", "lane_serial,subgroups,push_descriptors", ""}};
+    for (const DeviceSetting& way : ways) {
+        EXPECT_TRUE(same_bits(testing::render(open(way), scene, settings()), expected)) << way.name;
+    }
+}
+
+TEST_P(Repeat, BatchesGiveTheSameBits) {
+    // What a path finds does not depend on what it is traced together with. (Photons' passes are another matter: they
+    // are independent estimates.)
+    RenderSettings batched = settings();
+    batched.width = 97;
+    batched.height = 61;
+    batched.samples = 5;
+    batched.photons = 5000;
+    const Scene scene = load_asset("cornell_area.glb");
+    const RenderResult expected = render(scene, batched);
+    Device& limited = open({"limited", "", "storage_range=1MiB"});
+    EXPECT_TRUE(same_bits(testing::render(limited, scene, batched), expected));
+}
+
+TEST_P(Repeat, ThreadsGiveTheSameBits) {
+    // The number of lavapipe's threads is fixed when a process starts to use it.
+    const ScratchDirectory directory;
+    std::string pictures[2];
+    for (int i = 0; i < 2; ++i) {
+        const std::string output = (directory / (std::to_string(i) + ".exr")).string();
+        const std::string command = "LP_NUM_THREADS=" + std::to_string(i + 1) + " '" ARGAND_EXECUTABLE "' render '" +
+                                    ARGAND_SOURCE_DIR "/assets/cornell_glass.glb' -q --size 32x24 --spp 4" +
+                                    " --photons 20000 --method " + GetParam() + " -o '" + output + "'";
+        ASSERT_EQ(std::system(command.c_str()), 0) << command;
+        pictures[i] = read_text(output);
+    }
+    EXPECT_FALSE(pictures[0].empty());
+    EXPECT_TRUE(pictures[0] == pictures[1]);
+}
+
+INSTANTIATE_METHODS(Repeat);
+
+} // namespace
+} // namespace argand::testing

@@ -1,0 +1,309 @@
+#include "materials.hpp"
+
+#include <gtest/gtest.h>
+
+namespace argand {
+namespace {
+
+using namespace argand::testing;
+
+/// What bsdf_sample gives for one choice of lobe.
+BsdfSample sample_of(const MaterialRecord& m, vec3 wo, bool front, uint lobes, float choice,
+                     bool* scattered) {
+    BsdfSample s;
+    *scattered = bsdf_sample(m, wo, front, lobes, vec4(choice, 0.3f, 0.6f, 0), s);
+    return s;
+}
+
+void expect_near(vec3 a, glm::dvec3 b, double bound) {
+    EXPECT_NEAR(a.x, b.x, bound);
+    EXPECT_NEAR(a.y, b.y, bound);
+    EXPECT_NEAR(a.z, b.z, bound);
+}
+
+TEST(Bsdf, LambertianIsExact) {
+    std::mt19937 bits(1);
+    for (int i = 0; i < 10'000; ++i) {
+        const vec3 color(to_unit_float(bits), to_unit_float(bits), to_unit_float(bits));
+        const MaterialRecord m = lambertian(color);
+        ASSERT_EQ(bsdf_lobes(m), LOBE_DIFFUSE);
+        const vec3 wo = any_upper(bits);
+        const vec3 wi = any_upper(bits);
+        ASSERT_EQ(bsdf_eval(m, wo, wi, LOBES_ALL), color * INV_PI);
+        ASSERT_EQ(bsdf_pdf(m, wo, wi, LOBES_ALL), wi.z * INV_PI);
+        ASSERT_EQ(bsdf_albedo(m, wo, true, LOBES_ALL), color);
+        BsdfSample s;
+        const vec4 u(to_unit_float(bits), to_unit_float(bits), to_unit_float(bits), 0);
+        ASSERT_TRUE(bsdf_sample(m, wo, true, LOBES_ALL, u, s));
+        ASSERT_EQ(s.weight, color);
+        ASSERT_EQ(s.lobe, LOBE_DIFFUSE);
+        ASSERT_EQ(s.eta_scale, 1.0f);
+        ASSERT_EQ(s.wi, sample_cosine_hemisphere(vec2(u.y, u.z)));
+        ASSERT_EQ(s.pdf, s.wi.z * INV_PI);
+    }
+}
+
+TEST(Bsdf, MaterialsHaveTheirLobes) {
+    EXPECT_EQ(bsdf_lobes(white_dielectric()), LOBE_DIFFUSE | LOBE_GLOSSY);
+    EXPECT_EQ(bsdf_lobes(glossy_dielectric(0)), LOBE_DIFFUSE | LOBE_MIRROR);
+    EXPECT_EQ(bsdf_lobes(metal(vec3(1), 0)), LOBE_MIRROR);
+    EXPECT_EQ(bsdf_lobes(metal(vec3(1), 0.5f)), LOBE_GLOSSY);
+    EXPECT_EQ(bsdf_lobes(glass(1.5f, 0)), LOBE_MIRROR | LOBE_TRANSMIT);
+    EXPECT_EQ(bsdf_lobes(glass(1.5f, 1)), LOBE_MIRROR | LOBE_TRANSMIT);
+    EXPECT_EQ(bsdf_lobes(lambertian(vec3(0))), 0u);
+    MaterialRecord m = glass(1.5f, 0);
+    m.roughness = 0.5f;
+    EXPECT_EQ(bsdf_lobes(m), LOBE_GLOSSY | LOBE_TRANSMIT);
+    m.transmission = 0.5f;
+    EXPECT_EQ(bsdf_lobes(m), LOBE_DIFFUSE | LOBE_GLOSSY | LOBE_TRANSMIT);
+    m.metallic = 1;
+    EXPECT_EQ(bsdf_lobes(m), LOBE_GLOSSY);
+    EXPECT_TRUE(roughness_is_delta(glossy_dielectric(0.03f)));
+    EXPECT_FALSE(roughness_is_delta(glossy_dielectric(0.032f)));
+}
+
+TEST(Bsdf, NoLobeScattersNothing) {
+    BsdfSample s;
+    EXPECT_FALSE(bsdf_sample(lambertian(vec3(0)), vec3(0, 0, 1), true, LOBES_ALL, vec4(0.5f), s));
+    EXPECT_FALSE(bsdf_sample(white_dielectric(), vec3(0, 0, 1), true, LOBES_DELTA, vec4(0.5f), s));
+    EXPECT_FALSE(bsdf_sample(white_dielectric(), vec3(0, 0, -1), true, LOBES_ALL, vec4(0.5f), s));
+    EXPECT_EQ(bsdf_eval(white_dielectric(), vec3(0, 0, 1), at_angle(100), LOBES_ALL), vec3(0));
+    EXPECT_EQ(bsdf_pdf(white_dielectric(), vec3(0, 0, 1), at_angle(100), LOBES_ALL), 0.0f);
+    EXPECT_EQ(bsdf_eval(glass(1.5f, 1), vec3(0, 0, 1), at_angle(10), LOBES_ALL), vec3(0));
+}
+
+TEST(Bsdf, IsReciprocal) {
+    std::mt19937 bits(2);
+    for (int i = 0; i < 100'000; ++i) {
+        const MaterialRecord m = any_material(bits);
+        const vec3 a = any_upper(bits);
+        const vec3 b = any_upper(bits);
+        const vec3 f = bsdf_eval(m, a, b, LOBES_ALL);
+        const vec3 g = bsdf_eval(m, b, a, LOBES_ALL);
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_NEAR(f[k], g[k], 2e-6 * f[k]) << i;
+        }
+    }
+}
+
+TEST(Bsdf, LobesAddUp) {
+    std::mt19937 bits(3);
+    for (int i = 0; i < 20'000; ++i) {
+        const MaterialRecord m = any_material(bits);
+        const vec3 a = any_upper(bits);
+        const vec3 b = any_upper(bits);
+        const vec3 sum = bsdf_eval(m, a, b, LOBE_DIFFUSE) + bsdf_eval(m, a, b, LOBE_GLOSSY);
+        expect_near(bsdf_eval(m, a, b, LOBES_ALL), sum, 1e-6 * max_component(sum));
+    }
+}
+
+// The text of glTF's appendix B, written once more for one pair of directions.
+TEST(Bsdf, DielectricAgreesWithTheSpecification) {
+    for (const double roughness : {0.1, 0.5, 1.0}) {
+        for (const double angle : {0.0, 30.0, 80.0}) {
+            const MaterialRecord m = glossy_dielectric(float(roughness));
+            const vec3 wo = at_angle(angle);
+            const vec3 wi = at_angle(55, 20);
+            const glm::dvec3 v(wo);
+            const glm::dvec3 l(wi);
+            const glm::dvec3 h = glm::normalize(v + l);
+            const double a2 = std::pow(double(m.roughness), 4);
+            const double d = a2 / (3.14159265358979 * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
+            const double visibility =
+                1 /
+                (l.z * std::sqrt(v.z * v.z * (1 - a2) + a2) + v.z * std::sqrt(l.z * l.z * (1 - a2) + a2)) / 2;
+            const double fresnel = 0.04 + 0.96 * std::pow(1 - glm::dot(v, h), 5);
+            const glm::dvec3 base(m.base_r, m.base_g, m.base_b);
+            const glm::dvec3 f = (1 - fresnel) * base / 3.14159265358979 + fresnel * d * visibility;
+            expect_near(bsdf_eval(m, wo, wi, LOBES_ALL), f, 1e-5 * f.x);
+        }
+    }
+}
+
+TEST(Bsdf, MetalAgreesWithTheSpecification) {
+    bool scattered = false;
+    for (const double angle : {0.0, 30.0, 60.0, 89.0, 89.99}) {
+        const vec3 color(0.9f, 0.6f, 0.3f);
+        const vec3 wo = at_angle(angle);
+        const BsdfSample s = sample_of(metal(color, 0), wo, true, LOBES_ALL, 0.5f, &scattered);
+        ASSERT_TRUE(scattered);
+        EXPECT_EQ(s.lobe, LOBE_MIRROR);
+        EXPECT_EQ(s.pdf, 0.0f);
+        EXPECT_EQ(s.wi, vec3(-wo.x, -wo.y, wo.z));
+        expect_near(s.weight, glm::dvec3(color) + (1.0 - glm::dvec3(color)) * std::pow(1 - double(wo.z), 5),
+                    1e-6);
+    }
+}
+
+TEST(Bsdf, SpecularExtensionScalesTheLayer) {
+    MaterialRecord m = glossy_dielectric(0);
+    m.specular = 0.5f;
+    m.specular_r = 2;
+    m.specular_g = 40; // f0 is cut at 1
+    expect_near(bsdf_albedo(m, vec3(0, 0, 1), true, LOBE_MIRROR), glm::dvec3(0.04, 0.5, 0.02), 1e-6);
+    const vec3 grazing = bsdf_albedo(m, at_angle(89.999), true, LOBE_MIRROR);
+    expect_near(grazing, glm::dvec3(0.5), 1e-4);
+    m.ior = 0;
+    m.specular_r = 1;
+    expect_near(bsdf_albedo(m, at_angle(20), true, LOBE_MIRROR), glm::dvec3(0.5), 1e-5);
+}
+
+TEST(Bsdf, ThinGlassPassesStraightOn) {
+    bool scattered = false;
+    const MaterialRecord m = with_color(glass(1.5f, 0), vec3(1, 0.5f, 0.25f));
+    for (const double angle : {0.0, 45.0, 80.0}) {
+        for (const bool front : {false, true}) {
+            const vec3 wo = at_angle(angle, 33);
+            const double fresnel = 0.04 + 0.96 * std::pow(1 - double(wo.z), 5);
+            const BsdfSample t = sample_of(m, wo, front, LOBE_TRANSMIT, 0.5f, &scattered);
+            ASSERT_TRUE(scattered);
+            expect_near(t.wi, -glm::dvec3(wo), 1e-7);
+            expect_near(t.weight, (1 - fresnel) * glm::dvec3(1, 0.5, 0.25), 1e-6);
+            EXPECT_EQ(t.eta_scale, 1.0f);
+            const BsdfSample r = sample_of(m, wo, front, LOBE_MIRROR, 0.5f, &scattered);
+            ASSERT_TRUE(scattered);
+            expect_near(r.weight, glm::dvec3(fresnel), 1e-6);
+        }
+    }
+}
+
+/// Fresnel's equations by the angles.
+double fresnel_by_angles(double sine_in, double eta) {
+    const double in = std::asin(sine_in);
+    const double out = std::asin(sine_in / eta);
+    if (in < 1e-6) {
+        return (1 - eta) * (1 - eta) / ((1 + eta) * (1 + eta));
+    }
+    const double s = std::sin(in - out) / std::sin(in + out);
+    const double p = std::tan(in - out) / std::tan(in + out);
+    return 0.5 * (s * s + p * p);
+}
+
+TEST(Bsdf, SolidGlassFollowsSnellAndFresnel) {
+    bool scattered = false;
+    for (const float ior : {1.0f, 1.33f, 1.5f, 2.4f}) {
+        const MaterialRecord m = glass(ior, 1);
+        for (double angle = 0; angle < 90; angle += 0.7) {
+            for (const bool front : {true, false}) {
+                const vec3 wo = at_angle(angle, 200);
+                const double eta = front ? double(ior) : 1 / double(ior);
+                const double sine = std::hypot(double(wo.x), double(wo.y));
+                const BsdfSample t = sample_of(m, wo, front, LOBE_TRANSMIT, 0.5f, &scattered);
+                const BsdfSample both = sample_of(m, wo, front, LOBES_ALL, 0.999999f, &scattered);
+                expect_near(both.weight, glm::dvec3(1), 1e-6);
+                const double margin = 1 - sine / eta;
+                if (margin < 1e-4) { // total internal reflection
+                    if (margin < -1e-6) {
+                        EXPECT_EQ(both.lobe, LOBE_MIRROR);
+                        EXPECT_EQ(bsdf_albedo(m, wo, front, LOBE_MIRROR), vec3(1));
+                        EXPECT_EQ(bsdf_albedo(m, wo, front, LOBE_TRANSMIT), vec3(0));
+                        EXPECT_EQ(t.weight, vec3(0));
+                    }
+                    continue;
+                }
+                expect_near(t.wi,
+                            glm::dvec3(-double(wo.x) / eta, -double(wo.y) / eta,
+                                       -std::sqrt(1 - sine * sine / eta / eta)),
+                            1e-5);
+                EXPECT_NEAR(glm::length(glm::dvec3(t.wi)), 1, 1e-6);
+                EXPECT_NEAR(t.eta_scale, 1 / eta / eta, 1e-6);
+                expect_near(t.weight, glm::dvec3(1 - fresnel_by_angles(sine, eta)), 2e-4);
+                const vec3 sum = bsdf_albedo(m, wo, front, LOBES_DELTA);
+                expect_near(sum, glm::dvec3(1), 1e-6);
+            }
+        }
+    }
+}
+
+TEST(Fresnel, AgreesWithTheAngles) {
+    for (const double eta : {0.5, 0.8, 1.000001, 1.2, 1.5, 3.0}) {
+        for (double angle = 0.5; angle < 90; angle += 0.5) {
+            const double sine = std::sin(angle * 0.017453292519943295);
+            float refracted = 0;
+            const float f =
+                fresnel_dielectric(float(std::cos(angle * 0.017453292519943295)), float(eta), refracted);
+            if (sine / eta > 1.00001) {
+                EXPECT_EQ(f, 1.0f);
+                EXPECT_EQ(refracted, 0.0f);
+            } else if (sine / eta < 0.999) {
+                EXPECT_NEAR(f, fresnel_by_angles(sine, eta), 1e-5) << eta << " " << angle;
+                EXPECT_NEAR(refracted, std::sqrt(1 - sine * sine / eta / eta), 1e-5);
+            }
+        }
+    }
+}
+
+TEST(Fresnel, IndexOfOneIsInvisible) {
+    for (const float cosine : {1.0f, 0.5f, 1e-3f, 1e-5f, 1e-10f}) {
+        float refracted = 0;
+        EXPECT_EQ(fresnel_dielectric(cosine, 1.0f, refracted), 0.0f);
+        EXPECT_FLOAT_EQ(refracted, cosine);
+    }
+}
+
+TEST(Fresnel, BothSidesReflectAlike) {
+    for (double angle = 0; angle < 89; angle += 1) {
+        float inside = 0;
+        float outside = 0;
+        const float r = fresnel_dielectric(at_angle(angle).z, 1.5f, inside);
+        EXPECT_NEAR(fresnel_dielectric(inside, 1 / 1.5f, outside), r, 1e-5);
+        EXPECT_NEAR(outside, at_angle(angle).z, 1e-5);
+    }
+}
+
+TEST(Bsdf, IndexOfZeroReflectsAll) {
+    const MaterialRecord m = glass(0, 1);
+    for (const double angle : {0.0, 40.0, 89.0}) {
+        EXPECT_EQ(bsdf_albedo(m, at_angle(angle), true, LOBE_MIRROR), vec3(1));
+        EXPECT_EQ(bsdf_albedo(m, at_angle(angle), true, LOBE_TRANSMIT), vec3(0));
+    }
+}
+
+// The same text in single and in double precision, at all angles and roughnesses.
+TEST(Bsdf, SinglePrecisionIsStable) {
+    std::mt19937 bits(5);
+    for (int i = 0; i < 200'000; ++i) {
+        const MaterialRecord m = any_material(bits);
+        const vec3 wo = any_upper(bits);
+        const vec3 wi = any_upper(bits);
+        const vec3 f = bsdf_eval(m, wo, wi, LOBES_ALL);
+        const glm::dvec3 f_truth = truth::bsdf_eval(record_bytes(m), wo, wi, LOBES_ALL);
+        const float pdf = bsdf_pdf(m, wo, wi, LOBES_ALL);
+        const double pdf_truth = truth::bsdf_pdf(record_bytes(m), wo, wi, LOBES_ALL);
+        // Near the peak the half vector's rounding counts by the peak's width.
+        const double alpha = std::max(double(m.roughness) * m.roughness, 1e-3);
+        const double bound = 4e-6 + 1e-6 / alpha;
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_NEAR(f[k], f_truth[k], bound * f_truth[k]) << i;
+        }
+        ASSERT_NEAR(pdf, pdf_truth, bound * pdf_truth) << i;
+    }
+}
+
+TEST(Bsdf, SinglePrecisionSamplesLikeDouble) {
+    std::mt19937 bits(6);
+    int compared = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        const MaterialRecord m = any_material(bits);
+        const vec3 wo = any_upper(bits);
+        const bool front = bits() % 2 == 0;
+        const vec4 u(to_unit_float(bits), to_unit_float(bits), to_unit_float(bits), 0);
+        BsdfSample s;
+        const bool scattered = bsdf_sample(m, wo, front, LOBES_ALL, u, s);
+        const truth::BsdfSample t = truth::bsdf_sample(record_bytes(m), wo, front, LOBES_ALL, u);
+        if (!scattered || !t.scattered || s.lobe != t.lobe || std::min(t.wi.z, double(s.wi.z)) < 0.01) {
+            continue; // at the very border between two lobes, or of the horizon
+        }
+        ++compared;
+        ASSERT_NEAR(glm::length(glm::dvec3(s.wi) - t.wi), 0, 4e-5) << i;
+        ASSERT_EQ(s.weight.x >= 0, true);
+        const double alpha = std::max(double(m.roughness) * m.roughness, 1e-3);
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_NEAR(s.weight[k], t.weight[k], (2e-4 + 1e-5 / alpha) * (t.weight[k] + 0.03)) << i;
+        }
+    }
+    EXPECT_GT(compared, 100'000);
+}
+
+} // namespace
+} // namespace argand

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "numbers.hpp"
+#include "oracle.hpp"
+#include "shared/bsdf.h"
+
+#include <random>
+
+namespace argand::testing {
+
+/// glTF's default, but white, rough and not metallic.
+inline MaterialRecord white_dielectric() {
+    MaterialRecord m{};
+    m.base_r = m.base_g = m.base_b = 1;
+    m.specular_r = m.specular_g = m.specular_b = 1;
+    m.specular = 1;
+    m.roughness = 1;
+    m.ior = 1.5f;
+    return m;
+}
+
+inline MaterialRecord with_color(MaterialRecord m, vec3 color) {
+    m.base_r = color.x;
+    m.base_g = color.y;
+    m.base_b = color.z;
+    return m;
+}
+
+inline MaterialRecord lambertian(vec3 color) {
+    MaterialRecord m = with_color(white_dielectric(), color);
+    m.specular = 0;
+    return m;
+}
+
+inline MaterialRecord metal(vec3 color, float roughness) {
+    MaterialRecord m = with_color(white_dielectric(), color);
+    m.metallic = 1;
+    m.roughness = roughness;
+    return m;
+}
+
+inline MaterialRecord glossy_dielectric(float roughness) {
+    MaterialRecord m = with_color(white_dielectric(), vec3(0.8f, 0.5f, 0.2f));
+    m.roughness = roughness;
+    return m;
+}
+
+/// thickness 0: a thin wall.
+inline MaterialRecord glass(float ior, float thickness) {
+    MaterialRecord m = white_dielectric();
+    m.roughness = 0;
+    m.transmission = 1;
+    m.ior = ior;
+    m.thickness = thickness;
+    return m;
+}
+
+inline MaterialRecord any_material(std::mt19937& bits) {
+    std::uniform_real_distribution<float> uniform;
+    const auto end_or_between = [&] { return bits() % 3 == 0 ? float(bits() % 2) : uniform(bits); };
+    MaterialRecord m = with_color(white_dielectric(), vec3(uniform(bits), uniform(bits), uniform(bits)));
+    m.metallic = end_or_between();
+    m.roughness = end_or_between();
+    m.specular = end_or_between();
+    m.specular_r = 2 * uniform(bits);
+    m.transmission = end_or_between();
+    m.ior = 1 + uniform(bits);
+    m.thickness = float(bits() % 2);
+    return m;
+}
+
+/// A number of the renderer's streams.
+inline float to_unit_float(std::mt19937& bits) {
+    return float(bits() >> 8) * 0x1p-24f;
+}
+
+/// At an angle [degrees] from the normal.
+inline vec3 at_angle(double degrees, double around = 0) {
+    const double theta = degrees * 0.017453292519943295;
+    const double phi = around * 0.017453292519943295;
+    return rounded({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+}
+
+/// Above the surface; every fourth grazes it.
+inline vec3 any_upper(std::mt19937& bits) {
+    std::normal_distribution<double> normal;
+    glm::dvec3 v(normal(bits), normal(bits), std::abs(normal(bits)) + 1e-9);
+    if (bits() % 4 == 0) {
+        v.z *= std::exp2(-20 * std::uniform_real_distribution<double>()(bits));
+    }
+    return rounded(glm::normalize(v));
+}
+
+inline truth::Record record_bytes(const MaterialRecord& m) {
+    return std::bit_cast<truth::Record>(m);
+}
+
+} // namespace argand::testing

@@ -1,0 +1,106 @@
+#include "numbers.hpp"
+#include "shared/morton.h"
+
+#include <gtest/gtest.h>
+
+namespace argand {
+namespace {
+
+const float nan = std::numeric_limits<float>::quiet_NaN();
+const float infinity = std::numeric_limits<float>::infinity();
+
+/// Bit by bit.
+std::uint64_t interleaved(std::uint64_t x, std::uint64_t y, std::uint64_t z, int bits) {
+    std::uint64_t code = 0;
+    for (int bit = bits - 1; bit >= 0; --bit) {
+        code = code << 3 | (x >> bit & 1) << 2 | (y >> bit & 1) << 1 | (z >> bit & 1);
+    }
+    return code;
+}
+
+std::uint64_t joined(uvec2 a) {
+    return std::uint64_t{a.y} << 32 | a.x;
+}
+
+TEST(Morton, InterleavesTheCells) {
+    std::mt19937 bits(1);
+    const vec3 low(0);
+    const vec3 high(1);
+    for (int i = 0; i < 100'000; ++i) {
+        const vec3 p(float(bits() >> 8) * 0x1p-24f, float(bits() >> 8) * 0x1p-24f,
+                     float(bits() >> 8) * 0x1p-24f);
+        const auto cell = [](float x, double cells) { return static_cast<std::uint64_t>(double(x) * cells); };
+        ASSERT_EQ(morton30(p, low, high), interleaved(cell(p.x, 1024), cell(p.y, 1024), cell(p.z, 1024), 10));
+        ASSERT_EQ(joined(morton63(p, low, high)),
+                  interleaved(cell(p.x, 0x1p21), cell(p.y, 0x1p21), cell(p.z, 0x1p21), 21));
+    }
+}
+
+TEST(Morton, CornersAreFirstAndLast) {
+    for (const float scale : {1e-30f, 1.0f, 1e30f}) {
+        const vec3 low = vec3(-1, 2, 3) * scale;
+        const vec3 high = vec3(5, 6, 7) * scale;
+        EXPECT_EQ(morton30(low, low, high), 0u);
+        EXPECT_EQ(morton30(high, low, high), (1u << 30) - 1);
+        EXPECT_EQ(joined(morton63(low, low, high)), 0u);
+        EXPECT_EQ(joined(morton63(high, low, high)), (std::uint64_t{1} << 63) - 1);
+    }
+}
+
+TEST(Morton, CellsAreMonotonic) {
+    std::mt19937 bits(2);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    for (int i = 0; i < 100'000; ++i) {
+        const float scale = testing::any_magnitude(bits, -120, 120);
+        const float a = uniform(bits) * scale;
+        const float b = uniform(bits) * scale;
+        ASSERT_LE(morton_cell(std::min(a, b), -scale, scale, 1024.0f),
+                  morton_cell(std::max(a, b), -scale, scale, 1024.0f));
+    }
+}
+
+TEST(Morton, AnythingGivesACodeInRange) {
+    const vec3 low(-1);
+    const vec3 high(1);
+    for (const float x : {nan, infinity, -infinity, 3e38f, -3e38f, 2.0f, -2.0f}) {
+        EXPECT_LT(morton30(vec3(x), low, high), 1u << 30);
+        EXPECT_LT(joined(morton63(vec3(x), low, high)), std::uint64_t{1} << 63);
+    }
+    EXPECT_EQ(morton30(vec3(nan), low, high), 0u);
+    EXPECT_EQ(morton30(vec3(-infinity), low, high), 0u);
+    EXPECT_EQ(morton30(vec3(infinity), low, high), (1u << 30) - 1);
+    EXPECT_EQ(morton30(vec3(5), low, high), (1u << 30) - 1);
+    // No extent, inside out, or not numbers.
+    EXPECT_EQ(morton30(vec3(1), vec3(1), vec3(1)), 0u);
+    EXPECT_EQ(morton30(vec3(0), vec3(1), vec3(-1)), 0u);
+    EXPECT_EQ(morton30(vec3(0), vec3(nan), vec3(1)), 0u);
+    EXPECT_EQ(morton30(vec3(0), vec3(-1), vec3(nan)), 0u);
+    // One flat axis does not disturb the others.
+    EXPECT_EQ(morton30(vec3(1, 0, 1), vec3(-1, 0, -1), vec3(1, 0, 1)), interleaved(1023, 0, 1023, 10));
+    // An extent beyond the largest number.
+    EXPECT_EQ(morton_cell(0.0f, -3e38f, 3e38f, 1024.0f), 512u);
+    EXPECT_EQ(morton_cell(3e38f, -3e38f, 3e38f, 1024.0f), 1023u);
+}
+
+TEST(Morton, LeadingZerosAreCounted) {
+    EXPECT_EQ(leading_zeros(0), 32u);
+    std::mt19937 bits(3);
+    for (int bit = 0; bit < 32; ++bit) {
+        EXPECT_EQ(leading_zeros(1u << bit), 31u - bit);
+        EXPECT_EQ(leading_zeros((1u << bit) | (static_cast<uint>(bits()) & ((1u << bit) - 1))), 31u - bit);
+    }
+}
+
+TEST(Morton, EqualCodesAreToldApartByTheirIndex) {
+    EXPECT_EQ(common_prefix(0x80000000u, 3, 0x80000001u, 3), 31u);
+    EXPECT_EQ(common_prefix(0x80000000u, 3, 0u, 4), 0u);
+    EXPECT_EQ(common_prefix(5u, 0, 5u, 1), 63u);
+    EXPECT_EQ(common_prefix(5u, 0, 5u, 0x80000000u), 32u);
+    EXPECT_EQ(common_prefix(5u, 7, 5u, 7), 64u);
+    EXPECT_EQ(common_prefix63(uvec2(1, 8), 0, uvec2(1, 9), 0), 31u);
+    EXPECT_EQ(common_prefix63(uvec2(1, 8), 0, uvec2(0, 8), 0), 63u);
+    EXPECT_EQ(common_prefix63(uvec2(1, 8), 2, uvec2(1, 8), 3), 95u);
+}
+
+} // namespace
+} // namespace argand

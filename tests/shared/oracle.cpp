@@ -1,0 +1,95 @@
+#define ARGAND_REAL_DOUBLE
+#include "oracle.hpp"
+
+#include "shared/bsdf.h"
+#include "shared/camera.h"
+#include "shared/lights.h"
+
+#include <stdexcept>
+#include <string_view>
+
+namespace argand::truth {
+
+using namespace argand::oracle;
+
+namespace {
+
+template <class T>
+T as(const Record& record) {
+    return std::bit_cast<T>(record);
+}
+
+} // namespace
+
+glm::dvec3 bsdf_eval(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes) {
+    return oracle::bsdf_eval(as<MaterialRecord>(material), wo, wi, lobes);
+}
+
+double bsdf_pdf(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes) {
+    return oracle::bsdf_pdf(as<MaterialRecord>(material), wo, wi, lobes);
+}
+
+BsdfSample bsdf_sample(const Record& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u) {
+    oracle::BsdfSample s;
+    const bool scattered = oracle::bsdf_sample(as<MaterialRecord>(material), wo, front, lobes, u, s);
+    return {scattered, s.wi, s.weight, s.pdf, s.eta_scale, s.lobe};
+}
+
+LightSample light_sample(const Record& light, glm::dvec3 p, glm::dvec2 u) {
+    oracle::LightSample s;
+    const bool lit = oracle::light_sample(as<LightRecord>(light), p, u, s);
+    return {lit, s.wi, s.radiance, s.distance, s.pdf};
+}
+
+double light_pdf(const Record& light, glm::dvec3 wi, double distance, glm::dvec3 normal) {
+    return oracle::light_pdf(as<LightRecord>(light), wi, distance, normal);
+}
+
+glm::dvec3 light_power(const Record& light, double radius) {
+    return oracle::light_power(as<LightRecord>(light), radius);
+}
+
+Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center, double radius) {
+    Emission e;
+    vec3 normal;
+    oracle::light_emit(as<LightRecord>(light), u, v, center, radius, e.origin, e.direction, normal, e.flux);
+    return e;
+}
+
+Ray camera_ray(const Record& camera, double x, double y) {
+    Ray ray;
+    oracle::camera_ray(as<CameraRecord>(camera), x, y, ray.origin, ray.direction);
+    return ray;
+}
+
+double elementary(const char* name, double x, double y) {
+    const std::string_view f = name;
+    double s = 0;
+    double c = 0;
+    if (f == "sin_2pi" || f == "cos_2pi") {
+        sincos_2pi(x, s, c);
+        return f == "sin_2pi" ? s : c;
+    }
+    if (f == "sin" || f == "cos") {
+        sincos_real(x, s, c);
+        return f == "sin" ? s : c;
+    }
+    if (f == "acos") {
+        return acos_real(x);
+    }
+    if (f == "atan2") {
+        return atan2_real(x, y);
+    }
+    if (f == "exp") {
+        return exp_real(x);
+    }
+    if (f == "log") {
+        return log_real(x);
+    }
+    if (f == "pow") {
+        return pow_real(x, y);
+    }
+    throw std::invalid_argument(name);
+}
+
+} // namespace argand::truth

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <glm/glm.hpp>
+
+/// The shared maths compiled as double, behind plain types: no source file sees both builds.
+namespace argand::truth {
+
+/// The bytes of a MaterialRecord or LightRecord.
+using Record = std::array<std::byte, 64>;
+
+glm::dvec3 bsdf_eval(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
+double bsdf_pdf(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
+
+struct BsdfSample {
+    bool scattered;
+    glm::dvec3 wi, weight;
+    double pdf, eta_scale;
+    unsigned lobe;
+};
+BsdfSample bsdf_sample(const Record& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u);
+
+struct LightSample {
+    bool lit;
+    glm::dvec3 wi, radiance;
+    double distance, pdf;
+};
+LightSample light_sample(const Record& light, glm::dvec3 p, glm::dvec2 u);
+double light_pdf(const Record& light, glm::dvec3 wi, double distance, glm::dvec3 normal);
+glm::dvec3 light_power(const Record& light, double radius);
+
+struct Emission {
+    glm::dvec3 origin, direction, flux;
+};
+Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center, double radius);
+
+struct Ray {
+    glm::dvec3 origin, direction;
+};
+Ray camera_ray(const Record& camera, double x, double y);
+
+/// By name: sin_2pi, cos_2pi, sin, cos, acos, atan2, exp, log, pow.
+double elementary(const char* name, double x, double y = 0);
+
+} // namespace argand::truth
