@@ -1,8 +1,10 @@
 #include "accel/lbvh.hpp"
 
-#include "accel/stopgap.hpp"
 #include "kernels/lbvh_codes.hpp"
 #include "kernels/lbvh_fit.hpp"
+#include "parallel/parts.hpp"
+#include "parallel/radix_sort.hpp"
+#include "parallel/reduce.hpp"
 #include "shared/geometry_records.h"
 
 #include <algorithm>
@@ -29,21 +31,24 @@ void dispatch_count(Device& device, const Kernel& kernel, const Count& count) {
 
 } // namespace
 
-Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count) {
+Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays) {
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
     Lbvh bvh{.order = device.allocate("lbvh order", bound * sizeof(std::uint32_t)),
              .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
+    if (for_rays) {
+        bvh.costs = device.allocate("lbvh costs", bound * sizeof(ForestCost));
+        bvh.parents = device.allocate("lbvh parents", bound * sizeof(std::uint32_t));
+    }
     if (count.bound == 0) {
         return bvh;
     }
-    const Buffer bounds = device.allocate("lbvh bounds", sizeof(BoxRecord));
-    const Buffer codes = device.allocate("lbvh codes", bound * sizeof(std::uint32_t));
-    const Buffer ends = device.allocate("lbvh ends", bound * sizeof(std::uint32_t));
-    const AccelParams params{.count = static_cast<std::uint32_t>(count.bound),
-                             .count_index = count.on_device() ? count.index : no_count_index};
-    const Buffer& counts = count.on_device() ? count.buffer : bounds;
+    const Buffer bounds = device.scratch("lbvh: bounds", sizeof(BoxRecord));
+    const Buffer codes = device.scratch("lbvh: codes", bound * sizeof(std::uint32_t));
+    const Buffer ends = device.scratch("lbvh: ends", bound * sizeof(std::uint32_t));
+    const AccelParams params{count_record(count)};
+    const Buffer& counts = counts_or(count, bounds);
 
-    stopgap::reduce_box(device, boxes, bounds, 0, count);
+    reduce_box(device, boxes, bounds, 0, count);
     dispatch_count(device,
                    kernels::lbvh_codes{.boxes = boxes,
                                        .bounds = bounds,
@@ -52,7 +57,7 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count) {
                                        .order = bvh.order,
                                        .params = params},
                    count);
-    stopgap::radix_sort_pairs(device, codes, bvh.order, count, code_bits);
+    radix_sort_pairs(device, codes, bvh.order, count, code_bits);
     device.fill(ends, lbvh_end);
     dispatch_count(device,
                    kernels::lbvh_fit{.boxes = boxes,
@@ -61,8 +66,10 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count) {
                                      .counts = counts,
                                      .ends = ends,
                                      .nodes = bvh.nodes,
+                                     .costs = for_rays ? bvh.costs : ends,
+                                     .parents = for_rays ? bvh.parents : ends,
                                      .params = params,
-                                     .constants = {.fences = needs_fences(device)}},
+                                     .constants = {.fences = needs_fences(device), .for_rays = for_rays}},
                    count);
     return bvh;
 }

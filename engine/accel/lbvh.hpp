@@ -9,13 +9,15 @@ namespace argand {
 /// construction of BVHs, octrees, and k-d trees"). See LbvhNode in shared/accel_records.h for the layout, and
 /// shaders/comp/accel/visit.glsl for a traversal whose only state is a node reference.
 struct Lbvh {
-    Buffer order; ///< uint per leaf: index of the box
-    Buffer nodes; ///< LbvhNode: inner node i at 2 i, leaf i at 2 i + 1, 2 n in all
+    Buffer order;   ///< uint per leaf: index of the box
+    Buffer nodes;   ///< LbvhNode: inner node i at 2 i, leaf i at 2 i + 1, 2 n in all
+    Buffer costs;   ///< ForestCost per inner node; only for rays
+    Buffer parents; ///< uint per inner node, see lbvh_fit.comp; only for rays
 };
 
 /// Records only. boxes: BoxRecord each; 30-bit Morton codes of their centres in their common bounds; equal
 /// codes are told apart by their place in the order. The root is node 0, or 1 (the leaf) where there is one
 /// box.
-Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count);
+Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays = false);
 
 } // namespace argand

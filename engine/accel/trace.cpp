@@ -1,7 +1,10 @@
 #include "accel/triangle_bvh.hpp"
 
 #include "kernels/trace_any.hpp"
+#include "kernels/trace_any_texels.hpp"
 #include "kernels/trace_closest.hpp"
+#include "kernels/trace_closest_texels.hpp"
+#include "parallel/parts.hpp"
 #include "shared/accel_records.h"
 
 #include <algorithm>
@@ -26,44 +29,53 @@ using RunKernel = void (*)(const Work& work, const TraceParams& params, bool res
 
 template <class Kernel>
 void run(const Work& work, const Kernel& kernel, std::uint64_t threads) {
-    if (!kernel.constants.resume && kernel.params.count_index != no_count_index) {
+    if (!kernel.constants.resume && kernel.params.count.on_device != 0) {
         dispatch_indirect(work.device, kernel, work.count.buffer, work.count.index);
     } else {
         dispatch(work.device, kernel, threads);
     }
 }
 
+template <class Kernel>
 void run_closest(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
-    const kernels::trace_closest kernel{.nodes = work.bvh.nodes,
-                                        .triangles = work.bvh.triangles,
-                                        .rays = work.rays,
-                                        .active_rays = work.active,
-                                        .counts = work.count.on_device() ? work.count.buffer : work.active,
-                                        .suspended = work.traversal.suspended,
-                                        .unfinished = work.traversal.unfinished,
-                                        .hits = work.results,
-                                        .params = params,
-                                        .constants = {.resume = resume}};
-    run(work, kernel, threads);
+    run(work,
+        Kernel{.nodes = work.bvh.nodes,
+               .triangles = work.bvh.triangles,
+               .rays = work.rays,
+               .active_rays = work.active,
+               .counts = counts_or(work.count, work.active),
+               .suspended = work.traversal.suspended,
+               .unfinished = work.traversal.unfinished,
+               .hits = work.results,
+               .params = params,
+               .constants = {.resume = resume}},
+        threads);
 }
 
+template <class Kernel>
 void run_any(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
-    const kernels::trace_any kernel{.nodes = work.bvh.nodes,
-                                    .triangles = work.bvh.triangles,
-                                    .rays = work.rays,
-                                    .active_rays = work.active,
-                                    .counts = work.count.on_device() ? work.count.buffer : work.active,
-                                    .suspended = work.traversal.suspended,
-                                    .unfinished = work.traversal.unfinished,
-                                    .occluded = work.results,
-                                    .params = params,
-                                    .constants = {.resume = resume}};
-    run(work, kernel, threads);
+    run(work,
+        Kernel{.nodes = work.bvh.nodes,
+               .triangles = work.bvh.triangles,
+               .rays = work.rays,
+               .active_rays = work.active,
+               .counts = counts_or(work.count, work.active),
+               .suspended = work.traversal.suspended,
+               .unfinished = work.traversal.unfinished,
+               .occluded = work.results,
+               .params = params,
+               .constants = {.resume = resume}},
+        threads);
+}
+
+/// lavapipe reads four words as texels in half the time that it takes to read them from a storage buffer.
+bool read_as_texels(const Device& device, const TriangleBvh& bvh) {
+    return device.info().lane_serial() &&
+           std::max(bvh.nodes.size(), bvh.triangles.size()) / 16 <= device.info().limits.texels;
 }
 
 TraceParams make_params(const Work& work) {
-    return {.count = static_cast<std::uint32_t>(work.count.bound),
-            .count_index = work.count.on_device() ? work.count.index : no_count_index,
+    return {.count = count_record(work.count),
             .first = 0,
             .root = work.bvh.triangle_count == 0   ? lbvh_end
                     : work.bvh.triangle_count == 1 ? 1u
@@ -95,12 +107,12 @@ void run_to_the_end(const Work& work, RunKernel run_kernel) {
         count = std::min<std::uint64_t>(
             count, download<std::uint32_t>(work.device, work.count.buffer, 1, work.count.index)[0]);
     }
-    params.count_index = no_count_index;
+    params.count.on_device = 0;
     for (std::uint64_t first = 0; first < count; first += params.slot_count) {
         params.first = static_cast<std::uint32_t>(first);
-        params.count = static_cast<std::uint32_t>(std::min(count, first + params.slot_count));
+        params.count.number = static_cast<std::uint32_t>(std::min(count, first + params.slot_count));
         work.device.fill(BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
-        run_kernel(work, params, false, params.count - params.first);
+        run_kernel(work, params, false, params.count.number - params.first);
         while (download<std::uint32_t>(work.device, work.traversal.suspended, 1, 1)[0] > 0) {
             work.device.fill(
                 BufferView(work.traversal.suspended, sizeof(std::uint32_t), sizeof(std::uint32_t)), 0);
@@ -133,12 +145,15 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
 
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                    const Buffer& active, const Buffer& hits, const Count& count) {
-    trace({device, bvh, traversal, rays, active, hits, count}, run_closest);
+    trace({device, bvh, traversal, rays, active, hits, count},
+          read_as_texels(device, bvh) ? run_closest<kernels::trace_closest_texels>
+                                      : run_closest<kernels::trace_closest>);
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                const Buffer& active, const Buffer& occluded, const Count& count) {
-    trace({device, bvh, traversal, rays, active, occluded, count}, run_any);
+    trace({device, bvh, traversal, rays, active, occluded, count},
+          read_as_texels(device, bvh) ? run_any<kernels::trace_any_texels> : run_any<kernels::trace_any>);
 }
 
 } // namespace argand

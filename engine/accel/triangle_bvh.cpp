@@ -1,9 +1,13 @@
 #include "accel/triangle_bvh.hpp"
 
 #include "accel/lbvh.hpp"
+#include "base/error.hpp"
 #include "kernels/ray_nodes.hpp"
 #include "kernels/ray_triangles.hpp"
 #include "kernels/triangle_boxes.hpp"
+#include "kernels/wide_roots.hpp"
+#include "parallel/parts.hpp"
+#include "parallel/scan.hpp"
 #include "shared/accel_records.h"
 #include "shared/geometry_records.h"
 
@@ -13,19 +17,34 @@ namespace argand {
 
 TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Buffer& triangles,
                                std::uint32_t count) {
+    if (count > max_ray_nodes) {
+        fail("building the acceleration structure: {} triangles are more than the {} it can hold; simplify "
+             "the scene",
+             count, max_ray_nodes);
+    }
     const std::uint64_t bound = std::max<std::uint64_t>(count, 1);
     TriangleBvh bvh{.nodes = device.allocate("triangle bvh nodes", bound * sizeof(RayNode)),
                     .triangles = device.allocate("triangle bvh triangles", bound * sizeof(RayTriangle)),
                     .triangle_count = count};
-    const Buffer boxes = device.allocate("triangle boxes", bound * sizeof(BoxRecord));
-    const AccelParams params{.count = count, .count_index = no_count_index};
+    const Buffer boxes = device.scratch("triangle bvh: boxes", bound * sizeof(BoxRecord));
+    const AccelParams params{count_record(count)};
     dispatch(device,
              kernels::triangle_boxes{
                  .positions = positions, .triangles = triangles, .boxes = boxes, .params = params},
              count);
-    const Lbvh tree = build_lbvh(device, boxes, count);
-    dispatch(device, kernels::ray_nodes{.tree = tree.nodes, .nodes = bvh.nodes, .params = params},
-             count > 0 ? count - 1 : 0);
+    const Lbvh tree = build_lbvh(device, boxes, count, true);
+    const Buffer ranks = device.scratch("triangle bvh: ranks", bound * sizeof(std::uint32_t));
+    const std::uint64_t inner = count > 0 ? count - 1 : 0;
+    dispatch(
+        device,
+        kernels::wide_roots{.costs = tree.costs, .parents = tree.parents, .roots = ranks, .params = params},
+        inner);
+    inclusive_scan(device, ranks, ranks, inner);
+    dispatch(
+        device,
+        kernels::ray_nodes{
+            .tree = tree.nodes, .costs = tree.costs, .ranks = ranks, .nodes = bvh.nodes, .params = params},
+        inner);
     dispatch(device,
              kernels::ray_triangles{.positions = positions,
                                     .triangles = triangles,

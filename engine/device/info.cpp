@@ -87,6 +87,7 @@ void apply_environment(DeviceInfo& info) {
         {"invocations", lower(info.limits.invocations)},
         {"shared_memory", lower(info.limits.shared_memory)},
         {"storage_buffers", lower(info.limits.storage_buffers)},
+        {"texels", lower(info.limits.texels)},
         {"groups", lower(info.limits.groups)}};
     const std::string limited = environment("ARGAND_LIMIT");
     for (const std::string_view setting : split(limited)) {

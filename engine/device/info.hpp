@@ -26,6 +26,7 @@ struct Limits {
     std::uint32_t invocations = 0;      ///< per work-group ("invocations")
     std::uint32_t shared_memory = 0;    ///< bytes per work-group ("shared_memory")
     std::uint32_t storage_buffers = 0;  ///< per shader stage ("storage_buffers")
+    std::uint64_t texels = 0;           ///< in a buffer that a kernel reads as a utextureBuffer ("texels")
     std::uint32_t groups = 0;           ///< work-groups per dimension ("groups")
 };
 

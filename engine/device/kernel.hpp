@@ -40,6 +40,7 @@ struct KernelBinding {
     const char* name;
     std::uint32_t binding;
     Access access;
+    bool texels = false; ///< read as a utextureBuffer of rgba32ui texels; the buffer's offset is a multiple of 256
 };
 
 struct KernelConstant {

@@ -1,7 +1,7 @@
 #ifndef ARGAND_SHARED_ACCEL_RECORDS_H
 #define ARGAND_SHARED_ACCEL_RECORDS_H
 
-#include "shared/prelude.h"
+#include "shared/parallel_records.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -21,25 +21,29 @@ struct LbvhNode {
     uint escape;
 };
 
-// A number of elements: `count`, or where count_index is not no_count_index the uint of that index in a buffer.
-CONSTANT uint no_count_index = 0xffffffffu;
-
 struct AccelParams {
-    uint count;
-    uint count_index;
+    CountRecord count;
 };
 
-// Both children of an inner node of the two-wide tree that rays traverse; their references as above, with a leaf's
-// index being that of its triangle in TriangleBvh::triangles.
+// What the surface area heuristic says of an inner node of the binary tree, as a forest of up to i nodes of the four-wide
+// tree (Ylitie, Karras, Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section
+// 4): the expected costs for i of 1 to 3, and how they are reached. Bits of `split`: 0-1, the part of four children that
+// is the left one's if the node becomes one of the wide tree; 2-3 and 4-5, how many nodes the forest for i of 2 and 3
+// really has; 6-7, the left one's part of three.
+struct ForestCost {
+    float32 one, two, three;
+    uint split;
+};
+
+// A node of the four-wide tree that rays traverse: up to four boxes on a grid of 255 cells a side over their union.
+// References are 2 i for node i and 2 i + 1 for triangle i of TriangleBvh::triangles.
 struct RayNode {
-    float32 left_low_x, left_low_y, left_low_z;
-    uint left;
-    float32 left_high_x, left_high_y, left_high_z;
-    uint right;
-    float32 right_low_x, right_low_y, right_low_z;
-    uint pad0;
-    float32 right_high_x, right_high_y, right_high_z;
-    uint pad1;
+    float32 low_x, low_y, low_z;        // where the grid begins
+    uint scales;                        // biased binary exponents of the cells' sizes, x lowest; highest 8 bits: children
+    uint low_cells_x, low_cells_y, low_cells_z;     // a byte per child, the first lowest
+    uint high_cells_x, high_cells_y, high_cells_z;
+    uint pad0, pad1;
+    uint child0, child1, child2, child3;
 };
 
 // A triangle in the order of the leaves.
@@ -52,19 +56,21 @@ struct RayTriangle {
     uint pad2;
 };
 
-// Most nodes that wait on a traversal's stack: one per level, of which there are at most as many as bits in a code and
-// in a leaf's place.
+// Children that a ray still has to visit in one node are one word: the node's index from bit 8 on, up to three numbers
+// of children in bits 2 to 7, the next one lowest, and how many they are in bits 0 and 1. So many words wait at most: one
+// a level, of which there are no more than bits in a code and in a leaf's place.
 CONSTANT uint ray_stack_size = 62u;
+CONSTANT uint max_ray_nodes = 0x1000000u;
 
 // Traversal::suspended: the number of slots asked for, the number of rays that the last resume put aside again, then
-// the slots. A slot: the ray, the node it is at (lbvh_end: it is done), the size of its stack, its stack.
+// the slots. A slot: the ray, the node it is at (lbvh_end: it is done), the children it is at, the size of its stack, its
+// stack.
 CONSTANT uint suspended_head = 2u;
-CONSTANT uint suspended_stride = 3u + 62u;
+CONSTANT uint suspended_stride = 4u + 62u;
 
 struct TraceParams {
-    uint count;
-    uint count_index;
-    uint first;             // of `active`; count is then the end
+    CountRecord count;
+    uint first;             // of `active`; the count is then the end
     uint root;              // lbvh_end: there is no triangle
     uint step_limit;        // boxes and triangles that a ray visits in one dispatch
     uint slot_count;

@@ -131,8 +131,8 @@ std::string emit_source(const Kernel& kernel) {
     if (!interface.bindings.empty()) {
         fmt::format_to(out, "constexpr KernelBinding bindings[] = {{\n");
         for (std::size_t i = 0; i < interface.bindings.size(); ++i) {
-            fmt::format_to(out, "    {{\"{}\", {}, Access::{}}},\n", interface.bindings[i].name, i,
-                           enumerator(interface.bindings[i].access));
+            fmt::format_to(out, "    {{\"{}\", {}, Access::{}, {}}},\n", interface.bindings[i].name, i,
+                           enumerator(interface.bindings[i].access), interface.bindings[i].texels);
         }
         fmt::format_to(out, "}};\n");
     }

@@ -57,12 +57,21 @@ struct Reader {
     }
 };
 
+/// A utextureBuffer: how a kernel reads a buffer through a device's texture units.
+bool is_texels(const Reader& reader, const Resource& image) {
+    const SPIRType& type = reader.spirv.get_type(image.type_id);
+    return type.image.dim == spv::DimBuffer && type.image.sampled == 1 &&
+           reader.spirv.get_type(type.image.type).basetype == SPIRType::UInt;
+}
+
 void refuse_other_resources(const Reader& reader) {
     const auto refuse = [&](const spirv_cross::SmallVector<Resource>& found, std::string_view what) {
         for (const Resource& resource : found) {
-            fail(
-                "{}{} '{}': a kernel takes storage buffers, push constants and specialization constants only",
-                error_at(reader.sources, {resource.name}), what, resource.name);
+            if (!is_texels(reader, resource)) {
+                fail("{}{} '{}': a kernel takes storage buffers, utextureBuffers, push constants and "
+                     "specialization constants only",
+                     error_at(reader.sources, {resource.name}), what, resource.name);
+            }
         }
     };
     const spirv_cross::ShaderResources& resources = reader.resources;
@@ -105,8 +114,16 @@ void add_record(const Reader& reader, const SPIRType& block, Reflection& result)
 
 void read_buffers(const Reader& reader, Reflection& result) {
     std::map<std::uint32_t, const Resource*> by_binding;
-    for (const Resource& buffer : reader.resources.storage_buffers) {
-        const std::string at = error_at(reader.sources, {"buffer", buffer.name});
+    std::vector<const Resource*> buffers;
+    for (const auto* found : {&reader.resources.storage_buffers, &reader.resources.separate_images}) {
+        for (const Resource& buffer : *found) {
+            buffers.push_back(&buffer);
+        }
+    }
+    for (const Resource* found : buffers) {
+        const Resource& buffer = *found;
+        const bool image = reader.spirv.get_type(buffer.type_id).basetype == SPIRType::Image;
+        const std::string at = error_at(reader.sources, {image ? "utextureBuffer" : "buffer", buffer.name});
         const std::uint32_t set = reader.spirv.get_decoration(buffer.id, spv::DecorationDescriptorSet);
         const std::uint32_t binding = reader.spirv.get_decoration(buffer.id, spv::DecorationBinding);
         if (set != 0) {
@@ -132,9 +149,13 @@ void read_buffers(const Reader& reader, Reflection& result) {
             fail("{}buffer {} is one too many: a kernel has at most {}", at, buffer->name, max_bindings);
         }
         const SPIRType& block = reader.spirv.get_type(buffer->base_type_id);
+        if (block.basetype == SPIRType::Image) {
+            result.bindings.push_back({buffer->name, Access::read, true});
+            continue;
+        }
         const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
         result.bindings.push_back(
-            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer)});
+            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer), false});
         add_record(reader, block, result);
     }
 }

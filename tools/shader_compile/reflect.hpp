@@ -24,6 +24,7 @@ struct Record {
 struct Binding {
     std::string name; ///< of the block's last member
     Access access;
+    bool texels = false; ///< a utextureBuffer
 };
 
 struct Constant {

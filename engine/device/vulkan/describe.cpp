@@ -105,6 +105,7 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
     info.limits.shared_memory = basic.limits.maxComputeSharedMemorySize;
     info.limits.storage_buffers =
         std::min(basic.limits.maxPerStageDescriptorStorageBuffers, basic.limits.maxDescriptorSetStorageBuffers);
+    info.limits.texels = basic.limits.maxTexelBufferElements;
     info.limits.groups = std::min({basic.limits.maxComputeWorkGroupCount[0], basic.limits.maxComputeWorkGroupCount[1],
                                    basic.limits.maxComputeWorkGroupCount[2]});
 

@@ -47,11 +47,27 @@ LogicalDevice::~LogicalDevice() {
 }
 
 VulkanBuffer::~VulkanBuffer() {
+    for (const auto& [range, view] : views) {
+        vkDestroyBufferView(device->handle, view, nullptr);
+    }
     vkDestroyBuffer(device->handle, buffer, nullptr);
     vkFreeMemory(device->handle, memory, nullptr);
     if (allocated > 0) {
         ledger->freed(name, allocated);
     }
+}
+
+VkBufferView VulkanBuffer::texels(std::uint64_t offset, std::uint64_t bytes) {
+    VkBufferView& view = views[{offset, bytes}];
+    if (!view) {
+        VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+        create.buffer = buffer;
+        create.format = VK_FORMAT_R32G32B32A32_UINT;    // every device has it for such buffers
+        create.offset = offset;
+        create.range = bytes / 16 * 16;
+        check(vkCreateBufferView(device->handle, &create, nullptr, &view), "creating a view of a buffer");
+    }
+    return view;
 }
 
 std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const std::shared_ptr<LogicalDevice>& device,
@@ -68,6 +84,7 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const s
     create.size = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     create.usage = kind == MemoryKind::device
                        ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                             VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT
                        : VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     check(vkCreateBuffer(device->handle, &create, nullptr, &storage->buffer), "creating a buffer");

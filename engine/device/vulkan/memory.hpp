@@ -37,8 +37,12 @@ struct VulkanBuffer final : BufferStorage {
     std::byte* mapped = nullptr;        ///< upload and download buffers only
     std::uint64_t allocated = 0;        ///< bytes counted in the ledger
     std::shared_ptr<MemoryLedger> ledger;
+    std::map<std::pair<std::uint64_t, std::uint64_t>, VkBufferView> views; ///< by offset and size
 
     ~VulkanBuffer() override;
+
+    /// A view of a range as rgba32ui texels, made at its first use.
+    VkBufferView texels(std::uint64_t offset, std::uint64_t bytes);
 };
 
 /// Throws Error if the device has not got the memory.

@@ -86,26 +86,28 @@ void Pipelines::save() const {
     std::filesystem::remove(temporary, ignored);
 }
 
-VkDescriptorSetLayout Pipelines::set_layout(std::uint32_t buffer_count) {
-    VkDescriptorSetLayout& layout = set_layouts_[buffer_count];
+VkDescriptorSetLayout Pipelines::set_layout(Slots slots) {
+    VkDescriptorSetLayout& layout = set_layouts_[slots];
     if (!layout) {
-        std::vector<VkDescriptorSetLayoutBinding> bindings(buffer_count);
-        for (std::uint32_t i = 0; i < buffer_count; ++i) {
-            bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+        std::vector<VkDescriptorSetLayoutBinding> bindings(slots.count);
+        for (std::uint32_t i = 0; i < slots.count; ++i) {
+            const VkDescriptorType type = (slots.texels >> i & 1) != 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                                                       : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+            bindings[i] = {i, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
         }
         VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
         create.flags = push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
-        create.bindingCount = buffer_count;
+        create.bindingCount = slots.count;
         create.pBindings = bindings.data();
         check(vkCreateDescriptorSetLayout(device_, &create, nullptr, &layout), "creating a descriptor set layout");
     }
     return layout;
 }
 
-VkPipelineLayout Pipelines::pipeline_layout(std::uint32_t buffer_count, std::uint32_t push_bytes) {
-    VkPipelineLayout& layout = pipeline_layouts_[{buffer_count, push_bytes}];
+VkPipelineLayout Pipelines::pipeline_layout(Slots slots, std::uint32_t push_bytes) {
+    VkPipelineLayout& layout = pipeline_layouts_[{slots, push_bytes}];
     if (!layout) {
-        const VkDescriptorSetLayout set = set_layout(buffer_count);
+        const VkDescriptorSetLayout set = set_layout(slots);
         const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
         VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
         create.setLayoutCount = 1;
@@ -139,9 +141,12 @@ const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& 
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device_, &module_create, nullptr, &module), doing);
 
-    const auto buffers = static_cast<std::uint32_t>(kernel.bindings.size());
-    pipeline.set_layout = set_layout(buffers);
-    pipeline.layout = pipeline_layout(buffers, kernel.push_bytes);
+    Slots slots{static_cast<std::uint32_t>(kernel.bindings.size()), 0};
+    for (const KernelBinding& binding : kernel.bindings) {
+        slots.texels |= binding.texels ? 1u << binding.binding : 0u;
+    }
+    pipeline.set_layout = set_layout(slots);
+    pipeline.layout = pipeline_layout(slots, kernel.push_bytes);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;

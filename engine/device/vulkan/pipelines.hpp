@@ -2,6 +2,7 @@
 
 #include "device/kernel.hpp"
 
+#include <compare>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -28,16 +29,23 @@ public:
 private:
     using Key = std::pair<const KernelInfo*, std::vector<std::uint32_t>>;
 
-    VkDescriptorSetLayout set_layout(std::uint32_t buffer_count);
-    VkPipelineLayout pipeline_layout(std::uint32_t buffer_count, std::uint32_t push_bytes);
+    /// How many buffers a kernel binds, and which of them as texels (a bit each).
+    struct Slots {
+        std::uint32_t count = 0;
+        std::uint32_t texels = 0;
+        auto operator<=>(const Slots&) const = default;
+    };
+
+    VkDescriptorSetLayout set_layout(Slots slots);
+    VkPipelineLayout pipeline_layout(Slots slots, std::uint32_t push_bytes);
     void save() const;
 
     VkDevice device_;
     bool push_descriptors_;
     std::filesystem::path cache_file_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
-    std::map<std::uint32_t, VkDescriptorSetLayout> set_layouts_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, VkPipelineLayout> pipeline_layouts_;
+    std::map<Slots, VkDescriptorSetLayout> set_layouts_;
+    std::map<std::pair<Slots, std::uint32_t>, VkPipelineLayout> pipeline_layouts_;
     std::map<Key, Pipeline> pipelines_;
 };
 

@@ -196,12 +196,15 @@ void VulkanDevice::copy(const BufferView& from, const BufferView& to) {
 
 VkDescriptorSet VulkanDevice::allocate_set(VkDescriptorSetLayout layout) {
     constexpr std::uint32_t sets_a_pool = 64;
+    constexpr std::uint32_t texels_a_set = 4;
     if (recording_->descriptor_sets_left == 0) {
-        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets_a_pool * max_bindings};
+        const std::array<VkDescriptorPoolSize, 2> sizes{
+            {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets_a_pool * max_bindings},
+             {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sets_a_pool * texels_a_set}}};
         VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
         create.maxSets = sets_a_pool;
-        create.poolSizeCount = 1;
-        create.pPoolSizes = &size;
+        create.poolSizeCount = sizes.size();
+        create.pPoolSizes = sizes.data();
         VkDescriptorPool pool = VK_NULL_HANDLE;
         check(vkCreateDescriptorPool(device_->handle, &create, nullptr, &pool), "creating a descriptor pool");
         recording_->descriptor_pools.push_back(pool);
@@ -230,15 +233,26 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
              info_.limits.invocations);
     }
     std::array<VkDescriptorBufferInfo, max_bindings> infos;
+    std::array<VkBufferView, max_bindings> views;
     std::array<VkWriteDescriptorSet, max_bindings> writes;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
-        const VulkanBuffer& buffer = vulkan(*arguments.buffers[i]);
+        VulkanBuffer& buffer = vulkan(*arguments.buffers[i]);
         infos[i] = {buffer.buffer, arguments.offsets[i], arguments.sizes[i] > 0 ? arguments.sizes[i] : VK_WHOLE_SIZE};
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         writes[i].pBufferInfo = &infos[i];
+        if (kernel.bindings[i].texels) {
+            if (buffer.size / 16 > info_.limits.texels) {
+                fail("running kernel {}: '{}' has {} texels, '{}' allows {}; please report this", kernel.name,
+                     buffer.name, buffer.size / 16, info_.name, info_.limits.texels);
+            }
+            views[i] = buffer.texels(arguments.offsets[i], arguments.sizes[i] > 0 ? arguments.sizes[i]
+                                                                                  : buffer.size - arguments.offsets[i]);
+            writes[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+            writes[i].pTexelBufferView = &views[i];
+        }
     }
     const Pipeline& pipeline = pipelines_->get(kernel, arguments);
     const VkCommandBuffer recording = commands();

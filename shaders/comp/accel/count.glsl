@@ -1,2 +1,3 @@
-// The number of elements of a kernel with `params` (AccelParams) and a buffer `counts`.
-#define ELEMENT_COUNT (params.count_index == no_count_index ? params.count : counts[params.count_index])
+// The number of elements of a kernel with a CountRecord among its params and a buffer `counts`.
+#define ELEMENT_COUNT \
+    (params.count.on_device != 0u ? min(counts[params.count.index], params.count.number) : params.count.number)

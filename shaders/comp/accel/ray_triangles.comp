@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { AccelParams params; };
 // Copies the triangles' vertices into the order of the leaves.
 void main() {
     uint i = THREAD_INDEX;
-    if (i >= params.count) {
+    if (i >= params.count.number) {
         return;
     }
     uint triangle = order[i];

@@ -1,13 +1,24 @@
-// Traversal of a TriangleBvh's tree with a stack, front to back, one ray per invocation. Included by trace_closest.comp
-// and trace_any.comp, which declare `result` and define ANY_HIT as 0 or 1.
+// Traversal of a TriangleBvh's tree with a stack, nearest boxes first, one ray per invocation. Included by
+// trace_closest.glsl and trace_any.glsl, which declare load_result and store_result and define ANY_HIT as 0 or 1; TEXELS
+// (0 or 1) says through what the tree is read.
 #include "accel/count.glsl"
 #include "shared/accel_records.h"
 #include "shared/geometry_records.h"
+#include "shared/intersect.h"
 
 layout(constant_id = 0) const bool resume = false;  // go on with suspended rays
 
+#if TEXELS
+layout(set = 0, binding = 0) uniform utextureBuffer nodes;
+layout(set = 0, binding = 1) uniform utextureBuffer triangles;
+#define NODES(i) texelFetch(nodes, int(i))
+#define TRIANGLES(i) uintBitsToFloat(texelFetch(triangles, int(i)))
+#else
 layout(set = 0, binding = 0) readonly buffer Nodes { uvec4 nodes[]; };
 layout(set = 0, binding = 1) readonly buffer Triangles { vec4 triangles[]; };
+#define NODES(i) nodes[i]
+#define TRIANGLES(i) triangles[i]
+#endif
 layout(set = 0, binding = 2) readonly buffer Rays { vec4 rays[]; };
 layout(set = 0, binding = 3) readonly buffer Active { uint active_rays[]; };
 layout(set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
@@ -17,77 +28,69 @@ layout(push_constant) uniform Push { TraceParams params; };
 
 struct Ray {
     vec3 origin;
-    vec3 inverse;       // of the direction
-    vec3 shear_x;       // see hit_triangle
-    vec3 shear_y;
-    vec3 scale_z;
+    RayShear shear;
+    vec3 inverse;       // of the direction, finite
+    vec3 near_origin;   // the origin moved such that boxes seem larger: for their sides that face it,
+    vec3 far_origin;    // and for the others
+    bvec3 backwards;
 };
 
-// Woop, Benthin, Wald 2013, "Watertight ray/triangle intersection": the largest component of the direction becomes z,
-// along which the ray is sheared. Rows of the shear instead of permuted indices: what they add is zeros, exactly.
-Ray make_ray(vec3 origin, vec3 direction) {
+// As ray_slabs in shared/intersect.h, with room also for the rounding of the grids' planes, which are at most twice as
+// far away as the scene's sides.
+Ray make_ray(vec3 origin, vec3 direction, vec3 low, vec3 high) {
     Ray ray;
     ray.origin = origin;
-    // A zero's inverse is large, not infinite, lest it be multiplied with a zero.
-    vec3 safe = mix(direction, vec3(1e-30), lessThan(abs(direction), vec3(1e-30)));
-    ray.inverse = 1.0 / safe;
+    ray.shear = ray_shear(direction);
     vec3 size = abs(direction);
-    if (size.x >= size.y && size.x >= size.z) {
-        ray.shear_x = vec3(-direction.y / direction.x, 1.0, 0.0);
-        ray.shear_y = vec3(-direction.z / direction.x, 0.0, 1.0);
-        ray.scale_z = vec3(1.0 / direction.x, 0.0, 0.0);
-    } else if (size.y >= size.z) {
-        ray.shear_x = vec3(0.0, -direction.z / direction.y, 1.0);
-        ray.shear_y = vec3(1.0, -direction.x / direction.y, 0.0);
-        ray.scale_z = vec3(0.0, 1.0 / direction.y, 0.0);
-    } else {
-        ray.shear_x = vec3(1.0, 0.0, -direction.x / direction.z);
-        ray.shear_y = vec3(0.0, 1.0, -direction.y / direction.z);
-        ray.scale_z = vec3(0.0, 0.0, 1.0 / direction.z);
-    }
+    float least = max_component(size) * 1e-18;      // below, a component does not matter within single precision
+    vec3 safe = mix(direction, vec3(least), lessThan(size, vec3(least)));
+    ray.inverse = 1.0 / safe;
+    ray.backwards = lessThan(ray.inverse, vec3(0.0));
+    vec3 margin = abs(origin) * error_bound(4) + vec3(box_reach(origin, low, high) * error_bound(24));
+    margin = mix(margin, -margin, ray.backwards);
+    ray.near_origin = origin + margin;
+    ray.far_origin = origin - margin;
     return ray;
 }
 
-float sheared(vec3 row, vec3 v) { return (row.x * v.x + row.y * v.y) + row.z * v.z; }
+const uint missed = 0xffffffffu;
 
-// Distance and weights of the second and third vertex; false if it is missed or edge-on.
-bool hit_triangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec3 t_u_v) {
-    a -= ray.origin;
-    b -= ray.origin;
-    c -= ray.origin;
-    vec2 p = vec2(sheared(ray.shear_x, a), sheared(ray.shear_y, a));
-    vec2 q = vec2(sheared(ray.shear_x, b), sheared(ray.shear_y, b));
-    vec2 r = vec2(sheared(ray.shear_x, c), sheared(ray.shear_y, c));
-    // Products are rounded monotonically, so a difference never has the wrong sign, and zero counts as inside.
-    float u = r.x * q.y - r.y * q.x;
-    float v = p.x * r.y - p.y * r.x;
-    float w = q.x * p.y - q.y * p.x;
-    float determinant = u + v + w;
-    float scaled = u * sheared(ray.scale_z, a) + v * sheared(ray.scale_z, b) + w * sheared(ray.scale_z, c);
-    bool inside = (min(min(u, v), w) >= 0.0 || max(max(u, v), w) <= 0.0) && determinant != 0.0;
-    t_u_v = vec3(scaled, v, w) / (inside ? determinant : 1.0);
-    return inside;
+vec4 cells(uint bytes) {
+    return vec4(ivec4(bytes & 255u, (bytes >> 8u) & 255u, (bytes >> 16u) & 255u, bytes >> 24u));
 }
 
-// Whether the ray meets the box before t_max, and where it enters it. The far side is moved by the rounding errors of the
-// slabs' distances (Ize 2013, "Robust BVH ray traversal").
-bool hit_box(Ray ray, vec3 low, vec3 high, float t_max, out float enter) {
-    vec3 a = (low - ray.origin) * ray.inverse;
-    vec3 b = (high - ray.origin) * ray.inverse;
-    vec3 near = min(a, b);
-    vec3 far = max(a, b) * 1.0000004;
-    enter = max(max(near.x, near.y), max(near.z, 0.0));
-    float leave = min(min(far.x, far.y), min(far.z, t_max));
-    return enter <= leave;
+// The children that the ray meets before t_max, nearest first: their numbers in the lowest two bits of where they are
+// entered, or `missed`.
+uvec4 meet_children(Ray ray, uvec4 a, uvec4 b, uvec2 c, float t_max) {
+    vec3 low = uintBitsToFloat(a.xyz);
+    vec3 scale = uintBitsToFloat((uvec3(a.w, a.w >> 8u, a.w >> 16u) & 255u) << 23u) * ray.inverse;
+    vec3 near_start = (low - ray.near_origin) * ray.inverse;
+    vec3 far_start = (low - ray.far_origin) * ray.inverse;
+    uvec3 low_cells = b.xyz;
+    uvec3 high_cells = uvec3(b.w, c);
+    uvec3 near_cells = mix(low_cells, high_cells, ray.backwards);
+    uvec3 far_cells = mix(high_cells, low_cells, ray.backwards);
+    vec4 enter = max(max(cells(near_cells.x) * scale.x + near_start.x, cells(near_cells.y) * scale.y + near_start.y),
+                     max(cells(near_cells.z) * scale.z + near_start.z, vec4(0.0)));
+    vec4 leave = min(min(cells(far_cells.x) * scale.x + far_start.x, cells(far_cells.y) * scale.y + far_start.y),
+                     min(cells(far_cells.z) * scale.z + far_start.z, vec4(t_max)));
+    uint count = a.w >> 24u;
+    bvec4 met = lessThanEqual(enter, leave);
+    met.z = met.z && count > 2u;
+    met.w = met.w && count > 3u;
+    uvec4 keys = mix(uvec4(missed), (floatBitsToUint(enter) & ~3u) | uvec4(0u, 1u, 2u, 3u), met);
+    keys = uvec4(min(keys.xz, keys.yw), max(keys.xz, keys.yw)).xzyw;
+    keys = uvec4(min(keys.xy, keys.zw), max(keys.xy, keys.zw));
+    return uvec4(keys.x, min(keys.y, keys.z), max(keys.y, keys.z), keys.w);
 }
 
 void main() {
-    // Invocations run in a few contiguous blocks on CPUs, one per core: give each core every other group.
     uint thread = THREAD_INDEX;
     uint slot = 0u;
     uint ray_index;
     uint node = params.root;
-    uint stack[ray_stack_size];
+    uint siblings = 0u;         // that wait beside the node: see ray_stack_size
+    uint stack[ray_stack_size + 1u];
     uint height = 0u;
     if (resume) {
         if (thread >= min(suspended[0], params.slot_count)) {
@@ -96,12 +99,13 @@ void main() {
         slot = suspended_head + thread * suspended_stride;
         ray_index = suspended[slot];
         node = suspended[slot + 1u];
-        height = suspended[slot + 2u];
+        siblings = suspended[slot + 2u];
+        height = suspended[slot + 3u];
         if (node == lbvh_end) {
             return;
         }
         for (uint i = 0u; i < height; ++i) {
-            stack[i] = suspended[slot + 3u + i];
+            stack[i] = suspended[slot + 4u + i];
         }
     } else {
         uint i = params.first + thread;
@@ -112,7 +116,10 @@ void main() {
     }
     vec4 origin = rays[2u * ray_index];
     vec3 direction = rays[2u * ray_index + 1u].xyz;
-    Ray ray = make_ray(origin.xyz, direction);
+    uvec4 all = NODES(0u);
+    vec3 low = uintBitsToFloat(all.xyz);
+    vec3 high = low + 255.0 * uintBitsToFloat((uvec3(all.w, all.w >> 8u, all.w >> 16u) & 255u) << 23u);
+    Ray ray = make_ray(origin.xyz, direction, low, high);
     HitRecord hit = HitRecord(no_triangle, origin.w, 0.0, 0.0);
     if (resume) {
         load_result(ray_index, hit);
@@ -121,52 +128,67 @@ void main() {
         node = lbvh_end;
     }
 
-    uint steps = 0u;
-    while (node != lbvh_end && steps < params.step_limit) {
-        ++steps;
+    uint steps_left = params.step_limit;
+    while (node != lbvh_end && steps_left > 0u) {
+        --steps_left;
         bool pop = true;
-        if ((node & 1u) == 0u) {
-            uvec4 left_low = nodes[2u * node];
-            uvec4 left_high = nodes[2u * node + 1u];
-            uvec4 right_low = nodes[2u * node + 2u];
-            uvec4 right_high = nodes[2u * node + 3u];
-            float left_enter, right_enter;
-            bool left = hit_box(ray, uintBitsToFloat(left_low.xyz), uintBitsToFloat(left_high.xyz), hit.t, left_enter);
-            bool right = hit_box(ray, uintBitsToFloat(right_low.xyz), uintBitsToFloat(right_high.xyz), hit.t, right_enter);
-            bool right_first = right && !(left && left_enter <= right_enter);
-            if (left && right) {
-                stack[height] = right_first ? left_low.w : left_high.w;
-                ++height;
-            }
-            if (left || right) {
-                node = right_first ? left_high.w : left_low.w;
+        bool push = false;
+        uint next_siblings = siblings;
+        bool inner = (node & 1u) == 0u;
+        // CPUs that emulate lanes read for those too that do not take a branch: let that be what is in the cache.
+        uint place = inner ? 2u * node : 0u;
+        uint triangle_place = inner ? 0u : 3u * (node >> 1u);
+        if (inner) {
+            uvec4 met = meet_children(ray, NODES(place), NODES(place + 1u), NODES(place + 2u).xy, hit.t);
+            uvec4 children = NODES(place + 3u);
+            if (met.x != missed) {
                 pop = false;
+                if (met.y != missed) {
+                    push = (siblings & 3u) != 0u;
+                    next_siblings = (node << 7u) | ((met.y & 3u) << 2u) | ((met.z & 3u) << 4u) | ((met.w & 3u) << 6u) |
+                               (met.w != missed ? 3u : (met.z != missed ? 2u : 1u));
+                }
+                uint first = met.x & 3u;
+                node = first < 2u ? (first == 0u ? children.x : children.y) : (first == 2u ? children.z : children.w);
             }
         } else {
-            uint leaf = node >> 1u;
-            vec4 a = triangles[3u * leaf];
-            vec3 b = triangles[3u * leaf + 1u].xyz;
-            vec3 c = triangles[3u * leaf + 2u].xyz;
-            vec3 t_u_v;
-            if (hit_triangle(ray, a.xyz, b, c, t_u_v) && t_u_v.x >= 0.0 && t_u_v.x <= hit.t) {
+            vec4 a = TRIANGLES(triangle_place);
+            vec3 b = TRIANGLES(triangle_place + 1u).xyz;
+            vec3 c = TRIANGLES(triangle_place + 2u).xyz;
+            float t, u, v;
+            if (intersect_triangle(ray.shear, ray.origin, a.xyz, b, c, 0.0, hit.t, t, u, v)) {
                 // Of triangles at one distance the first in the scene counts, whatever the order of traversal.
                 uint triangle = floatBitsToUint(a.w);
-                if (t_u_v.x < hit.t || triangle < hit.triangle) {
-                    hit = HitRecord(triangle, t_u_v.x, t_u_v.y, t_u_v.z);
+                if (t < hit.t || triangle < hit.triangle) {
+                    hit = HitRecord(triangle, t, u, v);
                 }
                 if (ANY_HIT != 0) {
+                    next_siblings = 0u;
                     height = 0u;
                 }
             }
         }
+        // Written whether or not it counts: CPUs that emulate lanes mispredict what only some of them write.
+        stack[height] = siblings;
+        height += push ? 1u : 0u;
+        siblings = next_siblings;
         if (pop) {
             node = lbvh_end;
-            if (height > 0u) {
+            if ((siblings & 3u) == 0u && height > 0u) {
                 --height;
-                node = stack[height];
+                siblings = stack[height];
+            }
+            bool more = (siblings & 3u) != 0u;
+            uint from = more ? 4u * (siblings >> 8u) : place;
+            if (more) {
+                uvec4 children = NODES(from + 3u);
+                uint which = (siblings >> 2u) & 3u;
+                node = which < 2u ? (which == 0u ? children.x : children.y) : (which == 2u ? children.z : children.w);
+                siblings = (siblings & ~255u) | ((siblings >> 2u) & 60u) | ((siblings & 3u) - 1u);
             }
         }
     }
+
     store_result(ray_index, hit);
     if (resume) {
         suspended[slot + 1u] = node;
@@ -182,9 +204,10 @@ void main() {
             atomicAdd(suspended[1], 1u);
             suspended[slot] = ray_index;
             suspended[slot + 1u] = node;
-            suspended[slot + 2u] = height;
+            suspended[slot + 2u] = siblings;
+            suspended[slot + 3u] = height;
             for (uint i = 0u; i < height; ++i) {
-                suspended[slot + 3u + i] = stack[i];
+                suspended[slot + 4u + i] = stack[i];
             }
         }
     }

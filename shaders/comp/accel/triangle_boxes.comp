@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { AccelParams params; };
 // The bounding box of each triangle.
 void main() {
     uint i = THREAD_INDEX;
-    if (i >= params.count) {
+    if (i >= params.count.number) {
         return;
     }
     uvec3 vertices = triangles[i].xyz;
