@@ -68,12 +68,6 @@ void run_any(const Work& work, const TraceParams& params, bool resume, std::uint
         threads);
 }
 
-/// lavapipe reads four words as texels in half the time that it takes to read them from a storage buffer.
-bool read_as_texels(const Device& device, const TriangleBvh& bvh) {
-    return device.info().lane_serial() &&
-           std::max(bvh.nodes.size(), bvh.triangles.size()) / 16 <= device.info().limits.texels;
-}
-
 TraceParams make_params(const Work& work) {
     return {.count = count_record(work.count),
             .first = 0,
@@ -146,14 +140,14 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                    const Buffer& active, const Buffer& hits, const Count& count) {
     trace({device, bvh, traversal, rays, active, hits, count},
-          read_as_texels(device, bvh) ? run_closest<kernels::trace_closest_texels>
+          read_as_texels(device, bvh.nodes, bvh.triangles) ? run_closest<kernels::trace_closest_texels>
                                       : run_closest<kernels::trace_closest>);
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                const Buffer& active, const Buffer& occluded, const Count& count) {
     trace({device, bvh, traversal, rays, active, occluded, count},
-          read_as_texels(device, bvh) ? run_any<kernels::trace_any_texels> : run_any<kernels::trace_any>);
+          read_as_texels(device, bvh.nodes, bvh.triangles) ? run_any<kernels::trace_any_texels> : run_any<kernels::trace_any>);
 }
 
 } // namespace argand

@@ -4,6 +4,7 @@
 #include "device/info.hpp"
 #include "device/kernel.hpp"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <span>
@@ -128,6 +129,12 @@ std::vector<T> download(Device& device, const Buffer& from, std::size_t count, s
         device.download(from, first * sizeof(T), std::as_writable_bytes(std::span<T>(data)));
     }
     return data;
+}
+
+/// Whether a kernel should read these buffers of 16-byte records as texels: lavapipe reads four words as texels in half
+/// the time that it takes to read them from a storage buffer.
+inline bool read_as_texels(const Device& device, const Buffer& a, const Buffer& b) {
+    return device.info().lane_serial() && std::max(a.size(), b.size()) / 16 <= device.info().limits.texels;
 }
 
 /// Devices of all backends, suitable or not, in the order of their indices.

@@ -28,8 +28,10 @@ constexpr std::uint32_t ledgers_per_thread = 64;
 
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
+    // Whole blocks, which are read whole.
+    const std::uint64_t whole = (capacity + photons_per_block - 1) / photons_per_block * photons_per_block;
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
-    w.sorted = device.allocate("photons, sorted", capacity * sizeof(PhotonRecord));
+    w.sorted = device.allocate("photons, sorted", whole * sizeof(PhotonRecord));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.boxes = device.allocate("photon blocks", (capacity / photons_per_block + 1) * sizeof(BoxRecord));

@@ -8,9 +8,9 @@ ARGAND_SHARED_BEGIN
 // What the map keeps: a photon, or a sample of the surfaces' area, whose flux_r is the area that it stands for.
 struct PhotonRecord {
     float32 x, y, z;
-    uint direction;             // where it came from, packed (pack_unit)
-    float32 flux_r, flux_g, flux_b;
     uint normal;                // of the surface, on the photon's side (area samples: its front), packed (photon.h)
+    float32 flux_r, flux_g, flux_b;
+    uint direction;             // where it came from, packed (pack_unit)
 };
 
 // A photon on its way, one per slot.

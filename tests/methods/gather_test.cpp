@@ -32,8 +32,8 @@ protected:
     float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
 
     PhotonRecord photon(glm::vec3 position, bool caustic = false, glm::vec3 normal = {0, 1, 0}) {
-        return {position.x, position.y, position.z, pack_unit({0, 1, 0}),
-                uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_photon_normal(normal, caustic)};
+        return {position.x, position.y, position.z, pack_photon_normal(normal, caustic),
+                uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
     }
 
     std::vector<Gathered> gather(const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, float radius,

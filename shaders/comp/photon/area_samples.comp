@@ -39,5 +39,5 @@ void main() {
     vec3 normal = normalize_or(cross3(positions[t.y].xyz - positions[t.x].xyz, positions[t.z].xyz - positions[t.x].xyz),
                                vec3(0.0, 0.0, 1.0));
     photons[counters[counter_stored_slots] + i] =
-        PhotonRecord(p.x, p.y, p.z, 0u, params.area, 0.0, 0.0, pack_photon_normal(normal, false) | area_sample_bit);
+        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit, params.area, 0.0, 0.0, 0u);
 }

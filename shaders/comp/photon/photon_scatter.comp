@@ -63,8 +63,8 @@ void main() {
     if (stores && estimated != 0u) {
         bool caustic = (path.state & photon_followed) != 0u;
         photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
-                                      pack_unit(-direction), flux.x * arriving, flux.y * arriving, flux.z * arriving,
-                                      pack_photon_normal(surface.geometric_normal, caustic));
+                                      pack_photon_normal(surface.geometric_normal, caustic), flux.x * arriving,
+                                      flux.y * arriving, flux.z * arriving, pack_unit(-direction));
     }
     if (depth >= batch.bounces) {
         ledgers[slot].cut += units_of(flux);
