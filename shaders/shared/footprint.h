@@ -1,0 +1,226 @@
+// Footprints of photons: skewed ellipses in the plane of the surface they hit, with the normal as a third axis.
+// Fabianowski and Dingliana 2009, sections 3.2 and 4.3. Derivations: docs/methods/footprints.md.
+#ifndef ARGAND_SHARED_FOOTPRINT_H
+#define ARGAND_SHARED_FOOTPRINT_H
+
+#include "shared/differential.h"
+#include "shared/footprint_records.h"
+#include "shared/photon.h"
+
+ARGAND_SHARED_BEGIN
+
+// Semi-axes of the ellipsoid |M x| <= 1: u and v in the tangent plane, at any angle to each other, w along the normal.
+struct Footprint {
+    vec3 u, v, w;
+};
+
+// The vectors of the tangent plane that are dual to u and v: a·u = b·v = 1, a·v = b·u = 0; so (a·x)² + (b·x)² is the
+// squared distance in units of the ellipse.
+struct FootprintDuals {
+    vec3 a, b;
+};
+
+// photons: of this pass; reference_photons: at which smoothing holds; length: of the scene, which smoothing (in units of
+// length^(3/4)) and largest are relative to; exponent: footprints shrink as photons^-exponent, 1/6 by default and 1/2 in
+// the paper, whose smoothing is fixed.
+FN FootprintScale make_footprint_scale(real photons, real reference_photons, real length, real smoothing,
+                                       real caustic_smoothing, real largest, real flatness, real exponent) {
+    real n = max(photons, real(1.0));
+    real growth = pow_real(n / max(reference_photons, real(1.0)), real(0.5) - exponent);
+    FootprintScale s;
+    s.spacing = float32(sphere_spacing(n));
+    // length^(3/4), so that the sum of powers of length is 1
+    s.diffuse = float32(smoothing * growth * sphere_spacing(n) * sqrt(length) * sqrt(sqrt(length)));
+    s.caustic = float32(caustic_smoothing * growth);
+    s.radius_min = float32(length * real(1e-6));
+    s.radius_max = float32(length * largest);
+    s.flatness = float32(flatness);
+    s.principal_axes = 0u;
+    s.pad = 0u;
+    return s;
+}
+
+// Turns conjugate semi-axes of an ellipse into its principal ones, u the longer (a Jacobi rotation).
+FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
+    real largest = max(max_component(abs(u)), max_component(abs(v)));
+    if (!is_finite(largest) || !(largest > real(0.0))) {
+        return;
+    }
+    vec3 a = u / largest;
+    vec3 b = v / largest;
+    real difference = dot3(a, a) - dot3(b, b);
+    real product = real(2.0) * dot3(a, b);
+    real both = sqrt(difference * difference + product * product);
+    if (!(both > real(0.0))) {
+        return;     // a circle
+    }
+    // cos and sin of half the angle of (difference, product), without cancellation
+    real c = sqrt(real(0.5) * (real(1.0) + abs(difference) / both));    // at least sqrt(1/2)
+    real s = product / (real(2.0) * both * c);
+    if (difference < real(0.0)) {
+        real swap = c;
+        c = abs(s);
+        s = product < real(0.0) ? -swap : swap;
+    }
+    vec3 turned = (a * c + b * s) * largest;
+    v = (b * c - a * s) * largest;
+    u = turned;
+}
+
+// One semi-axis: compressed unless the photon is a caustic one (section 4.3), clamped.
+FN vec3 footprint_axis(vec3 dp, vec3 normal, bool caustic, IN(FootprintScale) s) {
+    real size;
+    vec3 unit = unit_and_length(dp - normal * dot3(dp, normal), size);
+    real radius = caustic ? size * real(s.caustic)
+                          : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing)));   // the spacing is positive
+    return unit * clamp(radius, real(s.radius_min), real(s.radius_max));
+}
+
+// Of a photon whose differential has been transferred to its hit. normal: unit, geometric. caustic: none but mirrors and
+// refraction since the light. Axes that are nearly one, or nothing, are parted to radius_min.
+FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic, IN(FootprintScale) s) {
+    vec3 u = limit_length(d.dp_du, LARGEST_OFFSET);
+    vec3 v = limit_length(d.dp_dv, LARGEST_OFFSET);
+    if (s.principal_axes != 0u) {
+        make_principal(u, v);
+    }
+    Footprint f;
+    f.u = footprint_axis(u, normal, caustic, s);
+    f.v = footprint_axis(v, normal, caustic, s);
+    real size_u, size_v, sine;
+    vec3 unit_u = unit_and_length(f.u, size_u);
+    vec3 unit_v = unit_and_length(f.v, size_v);
+    unit_and_length(cross3(unit_u, unit_v), sine);
+    real least = real(s.radius_min);
+    real longer = max(size_u, size_v);
+    if (!(longer > real(0.0))) {
+        Frame frame = make_frame(normal);
+        f.u = frame.x * least;
+        f.v = frame.y * least;
+    } else if (!(min(size_u, size_v) * sine > least)) {
+        // The width of the ellipse, across its longer axis.
+        vec3 along = size_u >= size_v ? unit_u : unit_v;
+        f.u = along * longer;
+        f.v = cross3(normal, along) * max(min(size_u, size_v) * sine, least);
+    }
+    f.w = normal * (real(s.flatness) * parallelogram_side(f.u, f.v));
+    return f;
+}
+
+FN real footprint_area(IN(Footprint) f) { return PI * sqr(parallelogram_side(f.u, f.v)); }
+
+// The area of all semi-axes' parallelogram is positive, as make_footprint made it.
+FN FootprintDuals footprint_duals(IN(Footprint) f, vec3 normal) {
+    real size_u, size_v;
+    vec3 unit_u = unit_and_length(f.u, size_u);
+    vec3 unit_v = unit_and_length(f.v, size_v);
+    real sine = dot3(cross3(unit_u, unit_v), normal);
+    sine = sine < real(0.0) ? min(sine, real(-1e-12)) : max(sine, real(1e-12));
+    FootprintDuals duals;
+    duals.a = cross3(unit_v, normal) / (sine * max(size_u, real(1e-30)));
+    duals.b = cross3(normal, unit_u) / (sine * max(size_v, real(1e-30)));
+    return duals;
+}
+
+// The ellipsoid of dual axes, for boxes around what is really kept.
+FN Footprint footprint_of_duals(IN(FootprintDuals) duals, vec3 normal, real flatness) {
+    real size_a, size_b;
+    vec3 unit_a = unit_and_length(duals.a, size_a);
+    vec3 unit_b = unit_and_length(duals.b, size_b);
+    real sine = dot3(cross3(unit_a, unit_b), normal);
+    sine = sine < real(0.0) ? min(sine, real(-1e-12)) : max(sine, real(1e-12));
+    Footprint f;
+    f.u = cross3(unit_b, normal) / (sine * max(size_a, real(1e-30)));
+    f.v = cross3(normal, unit_a) / (sine * max(size_b, real(1e-30)));
+    f.w = normal * (flatness * parallelogram_side(f.u, f.v));
+    return f;
+}
+
+// Half extents of the box around the ellipsoid.
+FN vec3 footprint_extent(IN(Footprint) f) {
+    vec3 largest = max(max(abs(f.u), abs(f.v)), abs(f.w));
+    // Scaled, so that no square underflows.
+    real scale = max(max_component(largest), real(1e-30));
+    vec3 u = f.u / scale;
+    vec3 v = f.v / scale;
+    vec3 w = f.w / scale;
+    vec3 squares = u * u + v * v + w * w;
+    return vec3(sqrt(squares.x), sqrt(squares.y), sqrt(squares.z)) * scale;
+}
+
+// Kernels: their integrals over the unit disc, of q = squared distance, are pi.
+FN real footprint_kernel(real q, bool uniform_kernel) {
+    return uniform_kernel ? real(1.0) : real(2.0) * max(real(0.0), real(1.0) - q);
+}
+
+// Irradiance per flux [1/length²] of a photon at `offset` from it, on a surface of unit normal query_normal: the kernel
+// over the area of the ellipse that the query's tangent plane, moved through the photon, cuts out of the ellipsoid; so
+// the flux is conserved on that plane whichever way it is tilted. 0 outside of the ellipsoid.
+FN real footprint_weight(IN(FootprintDuals) f, vec3 normal, vec3 query_normal, vec3 offset, real flatness,
+                         bool uniform_kernel) {
+    real x = dot3(f.a, offset);
+    real y = dot3(f.b, offset);
+    real inverse_area = abs(dot3(cross3(f.a, f.b), normal));    // of the parallelogram of u and v
+    real inverse_height2 = inverse_area / (flatness * flatness);    // the flatness is positive
+    real z = dot3(normal, offset);
+    real q = x * x + y * y + z * z * inverse_height2;
+    if (!(q <= real(1.0))) {
+        return real(0.0);
+    }
+    // Components of the query's normal along u, v and w, over |w|; u = (b × n) / [a b n], v = (n × a) / [a b n].
+    real along_u = dot3(cross3(f.b, normal), query_normal);
+    real along_v = dot3(cross3(normal, f.a), query_normal);
+    real along_w = dot3(normal, query_normal);
+    real tilt2 = (along_u * along_u + along_v * along_v) / (inverse_area * flatness * flatness) + along_w * along_w;
+    return footprint_kernel(q, uniform_kernel) * INV_PI * inverse_area * sqrt(tilt2);
+}
+
+// A dual axis in 3 × 16 bits, in units of the power of two above its largest component, whose sign and exponent are the
+// last 16. Error below 2^-15 of the largest component; any magnitude of single precision.
+FN uvec2 pack_dual(vec3 v) {
+    real largest = clamp(max_component(abs(v)), real(1e-30), real(1e30));
+    uint exponent = (float_bits(float32(largest)) & 0x7f800000u) + 0x00800000u;
+    vec3 scaled = v * (real(32767.0) / real(bits_float(exponent)));
+    uint x = uint(floor(clamp(scaled.x, real(-32767.0), real(32767.0)) + real(32768.5)));
+    uint y = uint(floor(clamp(scaled.y, real(-32767.0), real(32767.0)) + real(32768.5)));
+    uint z = uint(floor(clamp(scaled.z, real(-32767.0), real(32767.0)) + real(32768.5)));
+    return uvec2(x | (y << 16u), z | exponent);
+}
+
+FN vec3 unpack_dual(uint xy, uint zs) {
+    real scale = real(bits_float(zs & 0xffff0000u)) / real(32767.0);
+    return vec3(real(xy & 0xffffu) - real(32768.0), real(xy >> 16u) - real(32768.0),
+                real(zs & 0xffffu) - real(32768.0)) * scale;
+}
+
+FN FootprintDuals unpack_duals(IN(FootprintRecord) r) {
+    FootprintDuals duals;
+    duals.a = unpack_dual(r.a_xy, r.a_zs);
+    duals.b = unpack_dual(r.b_xy, r.b_zs);
+    return duals;
+}
+
+// from: unit, where the photon came from.
+FN FootprintRecord pack_footprint(vec3 position, vec3 normal, bool caustic, vec3 flux, vec3 from, IN(Footprint) f) {
+    FootprintDuals duals = footprint_duals(f, normal);
+    uvec2 a = pack_dual(duals.a);
+    uvec2 b = pack_dual(duals.b);
+    FootprintRecord r;
+    r.x = float32(position.x);
+    r.y = float32(position.y);
+    r.z = float32(position.z);
+    r.normal = pack_photon_normal(normal, caustic);
+    r.flux_r = float32(flux.x);
+    r.flux_g = float32(flux.y);
+    r.flux_b = float32(flux.z);
+    r.direction = pack_unit(from);
+    r.a_xy = a.x;
+    r.a_zs = a.y;
+    r.b_xy = b.x;
+    r.b_zs = b.y;
+    return r;
+}
+
+ARGAND_SHARED_END
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef ARGAND_SHARED_FOOTPRINT_RECORDS_H
+#define ARGAND_SHARED_FOOTPRINT_RECORDS_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// A photon of the map with its footprint: 48 bytes. What decides whether it reaches a point is in the first and the last
+// lane.
+struct FootprintRecord {
+    float32 x, y, z;
+    uint normal;            // pack_photon_normal
+    float32 flux_r, flux_g, flux_b;
+    uint direction;         // where it came from, pack_unit
+    uint a_xy, a_zs;        // dual axes, pack_dual
+    uint b_xy, b_zs;
+};
+
+// How differentials become footprints, the same for all photons of a pass: make_footprint_scale.
+struct FootprintScale {
+    float32 spacing;        // Δ, by which differentials are divided before they are compressed
+    float32 diffuse;        // semi-axis [length] = diffuse · (|dp| / spacing)^(1/4)
+    float32 caustic;        // semi-axis = caustic · |dp|
+    float32 radius_min, radius_max;     // [length], of each semi-axis
+    float32 flatness;       // half-axis along the normal over the geometric mean of the other two
+    uint principal_axes;    // whether the ellipse's own axes are compressed, not the differentials as they are
+    uint pad;
+};
+
+ARGAND_SHARED_END
+
+#endif

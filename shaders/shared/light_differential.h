@@ -1,0 +1,61 @@
+// Differentials of photons as light_emit emits them. Derivations: docs/methods/footprints.md.
+#ifndef ARGAND_SHARED_LIGHT_DIFFERENTIAL_H
+#define ARGAND_SHARED_LIGHT_DIFFERENTIAL_H
+
+#include "shared/differential.h"
+#include "shared/lights.h"
+
+ARGAND_SHARED_BEGIN
+
+// photons: expected of this light in the pass, N times its probability; emitter_photons: of all triangles together that
+// make up the same emitter (all emissive triangles, where nobody knows better), so that an emitter cut into many
+// triangles spreads its light no wider than one; for other lights not used. direction, normal: what light_emit gave;
+// radius: of the scene's bounding sphere.
+FN PhotonDifferential light_differential(IN(LightRecord) l, vec3 direction, vec3 normal, real radius, real photons,
+                                         real emitter_photons) {
+    PhotonDifferential d = no_differential();
+    if (l.kind == light_point || l.kind == light_spot) {
+        Frame f;
+        f.x = vec3(real(1.0), real(0.0), real(0.0));
+        f.y = vec3(real(0.0), real(1.0), real(0.0));
+        f.z = vec3(real(0.0), real(0.0), real(1.0));
+        real density = UNIFORM_SPHERE_PDF;
+        if (l.kind == light_spot) {
+            f = make_frame(light_direction(l));
+            real cos_inner = real(l.cos_inner);
+            real cos_outer = real(l.cos_outer);
+            real ramp, ramp_share;
+            real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
+            // No wider than the whole cone, though its rim is dark.
+            real least = real(1.0) / max(photons, real(1.0));
+            density = max(spot_falloff(dot3(direction, f.z), cos_inner, cos_outer), least) / max(all, real(1e-12));
+        }
+        real spread = photon_spacing(photons, density);
+        vec3 axis_u, axis_v;
+        direction_axes(f, direction, axis_u, axis_v);
+        d.dd_du = axis_u * spread;
+        d.dd_dv = axis_v * spread;
+        return d;
+    }
+    Frame f = make_frame(direction);
+    real side = radius * sqrt(PI / max(photons, real(1.0)));        // of the disc that photons start on
+    real spread = real(0.0);
+    if (l.kind == light_sky) {
+        spread = sqrt(PI / max(photons, real(1.0)));
+    } else if (l.kind == light_triangle) {
+        real area;
+        light_normal(l, area);
+        real cosine = max(abs(dot3(direction, normal)), SMALLEST_EMISSION_COSINE);
+        real sides = light_sides(l);
+        side = sqrt(area * sides * cosine / max(photons, real(1.0)));
+        spread = sqrt(sides) * photon_spacing(emitter_photons, cosine * INV_PI);
+    }
+    d.dp_du = f.x * side;
+    d.dp_dv = f.y * side;
+    add_independent_spread(d, direction, spread);
+    return d;
+}
+
+ARGAND_SHARED_END
+
+#endif
