@@ -4,6 +4,8 @@
 #include "shared/bsdf.h"
 #include "shared/camera.h"
 #include "shared/lights.h"
+#include "shared/photon.h"
+#include "shared/surface.h"
 
 #include <stdexcept>
 #include <string_view>
@@ -61,6 +63,18 @@ Ray camera_ray(const Record& camera, double x, double y) {
     oracle::camera_ray(as<CameraRecord>(camera), x, y, ray.origin, ray.direction);
     return ray;
 }
+
+Surface make_surface(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& n, double u, double v,
+                     glm::dvec3 ray_direction) {
+    const oracle::Surface s = oracle::make_surface(p[0], p[1], p[2], n[0], n[1], n[2], u, v, ray_direction);
+    return {s.position, s.geometric_normal, s.shading_normal, s.front};
+}
+
+unsigned pack_photon_normal(glm::dvec3 normal, bool caustic) { return oracle::pack_photon_normal(normal, caustic); }
+
+glm::dvec3 unpack_photon_normal(unsigned packed) { return oracle::unpack_photon_normal(packed); }
+
+double kernel_weight(double squared_distance) { return oracle::kernel_weight(squared_distance); }
 
 double elementary(const char* name, double x, double y) {
     const std::string_view f = name;

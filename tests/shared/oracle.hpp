@@ -41,6 +41,17 @@ struct Ray {
 };
 Ray camera_ray(const Record& camera, double x, double y);
 
+struct Surface {
+    glm::dvec3 position, geometric_normal, shading_normal;
+    bool front;
+};
+Surface make_surface(const std::array<glm::dvec3, 3>& vertices, const std::array<glm::dvec3, 3>& normals, double u,
+                     double v, glm::dvec3 ray_direction);
+
+unsigned pack_photon_normal(glm::dvec3 normal, bool caustic);
+glm::dvec3 unpack_photon_normal(unsigned packed);
+double kernel_weight(double squared_distance);
+
 /// By name: sin_2pi, cos_2pi, sin, cos, acos, atan2, exp, log, pow.
 double elementary(const char* name, double x, double y = 0);
 
