@@ -1,6 +1,8 @@
 // Whatever is wrong, the tool says so in one line, leaves nothing half-written and does not crash.
 #include "argand_run.hpp"
 
+#include <fmt/format.h>
+
 namespace argand::testing {
 namespace {
 
@@ -51,22 +53,44 @@ TEST_F(BadInput, OutputsThatCannotBeWritten) {
 TEST_F(BadInput, Usage) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' ";
     expect_failure("", usage, "--help");
-    expect_failure("paint", usage, "--help");
+    expect_failure("paint", usage, "'paint'");
+    expect_failure("paint scene.glb -o picture.png", usage, "'paint'");
+    expect_failure("paint", usage, "argand --help");
+    expect_failure("--fast", usage, "'--fast'");
     expect_failure("render", usage, "scene");
     expect_failure(scene + "--unknown", usage, "--unknown");
     for (const char* size : {"0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "-8x8", "8.5x8", "eightxeight",
                              "1000000x8", "99999999999999999999x8", "''", "'8 x8'"}) {
         expect_failure(scene + "--size " + size, usage, "--size");
     }
-    for (const char* option : {"--spp 0", "--spp -1", "--spp many", "--photons -1", "--photons 1e30", "--bounces -1",
-                               "--radius 0", "--radius -1", "--seed -1", "--exposure much"}) {
-        const std::string name = std::string(option).substr(0, std::string(option).find(' '));
-        expect_failure(scene + option, usage, name);
-    }
     expect_failure(scene + "--method rays", usage, "photons, path");
     expect_failure(scene + "--backend cuda", usage, "vulkan");
     expect_failure("compare", usage, "a");
     expect_failure("inspect", usage, "scene");
+}
+
+TEST_F(BadInput, NumbersOutOfRange) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' ";
+    struct Case {
+        const char* option;
+        const char* range;
+        std::vector<const char*> values;
+    };
+    for (const Case& c : std::vector<Case>{
+             {"--spp", "from 1 to 16777216", {"0", "-1", "1.5", "many", "nan", "16777217", "99999999999999999999"}},
+             {"--photons", "from 0 to 4000000000", {"-1", "1e30", "inf", "0.5", "4000000001"}},
+             {"--bounces", "from 0 to 65535", {"-1", "65536", "nan", "few"}},
+             {"--radius", "from 1e-18 to 1e+18", {"0", "-1", "nan", "-nan", "inf", "-inf", "1e-40", "1e999", "wide"}},
+             {"--follow-roughness", "from 0 to 1", {"nan", "inf", "-0.1", "1.1", "rough"}},
+             {"--seed", "from 0 to 4294967295", {"-1", "4294967296", "nan", "0.5"}},
+             {"--exposure", "from -100 to 100", {"nan", "inf", "-inf", "1e30", "101", "much", "1x"}}}) {
+        for (const char* value : c.values) {
+            const std::string arguments = scene + c.option + " " + value;
+            expect_failure(arguments, usage, c.option);
+            expect_failure(arguments, usage, fmt::format("'{}' is not a", value));
+            expect_failure(arguments, usage, c.range);
+        }
+    }
 }
 
 TEST_F(BadInput, CamerasThatAreNotThere) {
@@ -88,8 +112,12 @@ TEST_F(BadInput, DevicesThatAreNotThere) {
 
 TEST_F(BadInput, NoDriverAndNoLoader) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
-    expect_failure(scene, failure, "driver", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
-    expect_failure("devices", failure, "driver", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
+    const std::string no_driver = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
+    for (const std::string& arguments : {scene, std::string("devices"), std::string("bench parallel")}) {
+        expect_failure(arguments, failure, "there is no device", no_driver);
+        expect_failure(arguments, failure, "mesa-vulkan-drivers", no_driver);
+        EXPECT_THAT(argand(arguments, no_driver).error, ::testing::Not(::testing::HasSubstr("code")));
+    }
     // A file of the loader's name that is none, in the way of the true one.
     const ScratchDirectory libraries;
     write_text(libraries / "libvulkan.so.1", "");

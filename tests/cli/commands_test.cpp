@@ -42,7 +42,7 @@ TEST_F(Commands, QuietPrintsNothing) {
 }
 
 TEST_F(Commands, SeveralOutputsHoldTheSamePictureAndItsLayers) {
-    render("-q -o a.exr -o b.png --output c.exr --exposure 1");
+    render("-q -o a.exr -o b.png --output c.exr --exposure +1");
     EXPECT_THAT(files(), ElementsAre("a.exr", "b.png", "c.exr"));
     EXPECT_TRUE(read_text(file("a.exr")) == read_text(file("c.exr")));
     const std::vector<Layer> layers = read_image(file("a.exr"));

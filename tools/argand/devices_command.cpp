@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include "base/error.hpp"
 #include "device/device.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@ namespace {
 void list() {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
-        fmt::print("Vulkan offers no device; install a driver, for instance mesa-vulkan-drivers\n");
+        fail("listing devices: there is no device; install a driver, for instance the package mesa-vulkan-drivers");
     }
     for (const DeviceInfo& device : devices) {
         fmt::print("{}: {} ({}, {}, Vulkan {}, {} MiB){}\n", device.index, device.name, to_string(device.kind),

@@ -11,6 +11,17 @@ namespace {
 constexpr int failure = 1;
 constexpr int usage = 2;
 
+/// What is wrong with the command line, and where to look it up.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> unknown = app.remaining();
+    if (app.get_subcommands().empty() && !unknown.empty()) {
+        return fmt::format("there is no {} '{}'; `argand --help` lists the commands",
+                           unknown.front().front() == '-' ? "option" : "command", unknown.front());
+    }
+    const std::string command = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
+    return fmt::format("{}; `argand {}--help` says what there is", error.what(), command);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Argand: a photon-mapping renderer for any Vulkan GPU. Reads glTF 2.0, writes PNG and OpenEXR.");
     app.name("argand");
@@ -29,7 +40,7 @@ int run(int argc, char** argv) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);
         }
-        fmt::print(stderr, "argand: {}; `argand --help` says what there is\n", error.what());
+        fmt::print(stderr, "argand: {}\n", complaint(app, error));
         return usage;
     }
     return 0;

@@ -7,6 +7,7 @@
 #include "base/progress.hpp"
 #include "image/files.hpp"
 #include "methods/render.hpp"
+#include "numbers.hpp"
 #include "report.hpp"
 #include "scene/gltf.hpp"
 
@@ -162,23 +163,27 @@ void add_render_command(CLI::App& app) {
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command->add_option("--spp", settings.samples, "Eye paths per pixel")
         ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 24));
+        ->check(integer_between(1, 1 << 24));
     command->add_option("--photons", settings.photons, "Photons emitted")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 4.0e9));
+        ->check(integer_between(0, 4'000'000'000));
     command
         ->add_option("--bounces", settings.bounces,
                      "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
-        ->check(CLI::Range(0, 0xffff));
+        ->check(integer_between(0, 0xffff));
     command->add_option("--radius", options->radius, "Radius of density estimation (default: from the scene)")
-        ->check(CLI::PositiveNumber);
+        ->check(number_between(1e-18, 1e18));   // its square and the inverse of that are finite
     command->add_option("--follow-roughness", settings.follow_roughness,
                         "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--seed", settings.seed, "Seed of the random numbers")->capture_default_str();
+        ->check(number_between(0, 1));
+    command->add_option("--seed", settings.seed, "Seed of the random numbers")
+        ->capture_default_str()
+        ->check(integer_between(0, 0xffffffff));
     command->add_option("--camera", options->camera, "Name or index of the camera (default: the first)");
-    command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")->capture_default_str();
+    command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")
+        ->capture_default_str()
+        ->check(number_between(-100, 100));
     command->add_option("--backend", options->backend, "vulkan")->capture_default_str();
     command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
     command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");

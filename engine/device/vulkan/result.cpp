@@ -15,10 +15,16 @@ const char* in_words(VkResult result) {
         return "the device was lost (a driver fault, or the system ended long work); try again, or another device with "
                "--device";
     case VK_ERROR_INITIALIZATION_FAILED: return "the driver could not be initialised; check its installation";
-    case VK_ERROR_INCOMPATIBLE_DRIVER: return "no driver supports Vulkan 1.2; install or update one";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return "there is no device, as no driver for Vulkan 1.2 was found; install or update one, for instance the "
+               "package mesa-vulkan-drivers";
     case VK_ERROR_EXTENSION_NOT_PRESENT: return "the driver lacks an extension it had announced; update it";
     case VK_ERROR_FEATURE_NOT_PRESENT: return "the driver lacks a feature it had announced; update it";
     case VK_ERROR_LAYER_NOT_PRESENT: return "a Vulkan layer is missing; install the validation layers";
+    case VK_ERROR_MEMORY_MAP_FAILED: return "memory of the device could not be mapped; close other programs";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED: return "the driver lacks a format that Vulkan requires; update it";
+    case VK_ERROR_FRAGMENTED_POOL:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS: return "the driver has run out of objects; ask for less work";
     default: return "the driver reported an unexpected failure; update it, or try another device with --device";
     }
@@ -28,7 +34,7 @@ const char* in_words(VkResult result) {
 
 void check(VkResult result, std::string_view doing) {
     if (result < 0) {
-        fail("{}: {} (code {})", doing, in_words(result), static_cast<int>(result));
+        fail("{}: {}", doing, in_words(result));
     }
 }
 
