@@ -60,6 +60,22 @@ TEST_F(Dispatch, IndirectRunsAsManyThreadsAsTheCountSays) {
     }
 }
 
+TEST_F(Dispatch, IndirectSpillsIntoFurtherDimensions) {
+    Device& device = open({"few groups", "", "groups=5"});
+    constexpr std::uint32_t n = 1000; // 125 groups of 8, the most there are
+    for (const std::uint32_t count : {0u, 40u, 41u, 200u, 201u, 399u, 401u, 999u, n}) {
+        SCOPED_TRACE(count);
+        const Buffer counts = upload(device, "counts", Words{count});
+        const Words visited =
+            visits(device, n, [&](const auto& kernel) { dispatch_indirect(device, kernel, counts); });
+        EXPECT_EQ(Words(visited.begin(), visited.begin() + count), Words(count, 1));
+        // Whole groups, rows of 5 groups, slices of 25.
+        const std::uint32_t whole = count > 200 ? 200 : count > 40 ? 40 : 8;
+        const std::uint32_t end = (count + whole - 1) / whole * whole;
+        EXPECT_EQ(Words(visited.begin() + end, visited.end()), Words(n - end, 0));
+    }
+}
+
 TEST_F(Dispatch, IndirectCountsThatKernelsWrote) {
     Device& device = open();
     constexpr std::uint32_t n = 5000;

@@ -11,7 +11,12 @@ layout(push_constant) uniform Push { IndirectGroupsParams params; };
 void main() {
     uint count = counts[params.count_index];
     uint needed = count / params.group_size + (count % params.group_size > 0u ? 1u : 0u);
-    uint x = min(needed, params.group_limit);
-    uint y = x > 0u ? (needed - 1u) / x + 1u : 0u;
-    groups[params.slot] = uvec4(x, y, needed > 0u ? 1u : 0u, 0u);
+    uvec3 size = uvec3(0u);
+    if (needed > 0u) {
+        size.x = min(needed, params.group_limit);
+        uint rows = (needed - 1u) / size.x + 1u;
+        size.y = min(rows, params.group_limit);
+        size.z = (rows - 1u) / size.y + 1u;
+    }
+    groups[params.slot] = uvec4(size, 0u);
 }
