@@ -29,6 +29,25 @@ void dispatch_count(Device& device, const Kernel& kernel, const Count& count) {
     }
 }
 
+void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& codes, const Count& count, bool for_rays,
+         bool in_order) {
+    const Buffer ends = device.scratch("lbvh: ends", std::max<std::uint64_t>(count.bound, 1) * sizeof(std::uint32_t));
+    device.fill(ends, lbvh_end);
+    dispatch_count(device,
+                   kernels::lbvh_fit{.boxes = boxes,
+                                     .codes = codes,
+                                     .order = bvh.order,
+                                     .counts = counts_or(count, codes),
+                                     .ends = ends,
+                                     .nodes = bvh.nodes,
+                                     .costs = for_rays ? bvh.costs : ends,
+                                     .parents = for_rays ? bvh.parents : ends,
+                                     .params = {count_record(count)},
+                                     .constants = {.fences = needs_fences(device), .for_rays = for_rays,
+                                                   .in_order = in_order}},
+                   count);
+}
+
 } // namespace
 
 Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays) {
@@ -44,7 +63,6 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
     }
     const Buffer bounds = device.scratch("lbvh: bounds", sizeof(BoxRecord));
     const Buffer codes = device.scratch("lbvh: codes", bound * sizeof(std::uint32_t));
-    const Buffer ends = device.scratch("lbvh: ends", bound * sizeof(std::uint32_t));
     const AccelParams params{count_record(count)};
     const Buffer& counts = counts_or(count, bounds);
 
@@ -58,19 +76,17 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
                                        .params = params},
                    count);
     radix_sort_pairs(device, codes, bvh.order, count, code_bits);
-    device.fill(ends, lbvh_end);
-    dispatch_count(device,
-                   kernels::lbvh_fit{.boxes = boxes,
-                                     .codes = codes,
-                                     .order = bvh.order,
-                                     .counts = counts,
-                                     .ends = ends,
-                                     .nodes = bvh.nodes,
-                                     .costs = for_rays ? bvh.costs : ends,
-                                     .parents = for_rays ? bvh.parents : ends,
-                                     .params = params,
-                                     .constants = {.fences = needs_fences(device), .for_rays = for_rays}},
-                   count);
+    fit(device, bvh, boxes, codes, count, for_rays, false);
+    return bvh;
+}
+
+Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& codes, const Buffer& order,
+                         const Count& count) {
+    const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
+    const Lbvh bvh{.order = order, .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
+    if (count.bound > 0) {
+        fit(device, bvh, boxes, codes, count, false, true);
+    }
     return bvh;
 }
 

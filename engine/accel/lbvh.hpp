@@ -6,8 +6,7 @@
 namespace argand {
 
 /// Linear bounding volume hierarchy over boxes in the layout of Karras 2012 ("Maximizing parallelism in the
-/// construction of BVHs, octrees, and k-d trees"). See LbvhNode in shared/accel_records.h for the layout, and
-/// shaders/comp/accel/visit.glsl for a traversal whose only state is a node reference.
+/// construction of BVHs, octrees, and k-d trees"). See LbvhNode in shared/accel_records.h for the layout.
 struct Lbvh {
     Buffer order;   ///< uint per leaf: index of the box
     Buffer nodes;   ///< LbvhNode: inner node i at 2 i, leaf i at 2 i + 1, 2 n in all
@@ -19,5 +18,10 @@ struct Lbvh {
 /// codes are told apart by their place in the order. The root is node 0, or 1 (the leaf) where there is one
 /// box.
 Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays = false);
+
+/// As build_lbvh, over boxes in the order of their codes. `order` holds what the leaves' nodes shall refer to; it becomes
+/// Lbvh::order.
+Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& codes, const Buffer& order,
+                         const Count& count);
 
 } // namespace argand

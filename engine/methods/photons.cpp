@@ -30,7 +30,7 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
 GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
                        const StoredPhotons& stored, std::uint64_t passes, const std::vector<glm::vec3>& queries) {
     constexpr std::size_t caustic_samples = 1024;
-    const PhotonMap map = build_photon_map(device, scene, workspace, stored, 0, 0);
+    const PhotonMap map = build_photon_map(device, scene, workspace, stored);
     const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
     std::vector<PhotonRecord> caustic;
     std::copy_if(photons.begin(), photons.end(), std::back_inserter(caustic),
@@ -103,9 +103,10 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
             statistics.radius = radii.indirect;
             statistics.caustic_radius = radii.caustic;
         }
-        const PhotonMap map =
-            build_photon_map(device, on_device, workspace, *stored,
-                             area_samples(on_device.surface_area, statistics.radius), settings.seed + static_cast<std::uint32_t>(pass));
+        const PhotonMap map = build_photon_map(
+            device, on_device, workspace, *stored,
+            {.area_samples = area_samples(on_device.surface_area, statistics.radius),
+             .seed = settings.seed + static_cast<std::uint32_t>(pass)});
         const Gather gather = [&](const Count& asking) {
             gather_photons(device, on_device, map,
                            {.slots = eye.asking, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,

@@ -3,10 +3,12 @@
 #include "kernels/flux_sum.hpp"
 #include "kernels/area_samples.hpp"
 #include "kernels/photon_advance.hpp"
-#include "kernels/photon_blocks.hpp"
+#include "kernels/photon_boxes.hpp"
 #include "kernels/photon_codes.hpp"
 #include "kernels/photon_count.hpp"
 #include "kernels/photon_emit.hpp"
+#include "kernels/photon_leaves.hpp"
+#include "kernels/photon_order.hpp"
 #include "kernels/photon_scatter.hpp"
 #include "kernels/photon_tally.hpp"
 #include "parallel/compact.hpp"
@@ -26,21 +28,22 @@ constexpr std::uint64_t stored_per_emitted = 3;
 constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
 
+std::uint64_t most_stored(const Device& device) {
+    return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord), most_photons_in_map);
+}
+
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
-    // Whole blocks, which are read whole.
-    const std::uint64_t whole = (capacity + photons_per_block - 1) / photons_per_block * photons_per_block;
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
-    w.sorted = device.allocate("photons, sorted", whole * sizeof(PhotonRecord));
+    w.sorted = device.allocate("photons, sorted", capacity * sizeof(PhotonRecord));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
-    w.boxes = device.allocate("photon blocks", (capacity / photons_per_block + 1) * sizeof(BoxRecord));
+    w.heads = device.allocate("photon map heads", capacity * 4);
 }
 
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
 void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
-    const std::uint64_t most = device.info().limits.storage_range / sizeof(PhotonRecord);
-    const std::uint64_t capacity = std::min(wanted, most);
+    const std::uint64_t capacity = std::min(wanted, most_stored(device));
     if (capacity <= w.capacity) {
         return;
     }
@@ -101,7 +104,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
 } // namespace
 
 std::uint64_t max_photons_per_pass(const Device& device) {
-    return device.info().limits.storage_range / sizeof(PhotonRecord) / stored_per_emitted;
+    return most_stored(device) / stored_per_emitted;
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass) {
@@ -120,7 +123,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.flux_sums = device.allocate("flux sums", 12 * 8);
     device.fill(w.flux_sums, 0);
     w.traversal = make_traversal(device, w.slots);
-    allocate_stored(device, w, std::max<std::uint64_t>(photons_per_pass * stored_per_emitted, photons_per_block));
+    allocate_stored(device, w, std::max<std::uint64_t>(photons_per_pass * stored_per_emitted, 8));
     return w;
 }
 
@@ -147,8 +150,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
             w.traversal.careful = !traced;
             device.upload(w.counters, 0, std::as_bytes(std::span(before)));
             if (!fits) {
-                const std::uint64_t most = device.info().limits.storage_range / sizeof(PhotonRecord);
-                if (w.capacity >= most) {
+                if (w.capacity >= most_stored(device)) {
                     return std::nullopt;
                 }
                 make_room(device, w, before[counter_stored_slots], 2 * w.capacity);
@@ -166,12 +168,12 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
 }
 
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const StoredPhotons& stored,
-                           std::uint64_t area_samples, std::uint32_t seed) {
+                           const PhotonMapSettings& settings) {
     PhotonMap map;
-    make_room(device, w, stored.slots, stored.slots + area_samples);
+    make_room(device, w, stored.slots, stored.slots + settings.area_samples);
     // A quarter of what is asked for will do. The step between two samples has 32 bits, so one alone cannot be.
-    const std::uint64_t fitting = std::min(area_samples, w.capacity - stored.slots);
-    if (fitting > 1 && 4 * fitting >= area_samples) {
+    const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
+    if (fitting > 1 && 4 * fitting >= settings.area_samples) {
         map.area_samples = static_cast<std::uint32_t>(fitting);
         const StageScope stage(device, "sample areas");
         const auto step = static_cast<std::uint32_t>((1ull << 32) / map.area_samples);
@@ -181,7 +183,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                      .triangles = scene.triangles, .materials = scene.materials, .lights = scene.lights,
                      .light_choices = scene.light_choices, .area_sums = scene.area_sums, .counters = w.counters,
                      .photons = w.photons,
-                     .params = {.seed = seed, .count = map.area_samples, .step = step,
+                     .params = {.seed = settings.seed, .count = map.area_samples, .step = step,
                                 .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
                                 .triangle_count = scene.record.triangle_count,
                                 .capacity = static_cast<std::uint32_t>(w.capacity)}},
@@ -202,12 +204,26 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     }
     const StageScope stage(device, "build photon map");
     dispatch_indirect(device,
-                      kernels::photon_blocks{.photons = w.photons, .order = w.order, .counters = w.counters,
-                                             .sorted = w.sorted, .boxes = w.boxes},
-                      w.counters, counter_blocks);
+                      kernels::photon_order{.photons = w.photons, .order = w.order, .counters = w.counters,
+                                            .sorted = w.sorted},
+                      w.counters, counter_stored);
+    // The order is not needed any more.
+    dispatch_indirect(device,
+                      kernels::photon_leaves{.codes = w.codes, .counters = w.counters, .leaves = w.order,
+                                             .heads = w.heads, .params = {.leaf_size = settings.leaf_size}},
+                      w.counters, counter_stored);
+    const Buffer leaves = device.scratch("photon map leaves", w.capacity * 4);
+    compact(device, w.heads, w.order, leaves, w.counters, counter_leaves, Count(w.counters, counter_stored, w.capacity));
+    const std::uint64_t leaf_count = download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
+    const Buffer boxes = device.scratch("photon map boxes", std::max<std::uint64_t>(leaf_count, 1) * sizeof(BoxRecord));
+    const Buffer leaf_codes = device.scratch("photon map leaf codes", std::max<std::uint64_t>(leaf_count, 1) * 4);
+    dispatch(device,
+             kernels::photon_boxes{.photons = w.sorted, .codes = w.codes, .leaves = leaves, .counters = w.counters,
+                                   .boxes = boxes, .leaf_codes = leaf_codes},
+             leaf_count);
     map.counters = w.counters;
     map.photons = w.sorted;
-    map.lbvh = build_lbvh(device, w.boxes, Count(w.counters, counter_blocks, w.capacity / photons_per_block + 1));
+    map.lbvh = build_lbvh_in_order(device, boxes, leaf_codes, leaves, Count(leaf_count));
     return map;
 }
 

@@ -13,7 +13,7 @@ namespace argand {
 struct PhotonMap {
     Buffer counters;            ///< counter_* of shared/photon_records.h
     Buffer photons;             ///< PhotonRecord
-    Lbvh lbvh;                  ///< its boxes are blocks of photons_per_block photons
+    Lbvh lbvh;                  ///< over the photons, in their order, some to a leaf
     std::uint32_t area_samples = 0; ///< among the photons
 };
 
@@ -35,7 +35,7 @@ struct StoredPhotons {
 struct PhotonWorkspace {
     std::uint64_t slots = 0;    ///< photons traced together
     std::uint64_t capacity = 0; ///< photons stored
-    Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order, sorted, boxes;
+    Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order, sorted, heads;
     Buffer flux_sums;           ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
     Traversal traversal;
 };
@@ -51,9 +51,15 @@ std::uint64_t max_photons_per_pass(const Device& device);
 std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
                                            const PhotonPass& pass, float flux_unit);
 
-/// Builds the map over what trace_photons stored and about so many samples of the surfaces' area, from which a query
-/// learns how much of its disc lies on surfaces; none if there is no room for them. Records only.
+struct PhotonMapSettings {
+    std::uint64_t area_samples = 0; ///< wanted; none if there is no room for them
+    std::uint32_t seed = 0;         ///< of the area samples
+    std::uint32_t leaf_size = 16;   ///< photons in a leaf at most, of 1 to most_photons_a_leaf
+};
+
+/// Builds the map over what trace_photons stored and samples of the surfaces' area, from which a query learns how much
+/// of its disc lies on surfaces. Waits for the device.
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
-                           const StoredPhotons& stored, std::uint64_t area_samples, std::uint32_t seed);
+                           const StoredPhotons& stored, const PhotonMapSettings& settings = {});
 
 } // namespace argand

@@ -83,8 +83,16 @@ struct GatherRecord {
 // Slots that one invocation counts (photon_tally.comp).
 CONSTANT uint slots_per_tally = 64u;
 
-// Photons in a leaf of the map.
-CONSTANT uint photons_per_block = 8u;
+// A leaf of the map: the place of its first photon, and above it how many more there are.
+CONSTANT uint leaf_first_bits = 23u;
+CONSTANT uint leaf_first_mask = 0x7fffffu;
+CONSTANT uint most_photons_a_leaf = 512u;
+CONSTANT uint most_photons_in_map = 0x800000u;
+
+struct PhotonLeafParams {
+    uint leaf_size;     // photons in a leaf at most
+    uint pad0, pad1, pad2;
+};
 
 // Counters of the photon map, on the device: indices into an array of uint.
 CONSTANT uint counter_active = 0u;          // photons still on their way
@@ -92,7 +100,7 @@ CONSTANT uint counter_stored_slots = 1u;    // slots of the map used so far (a s
 CONSTANT uint counter_stored = 2u;          // records in the map
 CONSTANT uint counter_overflow = 3u;        // slots that were wanted beyond the capacity
 CONSTANT uint counter_next_active = 4u;
-CONSTANT uint counter_blocks = 5u;          // leaves of the map
+CONSTANT uint counter_leaves = 5u;          // of the map
 CONSTANT uint counter_photons = 6u;         // photons among them
 CONSTANT uint counter_count = 16u;
 

@@ -88,5 +88,15 @@ TEST_F(Agreement, ErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
     EXPECT_LT(many, 0.6 * more);
 }
 
+TEST_F(Agreement, SlowCornellBoxesAtFullSize) {
+    for (const char* name : {"cornell_point.glb", "cornell_area.glb", "cornell_mirror.glb", "cornell_glass.glb"}) {
+        const Scene scene = load_asset(name);
+        const Reference truth = reference(scene, 128, 512);
+        const RenderResult found = photons(scene, 128, 200'000);
+        EXPECT_LT(error(found, truth), 0.02) << name;
+        EXPECT_LT(error(found, truth, "indirect"), 0.02) << name;
+    }
+}
+
 } // namespace
 } // namespace argand::testing

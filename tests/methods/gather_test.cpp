@@ -45,7 +45,8 @@ protected:
         std::vector<std::uint32_t> counters(counter_count, 0);
         counters[counter_stored_slots] = static_cast<std::uint32_t>(photons.size());
         device().upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
-        const PhotonMap map = build_photon_map(device(), scene, workspace, {photons.size(), photons.size()}, area_samples, 0);
+        const PhotonMap map = build_photon_map(device(), scene, workspace, {photons.size(), photons.size()},
+                                               {.area_samples = area_samples});
 
         const std::size_t n = queries.size();
         std::vector<std::uint32_t> active;

@@ -37,6 +37,8 @@ uint distance_after(uint i) {
 // For trees that rays will traverse: also writes ForestCost per inner node, and as its parent 2 p if it is the left child
 // of inner node p, 2 p + 1 if it is the right one (lbvh_end: it is the root).
 layout(constant_id = 1) const bool for_rays = false;
+// Whether the boxes are in the order of their codes; `order` then is only what leaves refer to.
+layout(constant_id = 2) const bool in_order = false;
 const float triangle_cost = 0.5;    // of a node's
 
 float half_area(vec3 low, vec3 high) {
@@ -81,8 +83,9 @@ void main() {
     uint before = leaf > 0u ? distance_after(leaf - 1u) : far;
     uint after = leaf + 1u < count ? distance_after(leaf) : far;
     uint child = order[leaf];
-    vec3 low = boxes[2u * child].xyz;
-    vec3 high = boxes[2u * child + 1u].xyz;
+    uint box = in_order ? leaf : child;
+    vec3 low = boxes[2u * box].xyz;
+    vec3 high = boxes[2u * box + 1u].xyz;
     uint right_child = 0u;
     uint place = 2u * leaf + 1u;
     ForestCost cost;

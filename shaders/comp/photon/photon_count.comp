@@ -15,6 +15,5 @@ void main() {
     }
     if (i + 1u == slots || codes[i + 1u] == no_photon) {
         counters[counter_stored] = i + 1u;
-        counters[counter_blocks] = i / photons_per_block + 1u;
     }
 }

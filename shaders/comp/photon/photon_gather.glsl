@@ -70,24 +70,22 @@ void main() {
     float inverse_caustic_r2 = 1.0 / caustic_r2;
     float half_height = params.radius * disc_half_height;
 
-    uint stored = counters[counter_stored];
     uint steps = 0u;
     for (;;) {
-        uint block = next_block(p, r2, params.budget, node, steps);
-        if (block == no_block) {
+        PhotonRange range = next_leaf(p, r2, params.budget, node, steps);
+        if (range.end == 0u) {
             break;
         }
-        vec3 indirect_block = vec3(0.0);
-        vec3 caustic_block = vec3(0.0);
-        float area_block = 0.0;
-        steps += photons_per_block;
-        for (uint k = 0u; k < photons_per_block; ++k) {
-            uint j = block * photons_per_block + k;
+        vec3 indirect_leaf = vec3(0.0);
+        vec3 caustic_leaf = vec3(0.0);
+        float area_leaf = 0.0;
+        steps += range.end - range.first;
+        for (uint j = range.first; j < range.end; ++j) {
             uvec4 place = PHOTONS(2u * j);
             vec3 d = uintBitsToFloat(place.xyz) - p;
             float height = dot3(d, normal);
             float d2 = dot3(d, d) - height * height;
-            if (!(d2 < r2) || j >= stored || abs(height) > half_height) {
+            if (!(d2 < r2) || abs(height) > half_height) {
                 continue;
             }
             uint photon_normal = place.w;
@@ -102,7 +100,7 @@ void main() {
             }
             uvec4 carried = PHOTONS(2u * j + 1u);
             if (is_area) {
-                area_block += uintBitsToFloat(carried.x) * kernel_weight(d2 * inverse_r2);
+                area_leaf += uintBitsToFloat(carried.x) * kernel_weight(d2 * inverse_r2);
                 continue;
             }
             vec3 term = uintBitsToFloat(carried.xyz);
@@ -113,15 +111,15 @@ void main() {
                 term *= wi.z > 0.0 ? bsdf_eval(m, wo, wi, query.lobes) : vec3(0.0);
             }
             if (photon_is_caustic(photon_normal)) {
-                caustic_block += term * kernel_weight(d2 * inverse_caustic_r2);
+                caustic_leaf += term * kernel_weight(d2 * inverse_caustic_r2);
             } else {
-                indirect_block += term * kernel_weight(d2 * inverse_r2);
+                indirect_leaf += term * kernel_weight(d2 * inverse_r2);
             }
         }
         // The kernel's factor is the same for all.
-        add(indirect, indirect_block * (kernel_scale * inverse_r2));
-        add(caustic, caustic_block * (kernel_scale * inverse_caustic_r2));
-        coverage += area_block * (kernel_scale * inverse_r2);
+        add(indirect, indirect_leaf * (kernel_scale * inverse_r2));
+        add(caustic, caustic_leaf * (kernel_scale * inverse_caustic_r2));
+        coverage += area_leaf * (kernel_scale * inverse_r2);
     }
 
     if (node != lbvh_end) {

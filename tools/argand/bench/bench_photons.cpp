@@ -36,7 +36,7 @@ std::vector<BenchRow> bench_photons(Device& device) {
     const auto stored = static_cast<double>(left.slots);
     const double built = median_host_seconds([&] { device.wait(); },
                                              [&] {
-                                                 build_photon_map(device, scene, workspace, left, 0, 0);
+                                                 build_photon_map(device, scene, workspace, left);
                                                  device.wait();
                                              });
 

@@ -1,0 +1,31 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/geometry_records.h"
+#include "shared/photon.h"
+
+layout(set = 0, binding = 0) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 1) readonly buffer Codes { uint codes[]; };
+layout(set = 0, binding = 2) readonly buffer Leaves { uint leaves[]; };
+layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4) writeonly buffer Boxes { BoxRecord boxes[]; };
+layout(set = 0, binding = 5) writeonly buffer LeafCodes { uint leaf_codes[]; };
+
+// The box of each leaf, and its place on the curve.
+void main() {
+    uint leaf = THREAD_INDEX;
+    if (leaf >= counters[counter_leaves]) {
+        return;
+    }
+    uint first = leaves[leaf] & leaf_first_mask;
+    uint last = first + (leaves[leaf] >> leaf_first_bits);
+    vec3 low = vec3(3.0e38);
+    vec3 high = vec3(-3.0e38);
+    for (uint i = first; i <= last; ++i) {
+        vec3 p = vec3(photons[i].x, photons[i].y, photons[i].z);
+        low = min(low, p);
+        high = max(high, p);
+    }
+    boxes[leaf] = BoxRecord(low.x, low.y, low.z, 0.0, high.x, high.y, high.z, 0.0);
+    leaf_codes[leaf] = codes[first];
+}

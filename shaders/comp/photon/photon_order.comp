@@ -1,0 +1,17 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/photon.h"
+
+layout(set = 0, binding = 0) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 1) readonly buffer Order { uint order[]; };
+layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 3) writeonly buffer Sorted { PhotonRecord sorted[]; };
+
+// Photons in the order of their codes.
+void main() {
+    uint i = THREAD_INDEX;
+    if (i < counters[counter_stored]) {
+        sorted[i] = photons[order[i]];
+    }
+}
