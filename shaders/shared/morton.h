@@ -39,51 +39,13 @@ FN uint morton30(vec3 p, vec3 low, vec3 high) {
     return (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
 }
 
-// 63 bits, 21 for each axis: the low word in x, the high one in y.
-FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
-    uint x = morton_cell(p.x, low.x, high.x, real(2097152.0));
-    uint y = morton_cell(p.y, low.y, high.y, real(2097152.0));
-    uint z = morton_cell(p.z, low.z, high.z, real(2097152.0));
-    uint bottom = (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
-    uint middle = (spread_bits(x >> 10u) << 2u) | (spread_bits(y >> 10u) << 1u) | spread_bits(z >> 10u);
-    uint top = ((x >> 20u) << 2u) | ((y >> 20u) << 1u) | (z >> 20u);
-    return uvec2(bottom | (middle << 30u), (middle >> 2u) | (top << 28u));
-}
-
 // Zero bits above the highest one; 32 for 0.
-FN uint leading_zeros(uint v) {
-    uint n = 0u;
-    if (v == 0u) {
-        return 32u;
-    }
-    if ((v & 0xffff0000u) == 0u) {
-        n += 16u;
-        v = v << 16u;
-    }
-    if ((v & 0xff000000u) == 0u) {
-        n += 8u;
-        v = v << 8u;
-    }
-    if ((v & 0xf0000000u) == 0u) {
-        n += 4u;
-        v = v << 4u;
-    }
-    if ((v & 0xc0000000u) == 0u) {
-        n += 2u;
-        v = v << 2u;
-    }
-    return (v & 0x80000000u) == 0u ? n + 1u : n;
-}
+FN uint leading_zeros(uint v) { return uint(31 - findMSB(v)); }
 
 // Length of the common prefix of two codes as if each were followed by its index, which makes equal codes differ (Karras
 // 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees").
 FN uint common_prefix(uint code_a, uint index_a, uint code_b, uint index_b) {
     return code_a != code_b ? leading_zeros(code_a ^ code_b) : 32u + leading_zeros(index_a ^ index_b);
-}
-
-FN uint common_prefix63(uvec2 code_a, uint index_a, uvec2 code_b, uint index_b) {
-    return code_a.y != code_b.y ? leading_zeros(code_a.y ^ code_b.y)
-                                : 32u + common_prefix(code_a.x, index_a, code_b.x, index_b);
 }
 
 ARGAND_SHARED_END

@@ -51,6 +51,7 @@ using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::findMSB;
 using glm::floor;
 using glm::max;
 using glm::min;

@@ -18,10 +18,6 @@ std::uint64_t interleaved(std::uint64_t x, std::uint64_t y, std::uint64_t z, int
     return code;
 }
 
-std::uint64_t joined(uvec2 a) {
-    return std::uint64_t{a.y} << 32 | a.x;
-}
-
 TEST(Morton, InterleavesTheCells) {
     std::mt19937 bits(1);
     const vec3 low(0);
@@ -31,8 +27,6 @@ TEST(Morton, InterleavesTheCells) {
                      float(bits() >> 8) * 0x1p-24f);
         const auto cell = [](float x, double cells) { return static_cast<std::uint64_t>(double(x) * cells); };
         ASSERT_EQ(morton30(p, low, high), interleaved(cell(p.x, 1024), cell(p.y, 1024), cell(p.z, 1024), 10));
-        ASSERT_EQ(joined(morton63(p, low, high)),
-                  interleaved(cell(p.x, 0x1p21), cell(p.y, 0x1p21), cell(p.z, 0x1p21), 21));
     }
 }
 
@@ -42,8 +36,6 @@ TEST(Morton, CornersAreFirstAndLast) {
         const vec3 high = vec3(5, 6, 7) * scale;
         EXPECT_EQ(morton30(low, low, high), 0u);
         EXPECT_EQ(morton30(high, low, high), (1u << 30) - 1);
-        EXPECT_EQ(joined(morton63(low, low, high)), 0u);
-        EXPECT_EQ(joined(morton63(high, low, high)), (std::uint64_t{1} << 63) - 1);
     }
 }
 
@@ -64,7 +56,6 @@ TEST(Morton, AnythingGivesACodeInRange) {
     const vec3 high(1);
     for (const float x : {nan, infinity, -infinity, 3e38f, -3e38f, 2.0f, -2.0f}) {
         EXPECT_LT(morton30(vec3(x), low, high), 1u << 30);
-        EXPECT_LT(joined(morton63(vec3(x), low, high)), std::uint64_t{1} << 63);
     }
     EXPECT_EQ(morton30(vec3(nan), low, high), 0u);
     EXPECT_EQ(morton30(vec3(-infinity), low, high), 0u);
@@ -97,9 +88,6 @@ TEST(Morton, EqualCodesAreToldApartByTheirIndex) {
     EXPECT_EQ(common_prefix(5u, 0, 5u, 1), 63u);
     EXPECT_EQ(common_prefix(5u, 0, 5u, 0x80000000u), 32u);
     EXPECT_EQ(common_prefix(5u, 7, 5u, 7), 64u);
-    EXPECT_EQ(common_prefix63(uvec2(1, 8), 0, uvec2(1, 9), 0), 31u);
-    EXPECT_EQ(common_prefix63(uvec2(1, 8), 0, uvec2(0, 8), 0), 63u);
-    EXPECT_EQ(common_prefix63(uvec2(1, 8), 2, uvec2(1, 8), 3), 95u);
 }
 
 } // namespace
