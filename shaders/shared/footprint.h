@@ -70,7 +70,9 @@ FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
 // One semi-axis: compressed unless the photon is a caustic one (section 4.3), clamped.
 FN vec3 footprint_axis(vec3 dp, vec3 normal, bool caustic, IN(FootprintScale) s) {
     real size;
-    vec3 unit = unit_and_length(dp - normal * dot3(dp, normal), size);
+    vec3 tangent = dp - normal * dot3(dp, normal);
+    tangent = tangent - normal * dot3(tangent, normal);     // of what rounding left, where dp is along the normal
+    vec3 unit = unit_and_length(tangent, size);
     real radius = caustic ? size * real(s.caustic)
                           : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing)));   // the spacing is positive
     return unit * clamp(radius, real(s.radius_min), real(s.radius_max));
