@@ -3,6 +3,7 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "accel/count.glsl"
 #include "shared/accel_records.h"
+#include "shared/morton.h"
 
 layout(set = 0, binding = 0) readonly buffer Boxes { vec4 boxes[]; };
 layout(set = 0, binding = 1) readonly buffer Codes { uint codes[]; };
@@ -29,10 +30,7 @@ void acquire_writes() {
 }
 
 // How far leaves i and i + 1 are apart: the highest bit in which their codes differ, or if none does, their places.
-uint distance_after(uint i) {
-    uint difference = codes[i] ^ codes[i + 1u];
-    return difference != 0u ? 32u + uint(findMSB(difference)) : uint(findMSB(i ^ (i + 1u)));
-}
+uint distance_after(uint i) { return 63u - common_prefix(codes[i], i, codes[i + 1u], i + 1u); }
 
 // For trees that rays will traverse: also writes ForestCost per inner node, and as its parent 2 p if it is the left child
 // of inner node p, 2 p + 1 if it is the right one (lbvh_end: it is the root).

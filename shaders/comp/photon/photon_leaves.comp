@@ -1,6 +1,7 @@
 #version 460
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
+#include "shared/morton.h"
 #include "shared/photon.h"
 
 layout(set = 0, binding = 0) readonly buffer Codes { uint codes[]; };
@@ -12,10 +13,7 @@ layout(push_constant) uniform Push { PhotonLeafParams params; };
 const uint far = 64u;
 
 // How far photons i and i + 1 are apart in the tree over all photons, as in accel/lbvh_fit.comp.
-uint distance_after(uint i) {
-    uint difference = codes[i] ^ codes[i + 1u];
-    return difference != 0u ? 32u + uint(findMSB(difference)) : uint(findMSB(i ^ (i + 1u)));
-}
+uint distance_after(uint i) { return 63u - common_prefix(codes[i], i, codes[i + 1u], i + 1u); }
 
 // The largest subtree of at most leaf_size photons around each photon, of which the first one is the head: these are the
 // leaves that are left where splits below the threshold are undone (Fabianowski and Dingliana 2009, §6.2), and their
