@@ -113,6 +113,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     for (const Material& material : scene.materials) {
         materials.push_back(record_of(material));
         const MaterialRecord& record = materials.back();
+        result.lobes |= bsdf_lobes(record);
         const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
         result.has_glossy = result.has_glossy || (estimated != 0 && bsdf_lobes(record) != LOBE_DIFFUSE);
     }
@@ -126,12 +127,14 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     std::vector<double> weights;
     double total_weight = 0;
     double sky_weight = 0;
+    double emitter_weight = 0;
     for (const LightRecord& light : lights) {
         const glm::vec3 power = light_power(light, radius);
         result.power += glm::dvec3(power);
         weights.push_back((double(power.r) + power.g + power.b) / 3);
         total_weight += weights.back();
         sky_weight += light.kind == light_sky ? weights.back() : 0;
+        emitter_weight += light.kind == light_triangle ? weights.back() : 0;
     }
 
     SceneRecord& record = result.record;
@@ -148,6 +151,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     record.light_count = total_weight > 0 ? static_cast<std::uint32_t>(lights.size()) : 0;
     record.light_weight = static_cast<float>(total_weight);
     record.sky_probability = total_weight > 0 ? static_cast<float>(sky_weight / total_weight) : 0;
+    result.emitter_probability = total_weight > 0 ? emitter_weight / total_weight : 0;
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
     record.follow_roughness = follow_roughness;
 

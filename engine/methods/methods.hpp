@@ -11,4 +11,7 @@ RenderResult render_path(Device& device, const Scene& scene, const RenderSetting
 RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
                             const OnProgress& progress);
 
+RenderResult render_footprints(Device& device, const Scene& scene, const RenderSettings& settings,
+                               const OnProgress& progress);
+
 } // namespace argand

@@ -3,6 +3,7 @@
 #include "methods/methods.hpp"
 #include "photon/gather.hpp"
 #include "plan/radius.hpp"
+#include "shared/footprint.h"
 #include "shared/photon.h"
 
 #include <algorithm>
@@ -58,13 +59,45 @@ GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace
     return radii;
 }
 
-} // namespace
+/// Smoothing that makes the median footprint of diffusely scattered photons as large as a disc of this radius.
+double smoothing_from(Device& device, const PhotonWorkspace& workspace, const StoredPhotons& stored,
+                      const FootprintScale& unit, double radius) {
+    const auto photons = download<PhotonRecord>(device, workspace.photons, stored.slots);
+    const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
+    std::vector<float> radii;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        if (photons[i].normal != no_photon && !photon_is_caustic(photons[i].normal)) {
+            PhotonDifferential d = no_differential();
+            d.dp_du = unpack_dual(offsets[i].x, offsets[i].y);
+            d.dp_dv = unpack_dual(offsets[i].z, offsets[i].w);
+            const Footprint f = make_footprint(d, unpack_photon_normal(photons[i].normal), false, unit);
+            radii.push_back(parallelogram_side(f.u, f.v));
+        }
+    }
+    if (radii.empty()) {
+        return 1;
+    }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return radius / std::max(double(*middle), 1e-30);
+}
+
+/// Photons at which a given smoothing holds.
+constexpr double reference_photons = 200'000;
+
+FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing, double largest,
+                        const SceneRecord& scene) {
+    return make_footprint_scale(static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
+                                static_cast<float>(smoothing), static_cast<float>(settings.caustic_smoothing),
+                                static_cast<float>(largest), static_cast<float>(settings.flatness),
+                                settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
+}
 
 /// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at least once, density
 /// estimation within a radius where eye rays meet estimated lobes, direct light by shadow rays. Each pass has its own
 /// photons and its own eye paths, so that memory is bounded.
-RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
-                            const OnProgress& progress) {
+RenderResult render_map(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
+                        bool footprints) {
     const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
@@ -80,7 +113,9 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
     std::uint64_t passes = std::max<std::uint64_t>((photons + per_pass - 1) / per_pass, 1);
     // All passes count the same, so they must be of one size: a small last one would be the noise of the picture.
     per_pass = std::max<std::uint64_t>((photons + passes - 1) / passes, 1);
-    PhotonWorkspace workspace = make_photon_workspace(device, photons > 0 ? per_pass : 0);
+    PhotonWorkspace workspace = make_photon_workspace(device, photons > 0 ? per_pass : 0, footprints);
+    workspace.reemission = settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    std::optional<FootprintScale> scale;
     double power = std::max({on_device.power.r, on_device.power.g, on_device.power.b});
     std::uint32_t samples = static_cast<std::uint32_t>((settings.samples + passes - 1) / passes);
 
@@ -102,16 +137,32 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
                                                                 scene.cameras[settings.camera]));
             statistics.radius = radii.indirect;
             statistics.caustic_radius = radii.caustic;
+            if (footprints) {
+                const FootprintSettings& f = settings.footprints;
+                const auto of_pass = static_cast<double>(per_pass);
+                statistics.smoothing =
+                    f.smoothing ? *f.smoothing
+                                : smoothing_from(device, workspace, *stored,
+                                                 scale_of(f, of_pass, 1, 1e6, on_device.record), radii.indirect);
+                scale = scale_of(f, of_pass, statistics.smoothing, f.largest, on_device.record);
+            }
         }
         const PhotonMap map = build_photon_map(
             device, on_device, workspace, *stored,
             {.area_samples = area_samples(on_device.surface_area, statistics.radius),
-             .seed = settings.seed + static_cast<std::uint32_t>(pass)});
+             .seed = settings.seed + static_cast<std::uint32_t>(pass), .leaf_size = settings.footprints.leaf_size,
+             .footprints = scale});
+        statistics.mean_footprints = map.mean_footprints;
+        statistics.leaf_size = map.leaf_size;
         const Gather gather = [&](const Count& asking) {
-            gather_photons(device, on_device, map,
-                           {.slots = eye.asking, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
-                            .partial = partial},
-                           eye.traversal, radii, asking);
+            const GatherTarget target{.slots = eye.asking, .counts = eye.counts, .queries = eye.queries,
+                                      .layers = eye.layers, .partial = partial};
+            if (footprints) {
+                gather_footprints(device, on_device, map, target, eye.traversal, settings.footprints.uniform_kernel,
+                                  asking);
+            } else {
+                gather_photons(device, on_device, map, target, eye.traversal, radii, asking);
+            }
         };
         const auto first_sample = static_cast<std::uint32_t>(pass * samples);
         statistics.interrupted =
@@ -127,6 +178,18 @@ RenderResult render_photons(Device& device, const Scene& scene, const RenderSett
     }
     result.layers = resolve_film(device, eye, settings, statistics);
     return result;
+}
+
+} // namespace
+
+RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
+                            const OnProgress& progress) {
+    return render_map(device, scene, settings, progress, false);
+}
+
+RenderResult render_footprints(Device& device, const Scene& scene, const RenderSettings& settings,
+                               const OnProgress& progress) {
+    return render_map(device, scene, settings, progress, true);
 }
 
 } // namespace argand

@@ -13,6 +13,18 @@
 
 namespace argand {
 
+/// Of the method `footprints` (docs/methods/footprints.md).
+struct FootprintSettings {
+    std::optional<double> smoothing;            ///< s of Fabianowski and Dingliana 2009; none: from the scene
+    double caustic_smoothing = 5;               ///< the same of photons that only mirrors and glass have scattered
+    double largest = 0.1;                       ///< semi-axis at most, in radii of the scene's bounding sphere
+    double flatness = 0.5;                      ///< half-axis along the normal over the mean of the others
+    bool uniform_kernel = false;                ///< instead of Epanechnikov's
+    bool fixed_smoothing = false;               ///< footprints shrink as n^(-1/2), as in the paper, not as n^(-1/6)
+    bool paper_reemission = false;              ///< diffuse reflection spaces photons as the paper does
+    std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most; 0: automatic
+};
+
 /// What a user asks for.
 struct RenderSettings {
     std::string method = "photons";
@@ -25,6 +37,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::size_t camera = 0;                     ///< index into Scene::cameras
     float follow_roughness = 0.25f;             ///< glossy lobes at most this rough are followed from the eye
+    FootprintSettings footprints;
 };
 
 /// Flux by channel in units of FluxSums::unit: emitted = absorbed + escaped + cut, exactly.
@@ -41,6 +54,9 @@ struct RenderStatistics {
     std::uint64_t photons_stored = 0;
     double radius = 0;                          ///< that was used; 0: none
     double caustic_radius = 0;                  ///< the same for caustic photons
+    double smoothing = 0;                       ///< of footprints; 0: none
+    double mean_footprints = 0;                 ///< on a point, if they were spread evenly
+    std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most
     std::uint64_t non_finite = 0;               ///< samples left out because they were not finite
     FluxSums flux;
     bool interrupted = false;                   ///< the picture holds the passes that were finished

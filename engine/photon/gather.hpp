@@ -27,4 +27,10 @@ struct GatherRadii {
 void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
                     Traversal& traversal, const GatherRadii& radii, const Count& asking, std::uint32_t budget = gather_budget);
 
+/// As gather_photons, over the footprints that reach each query (Fabianowski and Dingliana 2009, eq. 1): the map must
+/// have some. uniform_kernel: instead of Epanechnikov's.
+void gather_footprints(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
+                       Traversal& traversal, bool uniform_kernel, const Count& asking,
+                       std::uint32_t budget = gather_budget);
+
 } // namespace argand

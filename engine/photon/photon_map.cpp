@@ -7,12 +7,17 @@
 #include "kernels/photon_codes.hpp"
 #include "kernels/photon_count.hpp"
 #include "kernels/photon_emit.hpp"
+#include "kernels/photon_footprints.hpp"
 #include "kernels/photon_leaves.hpp"
 #include "kernels/photon_order.hpp"
 #include "kernels/photon_scatter.hpp"
 #include "kernels/photon_tally.hpp"
 #include "parallel/compact.hpp"
 #include "parallel/radix_sort.hpp"
+#include "parallel/reduce.hpp"
+#include "shared/bsdf.h"
+#include "shared/differential_record.h"
+#include "shared/footprint.h"
 #include "shared/geometry_records.h"
 
 #include <algorithm>
@@ -27,6 +32,7 @@ constexpr std::uint64_t slots_on_gpu = 1u << 20;
 constexpr std::uint64_t stored_per_emitted = 3;
 constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
+constexpr std::uint32_t leaf_size_of_points = 16;
 
 std::uint64_t most_stored(const Device& device) {
     return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord), most_photons_in_map);
@@ -35,10 +41,18 @@ std::uint64_t most_stored(const Device& device) {
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
+    w.offsets = device.allocate("photon differentials, stored", w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
     w.sorted = device.allocate("photons, sorted", capacity * sizeof(PhotonRecord));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
+}
+
+/// The leaf size in proportion to the mean number of footprints on a point (Fabianowski and Dingliana 2009, §5.3).
+std::uint32_t automatic_leaf_size(double mean_footprints) {
+    constexpr double photons_per_footprint = 0.1;
+    return static_cast<std::uint32_t>(
+        std::clamp(photons_per_footprint * mean_footprints, 1.0, double(most_photons_a_leaf)));
 }
 
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
@@ -47,12 +61,16 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     if (capacity <= w.capacity) {
         return;
     }
-    const Buffer kept = w.photons;
+    const Buffer photons = w.photons;
+    const Buffer offsets = w.offsets;
     allocate_stored(device, w, capacity);
-    if (stored > 0) {
-        device.copy(BufferView(kept, 0, stored * sizeof(PhotonRecord)),
-                    BufferView(w.photons, 0, stored * sizeof(PhotonRecord)));
-    }
+    const auto keep = [&](const Buffer& from, const Buffer& to, std::uint64_t bytes) {
+        if (bytes > 0) {
+            device.copy(BufferView(from, 0, bytes), BufferView(to, 0, bytes));
+        }
+    };
+    keep(photons, w.photons, stored * sizeof(PhotonRecord));
+    keep(offsets, w.offsets, w.footprints ? stored * sizeof(glm::uvec4) : 0);
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -64,7 +82,9 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                  kernels::photon_emit{.scene = scene.scene, .positions = scene.positions, .normals = scene.normals,
                                       .triangles = scene.triangles, .materials = scene.materials,
                                       .lights = scene.lights, .light_choices = scene.light_choices, .rays = w.rays,
-                                      .paths = w.paths, .ledgers = w.ledgers, .active_slots = w.active, .batch = batch},
+                                      .paths = w.paths, .ledgers = w.ledgers, .active_slots = w.active,
+                                      .differentials = w.differentials, .batch = batch,
+                                      .constants = {.footprints = w.footprints}},
                  batch.count);
         device.upload(w.counters, counter_active * 4, std::as_bytes(std::span(&batch.count, 1)));
     }
@@ -82,7 +102,12 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                                   .light_choices = scene.light_choices, .hits = w.hits,
                                                   .active_slots = w.active, .counters = w.counters, .rays = w.rays,
                                                   .paths = w.paths, .ledgers = w.ledgers, .photons = w.photons,
-                                                  .alive = w.alive, .batch = batch},
+                                                  .alive = w.alive, .differentials = w.differentials,
+                                                  .offsets = w.offsets, .batch = batch,
+                                                  .constants = {.footprints = w.footprints,
+                                                                .specular = (scene.lobes & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0,
+                                                                .glossy = (scene.lobes & LOBE_GLOSSY) != 0,
+                                                                .reemission = w.reemission}},
                           w.counters, counter_active);
         compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
         std::swap(w.active, w.next_active);
@@ -107,8 +132,9 @@ std::uint64_t max_photons_per_pass(const Device& device) {
     return most_stored(device) / stored_per_emitted;
 }
 
-PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass) {
+PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass, bool footprints) {
     PhotonWorkspace w;
+    w.footprints = footprints;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, std::max<std::uint64_t>(photons_per_pass, 1));
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(FluxLedger));
     const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
@@ -119,6 +145,8 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.active = per_slot("active photons", 4);
     w.next_active = per_slot("active photons", 4);
     w.alive = per_slot("photon flags", 4);
+    w.differentials = device.allocate("photon differentials",
+                                      (footprints ? w.slots : 1) * sizeof(DifferentialRecord));
     w.counters = device.allocate("photon counters", counter_count * 4);
     w.flux_sums = device.allocate("flux sums", 12 * 8);
     device.fill(w.flux_sums, 0);
@@ -138,6 +166,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         batch.inverse_total = static_cast<float>(1.0 / static_cast<double>(pass.count));
         batch.bounces = pass.bounces;
         batch.flux_unit = flux_unit;
+        batch.emitter_probability = static_cast<float>(scene.emitter_probability);
         for (;;) {
             batch.capacity = static_cast<std::uint32_t>(w.capacity);
             const std::vector<std::uint32_t> before = download<std::uint32_t>(device, w.counters, counter_count);
@@ -207,19 +236,42 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                       kernels::photon_order{.photons = w.photons, .order = w.order, .counters = w.counters,
                                             .sorted = w.sorted},
                       w.counters, counter_stored);
+    map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : leaf_size_of_points;
+    const Count photons(w.counters, counter_stored, w.capacity);
+    if (settings.footprints) {
+        map.footprints = device.scratch("photon footprints", w.capacity * sizeof(glm::uvec4));
+        map.flatness = settings.footprints->flatness;
+        FootprintParams params{.scale = *settings.footprints};
+        params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
+        // `heads` is free until leaves are looked for.
+        dispatch_indirect(device,
+                          kernels::photon_footprints{.photons = w.photons, .order = w.order, .counters = w.counters,
+                                                     .offsets = w.offsets, .footprints = map.footprints,
+                                                     .shares = w.heads, .params = params},
+                          w.counters, counter_stored);
+        reduce_sum(device, w.heads, w.counters, counter_footprints, photons);
+        map.mean_footprints =
+            double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) / area_shares;
+        if (settings.leaf_size == 0) {
+            map.leaf_size = automatic_leaf_size(map.mean_footprints);
+        }
+    }
     // The order is not needed any more.
     dispatch_indirect(device,
                       kernels::photon_leaves{.codes = w.codes, .counters = w.counters, .leaves = w.order,
-                                             .heads = w.heads, .params = {.leaf_size = settings.leaf_size}},
+                                             .heads = w.heads, .params = {.leaf_size = map.leaf_size}},
                       w.counters, counter_stored);
     const Buffer leaves = device.scratch("photon map leaves", w.capacity * 4);
-    compact(device, w.heads, w.order, leaves, w.counters, counter_leaves, Count(w.counters, counter_stored, w.capacity));
+    compact(device, w.heads, w.order, leaves, w.counters, counter_leaves, photons);
     const std::uint64_t leaf_count = download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
     const Buffer boxes = device.scratch("photon map boxes", std::max<std::uint64_t>(leaf_count, 1) * sizeof(BoxRecord));
     const Buffer leaf_codes = device.scratch("photon map leaf codes", std::max<std::uint64_t>(leaf_count, 1) * 4);
     dispatch(device,
              kernels::photon_boxes{.photons = w.sorted, .codes = w.codes, .leaves = leaves, .counters = w.counters,
-                                   .boxes = boxes, .leaf_codes = leaf_codes},
+                                   .boxes = boxes, .leaf_codes = leaf_codes,
+                                   .footprints = map.footprints ? map.footprints : w.sorted,
+                                   .params = {.flatness = map.flatness},
+                                   .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
              leaf_count);
     map.counters = w.counters;
     map.photons = w.sorted;

@@ -2,6 +2,8 @@
 
 #include "accel/device_scene.hpp"
 #include "accel/lbvh.hpp"
+#include "shared/differential.h"
+#include "shared/footprint_records.h"
 #include "shared/photon_records.h"
 
 #include <array>
@@ -15,6 +17,10 @@ struct PhotonMap {
     Buffer photons;             ///< PhotonRecord
     Lbvh lbvh;                  ///< over the photons, in their order, some to a leaf
     std::uint32_t area_samples = 0; ///< among the photons
+    Buffer footprints;          ///< uvec4 per photon: dual axes (pack_dual of shared/footprint.h); empty: none
+    float flatness = 1;         ///< of the footprints
+    double mean_footprints = 0; ///< summed area of all footprints over that of the scene's surfaces
+    std::uint32_t leaf_size = 0;    ///< photons in a leaf at most
 };
 
 /// Which photons a pass emits, and how far they go.
@@ -35,12 +41,16 @@ struct StoredPhotons {
 struct PhotonWorkspace {
     std::uint64_t slots = 0;    ///< photons traced together
     std::uint64_t capacity = 0; ///< photons stored
+    bool footprints = false;    ///< whether photons carry differentials
+    std::uint32_t reemission = REEMIT_COSINE;   ///< REEMIT_* of shared/differential.h
     Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order, sorted, heads;
+    Buffer differentials;       ///< DifferentialRecord per slot
+    Buffer offsets;             ///< uvec4 per stored photon: its positional differentials, pack_dual of shared/footprint.h
     Buffer flux_sums;           ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
     Traversal traversal;
 };
 
-PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass);
+PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass, bool footprints = false);
 
 /// The most photons that one pass may emit on this device.
 std::uint64_t max_photons_per_pass(const Device& device);
@@ -54,7 +64,8 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
 struct PhotonMapSettings {
     std::uint64_t area_samples = 0; ///< wanted; none if there is no room for them
     std::uint32_t seed = 0;         ///< of the area samples
-    std::uint32_t leaf_size = 16;   ///< photons in a leaf at most, of 1 to most_photons_a_leaf
+    std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, of 1 to most_photons_a_leaf; 0: what suits
+    std::optional<FootprintScale> footprints;   ///< boxes are around footprints of this scale; none: around points
 };
 
 /// Builds the map over what trace_photons stored and samples of the surfaces' area, from which a query learns how much

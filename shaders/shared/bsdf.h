@@ -32,6 +32,7 @@ struct BsdfSample {
     vec3 weight;        // f |cos| / density, as flux scatters; radiance is to be multiplied by eta_scale as well
     real pdf;           // solid-angle density; 0 for mirror and transmit
     uint lobe;
+    real probability;   // with which this lobe was chosen
     real eta_scale;     // by which refraction scales radiance: (index on wo's side / index on wi's side)²
 };
 
@@ -207,6 +208,7 @@ FN bool sample_border(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, rea
     if (u * sum < reflected) {
         s.lobe = LOBE_MIRROR;
         s.wi = vec3(-wo.x, -wo.y, wo.z);
+        s.probability = reflected * probability / sum;
         s.weight = border.reflected * (sum / (reflected * probability));
         return true;
     }
@@ -215,6 +217,7 @@ FN bool sample_border(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, rea
     }
     s.lobe = LOBE_TRANSMIT;
     s.wi = vec3(-wo.x / border.eta, -wo.y / border.eta, -border.cosine_refracted);
+    s.probability = transmitted * probability / sum;
     s.weight = border.transmitted * (sum / (transmitted * probability));
     s.eta_scale = real(1.0) / (border.eta * border.eta);
     return true;
@@ -227,6 +230,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     s.weight = vec3(real(0.0));
     s.pdf = real(0.0);
     s.lobe = 0u;
+    s.probability = real(1.0);
     s.eta_scale = real(1.0);
     vec3 p = lobe_probabilities(m, wo.z, lobes);
     if (!(wo.z > real(0.0)) || !(p.x + p.y + p.z > real(0.0))) {
@@ -240,9 +244,11 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     }
     if (u.x < p.x || !(p.y > real(0.0))) {
         s.lobe = LOBE_DIFFUSE;
+        s.probability = p.x;
         s.wi = sample_cosine_hemisphere(vec2(u.y, u.z));
     } else {
         s.lobe = LOBE_GLOSSY;
+        s.probability = p.y;
         vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));
         s.wi = h * (real(2.0) * dot3(wo, h)) - wo;
     }

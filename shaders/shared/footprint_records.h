@@ -27,6 +27,18 @@ struct FootprintScale {
     uint pad;
 };
 
+struct FootprintParams {
+    FootprintScale scale;
+    float32 inverse_surface_area;   // of the scene
+    uint pad0, pad1, pad2;
+};
+
+// Of the summed areas of footprints over the scene's surface area, which is the mean number of footprints on a point.
+CONSTANT uint area_shares = 65536u;
+
+// A sample of the surfaces' area takes the size of its footprint from so many photons on either side in the map's order.
+CONSTANT uint area_neighbours = 8u;
+
 ARGAND_SHARED_END
 
 #endif

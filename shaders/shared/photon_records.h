@@ -36,7 +36,7 @@ struct PhotonBatch {
     uint bounces;               // the most scatterings of a photon that is stored
     uint capacity;              // slots for stored photons
     float32 flux_unit;          // flux of one unit of the fixed-point sums
-    uint pad;
+    float32 emitter_probability;    // that a photon comes from an emissive triangle
 };
 
 struct PhotonAdvanceParams {
@@ -61,13 +61,14 @@ struct FluxSumParams {
 };
 
 struct PhotonGatherParams {
-    float32 radius;
-    float32 caustic_radius;     // of caustic photons, at most `radius`
     uint budget;        // iterations of a dispatch
     uint first;         // whether this is the first dispatch of these queries
-    uint boundary_correction;   // whether the map holds area samples
     uint count_index;           // of the number of queries
-    uint pad0, pad1;
+    uint boundary_correction;   // whether the map holds area samples
+    float32 radius;             // of density estimation within a radius
+    float32 caustic_radius;     // the same of caustic photons, at most `radius`
+    float32 flatness;           // of footprints
+    uint pad;
 };
 
 // A query of the photon map between two dispatches: the node to go on with, and the sums so far.
@@ -89,6 +90,11 @@ CONSTANT uint leaf_first_mask = 0x7fffffu;
 CONSTANT uint most_photons_a_leaf = 512u;
 CONSTANT uint most_photons_in_map = 0x800000u;
 
+struct PhotonBoxParams {
+    float32 flatness;   // of footprints
+    uint pad0, pad1, pad2;
+};
+
 struct PhotonLeafParams {
     uint leaf_size;     // photons in a leaf at most
     uint pad0, pad1, pad2;
@@ -102,6 +108,7 @@ CONSTANT uint counter_overflow = 3u;        // slots that were wanted beyond the
 CONSTANT uint counter_next_active = 4u;
 CONSTANT uint counter_leaves = 5u;          // of the map
 CONSTANT uint counter_photons = 6u;         // photons among them
+CONSTANT uint counter_footprints = 7u;      // sum of the footprints' areas, in shares of the scene's
 CONSTANT uint counter_count = 16u;
 
 ARGAND_SHARED_END

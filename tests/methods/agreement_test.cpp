@@ -89,9 +89,14 @@ TEST_F(Agreement, ErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
 }
 
 TEST_F(Agreement, SlowCornellBoxesAtFullSize) {
-    for (const char* name : {"cornell_point.glb", "cornell_area.glb", "cornell_mirror.glb", "cornell_glass.glb"}) {
+    // The path tracer is noisy where light comes over glass or a mirror.
+    const std::pair<const char*, std::uint32_t> scenes[] = {{"cornell_point.glb", 256},
+                                                            {"cornell_area.glb", 256},
+                                                            {"cornell_mirror.glb", 2048},
+                                                            {"cornell_glass.glb", 2048}};
+    for (const auto& [name, samples] : scenes) {
         const Scene scene = load_asset(name);
-        const Reference truth = reference(scene, 128, 512);
+        const Reference truth = reference(scene, 128, samples);
         const RenderResult found = photons(scene, 128, 200'000);
         EXPECT_LT(error(found, truth), 0.02) << name;
         EXPECT_LT(error(found, truth, "indirect"), 0.02) << name;

@@ -2,7 +2,9 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene.glsl"
+#include "shared/differential_record.h"
 #include "shared/follow.h"
+#include "shared/footprint.h"
 #include "shared/photon.h"
 #include "shared/sampling.h"
 
@@ -14,7 +16,44 @@ layout(set = 0, binding = 11) buffer Paths { PhotonPathRecord paths[]; };
 layout(set = 0, binding = 12) buffer Ledgers { FluxLedger ledgers[]; };
 layout(set = 0, binding = 13) writeonly buffer Photons { PhotonRecord photons[]; };
 layout(set = 0, binding = 14) writeonly buffer Alive { uint alive[]; };
+layout(set = 0, binding = 15) buffer Differentials { DifferentialRecord differentials[]; };
+layout(set = 0, binding = 16) writeonly buffer Offsets { uvec4 offsets[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
+
+// Whether photons carry differentials; of which kinds of scattering they need to know.
+layout(constant_id = 0) const bool footprints = false;
+layout(constant_id = 1) const bool specular = true;
+layout(constant_id = 2) const bool glossy = true;
+layout(constant_id = 3) const uint reemission = REEMIT_COSINE;
+
+// How the shading normal changes along one of a photon's differentials.
+vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
+    uvec4 t = triangles[hit.triangle];
+    return shading_normal_change(positions[t.x].xyz, positions[t.y].xyz, positions[t.z].xyz, normals[t.x].xyz,
+                                 normals[t.y].xyz, normals[t.z].xyz, vec2(hit.u, hit.v), surface.shading_normal, offset);
+}
+
+// The differential, transferred to the hit, after scattering from direction `incoming` to `outgoing`.
+void scatter_differential(inout PhotonDifferential d, HitRecord hit, Surface surface, Frame frame, BsdfSample s,
+                          float survival, vec3 incoming, vec3 outgoing) {
+    roulette_differential(d, s.probability * survival);
+    float photons = 1.0 / batch.inverse_total;
+    if (s.lobe == LOBE_DIFFUSE) {
+        d = reemitted_differential(d, frame, outgoing, photons, reemission);
+    } else if (specular || glossy) {
+        vec3 n = surface.shading_normal;
+        vec3 dn_du = normal_change(hit, surface, d.dp_du);
+        vec3 dn_dv = normal_change(hit, surface, d.dp_dv);
+        if (glossy && s.lobe == LOBE_GLOSSY) {
+            // The pdf is of all lobes together.
+            gloss_differential(d, incoming, outgoing, n, dn_du, dn_dv, photons, s.pdf / s.probability);
+        } else if (s.lobe == LOBE_MIRROR) {
+            reflect_differential(d, incoming, n, dn_du, dn_dv);
+        } else {
+            refract_differential(d, incoming, n, dn_du, dn_dv, inversesqrt(s.eta_scale));
+        }
+    }
+}
 
 uvec4 units_of(vec3 flux) {
     return uvec4(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
@@ -60,11 +99,19 @@ void main() {
 
     uint followed = followed_lobes(m, scene[0].follow_roughness);
     uint estimated = estimated_lobes(m, scene[0].follow_roughness);
+    PhotonDifferential d;
+    if (footprints) {
+        d = load_differential(differentials[slot]);
+        transfer_differential(d, direction, hit.t, surface.geometric_normal);
+    }
     if (stores && estimated != 0u) {
         bool caustic = (path.state & photon_followed) != 0u;
         photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
                                       pack_photon_normal(surface.geometric_normal, caustic), flux.x * arriving,
                                       flux.y * arriving, flux.z * arriving, pack_unit(-direction));
+        if (footprints) {
+            offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
+        }
     }
     if (depth >= batch.bounces) {
         ledgers[slot].cut += units_of(flux);
@@ -77,12 +124,13 @@ void main() {
     }
     BsdfSample s;
     vec3 scattered = vec3(0.0);
+    vec3 outgoing = direction;
     if (bsdf_sample(m, wo, surface.front, followed | estimated, u, s)) {
         vec3 wi = to_world(frame, s.wi);
         float geometric_out = dot(wi, surface.geometric_normal);
         if ((s.wi.z > 0.0) == (geometric_out > 0.0) && s.wi.z != 0.0) {
             scattered = flux * s.weight * (arriving * geometric_out / s.wi.z);
-            direction = wi;
+            outgoing = wi;
         }
     }
     // Roulette keeps the flux of what goes on about equal.
@@ -94,8 +142,12 @@ void main() {
     scattered /= survival;
     // What roulette adds to one photon it takes from another: absorption is a difference, and can be negative.
     ledgers[slot].absorbed += units_of(flux) - units_of(scattered);
-    vec3 origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, direction);
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y, direction.z, 0u);
+    if (footprints) {
+        scatter_differential(d, hit, surface, frame, s, survival, direction, outgoing);
+        differentials[slot] = differential_record(d);
+    }
+    vec3 origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, outgoing);
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, outgoing.x, outgoing.y, outgoing.z, 0u);
     bool stays_followed = (path.state & photon_followed) != 0u && (s.lobe & followed) != 0u;
     paths[slot] = PhotonPathRecord(scattered.x, scattered.y, scattered.z,
                                    (depth + 1u) | (stays_followed ? photon_followed : 0u));
