@@ -124,17 +124,19 @@ FN FootprintDuals footprint_duals(IN(Footprint) f, vec3 normal) {
     return duals;
 }
 
-// The ellipsoid of dual axes, for boxes around what is really kept.
+// The ellipsoid of dual axes, for boxes around what is really kept: exactly where footprint_weight is not 0, though
+// packing has turned normal and dual axes a little out of their right angles.
 FN Footprint footprint_of_duals(IN(FootprintDuals) duals, vec3 normal, real flatness) {
     real size_a, size_b;
     vec3 unit_a = unit_and_length(duals.a, size_a);
     vec3 unit_b = unit_and_length(duals.b, size_b);
-    real sine = dot3(cross3(unit_a, unit_b), normal);
+    vec3 across = cross3(unit_a, unit_b);
+    real sine = dot3(across, normal);
     sine = sine < real(0.0) ? min(sine, real(-1e-12)) : max(sine, real(1e-12));
     Footprint f;
     f.u = cross3(unit_b, normal) / (sine * max(size_a, real(1e-30)));
     f.v = cross3(normal, unit_a) / (sine * max(size_b, real(1e-30)));
-    f.w = normal * (flatness * parallelogram_side(f.u, f.v));
+    f.w = across * (flatness * parallelogram_side(f.u, f.v) / sine);
     return f;
 }
 

@@ -146,9 +146,19 @@ TEST(Footprint, BoxContainsTheEllipsoidTightly) {
             const vec3 point = s.x * f.u + s.y * f.v + s.z * f.w;
             EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(point), extent * 1.000001f)));
         }
-        // From the record: the box of what is kept is nearly that of what was made.
-        const Footprint kept = footprint_of_duals(stored_duals(f, n), n, 0.3f);
-        EXPECT_LT(glm::length(footprint_extent(kept) - extent), 5e-3f * glm::length(extent));
+        // The box of what the map keeps is nearly that of what was made, and nothing reaches beyond it.
+        const FootprintRecord r = pack_footprint(vec3(0), n, true, vec3(1), n, f);
+        const FootprintDuals duals = unpack_duals(r);
+        const vec3 normal = unpack_photon_normal(r.normal);
+        const vec3 kept = footprint_extent(footprint_of_duals(duals, normal, 0.3f));
+        EXPECT_LT(glm::length(kept - extent), 5e-3f * glm::length(extent));
+        for (int k = 0; k < 300; ++k) {
+            const vec3 s = any_unit(bits) * (0.98f + 0.0001f * float(k));
+            const vec3 point = s.x * f.u + s.y * f.v + s.z * f.w;
+            if (footprint_weight(duals, normal, normal, point, 0.3f, true) > 0) {
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(point), kept * 1.00001f)));
+            }
+        }
     }
 }
 

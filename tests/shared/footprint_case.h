@@ -1,0 +1,73 @@
+// The whole way from emission to a record and a query, as one function that the host and the device both run.
+#ifndef ARGAND_TEST_FOOTPRINT_CASE_H
+#define ARGAND_TEST_FOOTPRINT_CASE_H
+
+#include "shared/footprint.h"
+#include "shared/light_differential.h"
+#include "shared/random.h"
+
+ARGAND_SHARED_BEGIN
+
+struct FootprintResult {
+    FootprintRecord record;
+    float32 extent_x, extent_y, extent_z, area;
+    float32 weight, spread_u, spread_v, scale;
+};
+
+FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
+    vec3 origin, direction, normal, flux;
+    light_emit(l, random4(61u, i, 0u, 0u), random4(61u, i, 0u, 1u), vec3(real(0.0)), real(2.0), origin, direction, normal,
+               flux);
+    PhotonDifferential d = light_differential(l, direction, normal, real(2.0), real(1e4), real(1e5));
+    vec4 u = random4(61u, i, 1u, 0u);
+    vec3 n = sample_sphere(vec2(u.x, u.y));
+    n = dot3(n, direction) > real(0.0) ? -n : n;
+    transfer_differential(d, direction, real(0.1) + u.z, n);
+    roulette_differential(d, real(0.1) + real(0.9) * u.w);
+    // A triangle around n, whose normals differ.
+    Frame f = make_frame(n);
+    vec3 at = f.x * real(0.3) + f.y * real(0.4);
+    vec3 n1 = n + f.x * real(0.2);
+    vec3 n2 = n - f.y * real(0.3);
+    vec3 smooth_normal;
+    real size;
+    smooth_normal = unit_and_length(n * real(0.5) + n1 * real(0.25) + n2 * real(0.25), size);
+    vec2 b = vec2(real(0.25), real(0.25));
+    vec3 dn_du = shading_normal_change(vec3(real(0.0)), f.x, at, n, n1, n2, b, smooth_normal, d.dp_du);
+    vec3 dn_dv = shading_normal_change(vec3(real(0.0)), f.x, at, n, n1, n2, b, smooth_normal, d.dp_dv);
+    uint event = i % 6u;
+    vec3 next = to_world(f, sample_cosine_hemisphere(vec2(u.z, u.w)));
+    if (event == 0u) {
+        reflect_differential(d, direction, smooth_normal, dn_du, dn_dv);
+    } else if (event == 1u) {
+        refract_differential(d, direction, smooth_normal, dn_du, dn_dv, u.z < real(0.5) ? real(1.5) : real(0.66666666666666667));
+    } else if (event == 2u) {
+        gloss_differential(d, direction, next, smooth_normal, dn_du, dn_dv, real(1e4), real(0.5));
+    } else {
+        d = reemitted_differential(d, f, next, real(1e4), event - 3u);
+    }
+    FootprintResult r;
+    r.spread_u = float32(sqrt(dot3(d.dd_du, d.dd_du)));
+    r.spread_v = float32(sqrt(dot3(d.dd_dv, d.dd_dv)));
+    transfer_differential(d, next, u.y, n);
+    FootprintScale s = make_footprint_scale(real(1e5), real(1e4), real(2.0), real(3.0), real(5.0), real(0.1), real(0.4),
+                                            real(0.16666666666666666667));
+    s.principal_axes = i % 2u;
+    Footprint footprint = make_footprint(d, n, event < 2u, s);
+    r.record = pack_footprint(origin, n, event < 2u, flux, -direction, footprint);
+    FootprintDuals duals = unpack_duals(r.record);
+    vec3 packed_normal = unpack_photon_normal(r.record.normal);
+    vec3 extent = footprint_extent(footprint_of_duals(duals, packed_normal, real(0.4)));
+    r.extent_x = float32(extent.x);
+    r.extent_y = float32(extent.y);
+    r.extent_z = float32(extent.z);
+    r.area = float32(footprint_area(footprint));
+    vec3 offset = footprint.u * real(0.3) - footprint.v * real(0.4) + footprint.w * real(0.2);
+    r.weight = float32(footprint_weight(duals, packed_normal, smooth_normal, offset, real(0.4), i % 4u < 2u));
+    r.scale = s.diffuse;
+    return r;
+}
+
+ARGAND_SHARED_END
+
+#endif
