@@ -5,6 +5,7 @@
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
 #include "base/progress.hpp"
+#include "footprint_options.hpp"
 #include "image/files.hpp"
 #include "methods/render.hpp"
 #include "numbers.hpp"
@@ -159,7 +160,7 @@ void add_render_command(CLI::App& app) {
                         "Picture to write, .png or .exr; may be given several times (default: SCENE's name with .png)")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--method", options->method, "photons or path")->capture_default_str();
+    command->add_option("--method", options->method, fmt::format("{}", fmt::join(method_names(), ", ")))->capture_default_str();
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command->add_option("--spp", settings.samples, "Eye paths per pixel")
         ->capture_default_str()
@@ -187,6 +188,7 @@ void add_render_command(CLI::App& app) {
     command->add_option("--backend", options->backend, "vulkan")->capture_default_str();
     command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
     command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");
+    add_footprint_options(*command, settings.footprints);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");
     command->footer("Example:\n  argand render assets/cornell_glass.glb -o glass.png -o glass.exr --size 256x256");
     command->callback([options] { render_file(*options); });
