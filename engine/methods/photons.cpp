@@ -3,6 +3,7 @@
 #include "methods/methods.hpp"
 #include "photon/gather.hpp"
 #include "plan/radius.hpp"
+#include "plan/smoothing.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
 
@@ -59,28 +60,20 @@ GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace
     return radii;
 }
 
-/// Smoothing that makes the median footprint of diffusely scattered photons as large as a disc of this radius.
 double smoothing_from(Device& device, const PhotonWorkspace& workspace, const StoredPhotons& stored,
-                      const FootprintScale& unit, double radius) {
+                      std::uint64_t passes, const std::vector<glm::vec3>& queries, const FootprintScale& unit) {
     const auto photons = download<PhotonRecord>(device, workspace.photons, stored.slots);
     const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
-    std::vector<float> radii;
-    for (std::size_t i = 0; i < photons.size(); ++i) {
-        if (photons[i].normal != no_photon && !photon_is_caustic(photons[i].normal)) {
-            PhotonDifferential d = no_differential();
-            d.dp_du = unpack_dual(offsets[i].x, offsets[i].y);
-            d.dp_dv = unpack_dual(offsets[i].z, offsets[i].w);
-            const Footprint f = make_footprint(d, unpack_photon_normal(photons[i].normal), false, unit);
-            radii.push_back(parallelogram_side(f.u, f.v));
-        }
-    }
-    if (radii.empty()) {
-        return 1;
-    }
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return radius / std::max(double(*middle), 1e-30);
+    const auto share = static_cast<double>(passes);
+    // For as little noise as discs of one size: footprints of different sizes do not count the same.
+    const double on_point = 4.0 / 3 * photons_in_disc(static_cast<double>(stored.photons) * share) / share;
+    const double learnt = median_smoothing(photons, offsets, queries, unit, on_point);
+    return learnt > 0 ? learnt : 1;
 }
+
+/// Semi-axes of caustic photons' footprints, in the radius that would serve for all caustics.
+constexpr float least_caustic = 0.2f;
+constexpr float most_caustic = 8;
 
 /// Photons at which a given smoothing holds.
 constexpr double reference_photons = 200'000;
@@ -131,10 +124,10 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                  scene.name, device.info().name);
         }
         if (pass == 0) {
+            const std::vector<glm::vec3> queries =
+                sample_queries(device, on_device, eye, settings, scene.cameras[settings.camera]);
             radii = settings.radius ? GatherRadii{*settings.radius, *settings.radius}
-                                    : radii_from(device, on_device, workspace, *stored, passes,
-                                                 sample_queries(device, on_device, eye, settings,
-                                                                scene.cameras[settings.camera]));
+                                    : radii_from(device, on_device, workspace, *stored, passes, queries);
             statistics.radius = radii.indirect;
             statistics.caustic_radius = radii.caustic;
             if (footprints) {
@@ -142,9 +135,15 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                 const auto of_pass = static_cast<double>(per_pass);
                 statistics.smoothing =
                     f.smoothing ? *f.smoothing
-                                : smoothing_from(device, workspace, *stored,
-                                                 scale_of(f, of_pass, 1, 1e6, on_device.record), radii.indirect);
-                scale = scale_of(f, of_pass, statistics.smoothing, f.largest, on_device.record);
+                                : smoothing_from(device, workspace, *stored, passes, queries,
+                                                 scale_of(f, of_pass, 1, 1e6, on_device.record));
+                // A few large footprints cost more than they are worth, for their boxes are everywhere.
+                const double largest = f.largest.value_or(1.25 * radii.indirect / on_device.record.radius);
+                scale = scale_of(f, of_pass, statistics.smoothing, largest, on_device.record);
+                // Where a caustic folds, its photons' footprints shrink to lines and points: bright streaks and dots,
+                // for there the linear map of the differentials holds in a small neighbourhood only.
+                scale->caustic_min = std::max(scale->radius_min, least_caustic * static_cast<float>(radii.caustic));
+                scale->caustic_max = std::max(scale->caustic_min, most_caustic * static_cast<float>(radii.caustic));
             }
         }
         const PhotonMap map = build_photon_map(

@@ -17,8 +17,8 @@ namespace argand {
 struct FootprintSettings {
     std::optional<double> smoothing;            ///< s of Fabianowski and Dingliana 2009; none: from the scene
     double caustic_smoothing = 5;               ///< the same of photons that only mirrors and glass have scattered
-    double largest = 0.1;                       ///< semi-axis at most, in radii of the scene's bounding sphere
-    double flatness = 0.5;                      ///< half-axis along the normal over the mean of the others
+    std::optional<double> largest;              ///< semi-axis at most, in the scene's radii; none: from the scene
+    double flatness = 0.3;                      ///< half-axis along the normal over the mean of the others
     bool uniform_kernel = false;                ///< instead of Epanechnikov's
     bool fixed_smoothing = false;               ///< footprints shrink as n^(-1/2), as in the paper, not as n^(-1/6)
     bool paper_reemission = false;              ///< diffuse reflection spaces photons as the paper does

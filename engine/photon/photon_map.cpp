@@ -50,9 +50,10 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
 
 /// The leaf size in proportion to the mean number of footprints on a point (Fabianowski and Dingliana 2009, §5.3).
 std::uint32_t automatic_leaf_size(double mean_footprints) {
-    constexpr double photons_per_footprint = 0.1;
+    constexpr double photons_per_footprint = 0.05;
+    constexpr double least = 4;
     return static_cast<std::uint32_t>(
-        std::clamp(photons_per_footprint * mean_footprints, 1.0, double(most_photons_a_leaf)));
+        std::clamp(photons_per_footprint * mean_footprints, least, double(most_photons_a_leaf)));
 }
 
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.

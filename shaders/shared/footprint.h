@@ -34,9 +34,11 @@ FN FootprintScale make_footprint_scale(real photons, real reference_photons, rea
     s.caustic = float32(caustic_smoothing * growth);
     s.radius_min = float32(length * real(1e-6));
     s.radius_max = float32(length * largest);
+    s.caustic_min = s.radius_min;
+    s.caustic_max = s.radius_max;
     s.flatness = float32(flatness);
     s.principal_axes = 0u;
-    s.pad = 0u;
+    s.pad0 = s.pad1 = s.pad2 = 0u;
     return s;
 }
 
@@ -75,7 +77,8 @@ FN vec3 footprint_axis(vec3 dp, vec3 normal, bool caustic, IN(FootprintScale) s)
     vec3 unit = unit_and_length(tangent, size);
     real radius = caustic ? size * real(s.caustic)
                           : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing)));   // the spacing is positive
-    return unit * clamp(radius, real(s.radius_min), real(s.radius_max));
+    return unit * (caustic ? clamp(radius, real(s.caustic_min), real(s.caustic_max))
+                           : clamp(radius, real(s.radius_min), real(s.radius_max)));
 }
 
 // Of a photon whose differential has been transferred to its hit. normal: unit, geometric. caustic: none but mirrors and

@@ -22,9 +22,10 @@ struct FootprintScale {
     float32 diffuse;        // semi-axis [length] = diffuse · (|dp| / spacing)^(1/4)
     float32 caustic;        // semi-axis = caustic · |dp|
     float32 radius_min, radius_max;     // [length], of each semi-axis
+    float32 caustic_min, caustic_max;   // the same of caustic photons
     float32 flatness;       // half-axis along the normal over the geometric mean of the other two
     uint principal_axes;    // whether the ellipse's own axes are compressed, not the differentials as they are
-    uint pad;
+    uint pad0, pad1, pad2;
 };
 
 struct FootprintParams {

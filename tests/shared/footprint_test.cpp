@@ -191,7 +191,7 @@ TEST(Footprint, RecordKeepsTheEllipse) {
     EXPECT_LT(worst_area, 2e-3);
     EXPECT_LT(worst_distance, 1e-2);
     static_assert(sizeof(FootprintRecord) == 48);
-    static_assert(sizeof(FootprintScale) == 32);
+    static_assert(sizeof(FootprintScale) == 48);
 }
 
 TEST(Footprint, DegenerateDifferentialsHaveFootprints) {

@@ -16,7 +16,9 @@ void add_footprint_options(CLI::App& command, FootprintSettings& settings) {
         ->check(number_between(1e-9, 1e9));
     number("--caustic-smoothing", settings.caustic_smoothing,
            "Size of the footprints of caustics at 200,000 photons, in distances between photons", 1e-3, 1e3);
-    number("--max-footprint", settings.largest, "Largest semi-axis of a footprint, in the scene's radii", 1e-6, 10);
+    group.add_option("--max-footprint", settings.largest,
+                     "Largest semi-axis of a footprint, in the scene's radii (default: from the scene)")
+        ->check(number_between(1e-6, 10));
     number("--flatness", settings.flatness, "Height of a footprint over the mean of its semi-axes", 1e-3, 10);
     group.add_option("--leaf-size", settings.leaf_size, "Photons in a leaf of the map at most; 0: from the scene")
         ->capture_default_str()
