@@ -101,7 +101,8 @@ void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
     trace_paths(device, scene, w, w.camera, batch, gather);
     const StageScope stage(device, "film");
     dispatch(device,
-             kernels::film_add{.layers = w.layers, .unfinished = w.traversal.unfinished, .film = w.film,
+             kernels::film_add{.layers = w.layers, .unfinished = w.traversal.unfinished,
+                               .film = w.film[batch.first_pixel / w.film_pixels],
                                .batch = batch},
              batch.pixels);
 }
@@ -131,8 +132,11 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     w.asking = device.allocate("asking eye paths", queries ? w.slots * 4 : 4);
     w.counts = device.allocate("eye path counts", 16);
     w.traversal = make_traversal(device, w.slots);
-    w.film = device.allocate("film", pixels * sizeof(FilmRecord));
-    device.fill(w.film, 0);
+    w.film_pixels = device.info().limits.storage_range / sizeof(FilmRecord);
+    for (std::uint64_t first = 0; first < pixels; first += w.film_pixels) {
+        w.film.push_back(device.allocate("film", std::min(w.film_pixels, pixels - first) * sizeof(FilmRecord)));
+        device.fill(w.film.back(), 0);
+    }
     return w;
 }
 
@@ -145,29 +149,35 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
     const std::uint64_t pixels_at_once = std::min(pixels, w.slots / samples_at_once);
     const double batches = static_cast<double>(pixels) * samples;
     double done = 0;
+    bool interrupted = false;
     for (std::uint64_t s = 0; s < samples; s += samples_at_once) {
-        for (std::uint64_t p = 0; p < pixels; p += pixels_at_once) {
+        std::uint64_t p = 0;
+        while (p < pixels) {
             EyeBatch batch{};
             batch.seed = settings.seed;
             batch.first_pixel = static_cast<std::uint32_t>(p);
-            batch.pixels = static_cast<std::uint32_t>(std::min(pixels_at_once, pixels - p));
+            const std::uint64_t film_end = (p / w.film_pixels + 1) * w.film_pixels;
+            batch.pixels = static_cast<std::uint32_t>(std::min({pixels_at_once, pixels - p, film_end - p}));
+            batch.first_film_pixel = static_cast<std::uint32_t>(film_end - w.film_pixels);
+            p += batch.pixels;
             batch.first_sample = first_sample + static_cast<std::uint32_t>(s);
             batch.samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples_at_once, samples - s));
             batch.width = static_cast<std::uint32_t>(settings.width);
             batch.height = static_cast<std::uint32_t>(settings.height);
             batch.bounces = settings.bounces;
             batch.query_first = first_sample;
-            batch.query_step = std::min(samples_per_query, samples);
-            batch.query_weight = static_cast<float>(samples) / static_cast<float>((samples + batch.query_step - 1) / batch.query_step);
+            batch.query_step = gather ? samples_per_query : 1;
             trace_batch(device, scene, w, batch, gather);
             if (!w.traversal.careful && download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
                 w.traversal.careful = true;
                 trace_batch(device, scene, w, batch, gather);
             }
             done += static_cast<double>(batch.pixels) * batch.samples;
-            if (!progress(done / batches)) {
-                return false;
-            }
+            // Not in the middle: all pixels hold the same samples.
+            interrupted = !progress(done / batches) || interrupted;
+        }
+        if (interrupted) {
+            return false;
         }
     }
     return true;
@@ -185,7 +195,6 @@ std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, 
     batch.samples = 1;
     batch.bounces = settings.bounces;
     batch.query_step = 1;
-    batch.query_weight = 1;
     const CameraRecord record = camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
     const Buffer small_picture = upload<CameraRecord>(device, "camera", std::span(&record, 1));
     std::vector<glm::vec3> positions;
@@ -202,7 +211,13 @@ std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, 
 std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& w, const RenderSettings& settings,
                                 RenderStatistics& statistics) {
     const std::size_t pixels = std::size_t(settings.width) * static_cast<std::size_t>(settings.height);
-    const std::vector<FilmRecord> film = download<FilmRecord>(device, w.film, pixels);
+    std::vector<FilmRecord> film;
+    film.reserve(pixels);
+    for (const Buffer& part : w.film) {
+        const std::size_t count = std::min<std::size_t>(w.film_pixels, pixels - film.size());
+        const std::vector<FilmRecord> records = download<FilmRecord>(device, part, count);
+        film.insert(film.end(), records.begin(), records.end());
+    }
     std::vector<Layer> layers{{"", {}}, {"direct", {}}, {"indirect", {}}, {"caustic", {}}};
     for (Layer& layer : layers) {
         layer.image.width = settings.width;
@@ -215,9 +230,10 @@ std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& w, const Ren
         const FilmRecord& f = film[i];
         const std::uint32_t finite = f.samples - f.non_finite;
         const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
+        const float asked_scale = f.asked > 0 ? 1.0f / static_cast<float>(f.asked) : 0.0f;
         layers[1].image.pixels[i] = glm::vec3(f.direct_r, f.direct_g, f.direct_b) * scale;
-        layers[2].image.pixels[i] = glm::vec3(f.indirect_r, f.indirect_g, f.indirect_b) * scale;
-        layers[3].image.pixels[i] = glm::vec3(f.caustic_r, f.caustic_g, f.caustic_b) * scale;
+        layers[2].image.pixels[i] = glm::vec3(f.indirect_r, f.indirect_g, f.indirect_b) * asked_scale;
+        layers[3].image.pixels[i] = glm::vec3(f.caustic_r, f.caustic_g, f.caustic_b) * asked_scale;
         layers[0].image.pixels[i] = layers[1].image.pixels[i] + layers[2].image.pixels[i] + layers[3].image.pixels[i];
         statistics.non_finite += f.non_finite;
     }

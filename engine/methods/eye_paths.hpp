@@ -13,7 +13,8 @@ struct EyeWorkspace {
     Buffer queries, asks, asking;   ///< of the photon map: QueryRecord and flag per slot, slots that ask
     Buffer counts;
     Traversal traversal;
-    Buffer film;                ///< FilmRecord per pixel
+    std::vector<Buffer> film;   ///< FilmRecord per pixel, as many to a buffer as a kernel can address
+    std::uint64_t film_pixels = 0;  ///< to a buffer
 };
 
 /// `queries`: whether a photon map is going to be asked.

@@ -86,6 +86,32 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
                                 settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
 }
 
+struct Passes {
+    std::uint64_t passes = 1;
+    std::uint64_t photons = 1;  ///< of the largest pass
+};
+
+/// Passes of at most so many photons. All count the same, so they must be of one size: a small last one would be the
+/// noise of the picture.
+Passes split_photons(std::uint64_t photons, std::uint64_t most) {
+    Passes split;
+    split.passes = std::max<std::uint64_t>((photons + most - 1) / most, 1);
+    split.photons = std::max<std::uint64_t>((photons + split.passes - 1) / split.passes, 1);
+    return split;
+}
+
+PhotonWorkspace make_workspace(Device& device, const RenderSettings& settings, std::uint64_t photons,
+                               bool footprints) {
+    PhotonWorkspace workspace = make_photon_workspace(device, photons, footprints);
+    workspace.reemission = settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    return workspace;
+}
+
+/// Whether later passes, which store a few photons more or less, will fit as well.
+bool has_room(const Device& device, const std::optional<StoredPhotons>& stored) {
+    return stored && stored->slots <= max_stored_photons(device) / 10 * 9;
+}
+
 /// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at least once, density
 /// estimation within a radius where eye rays meet estimated lobes, direct light by shadow rays. Each pass has its own
 /// photons and its own eye paths, so that memory is bounded.
@@ -101,24 +127,28 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
     const Buffer partial = device.allocate("unfinished query sums", eye.slots * sizeof(GatherRecord));
 
     // Without indirect light no photon is ever looked up.
-    std::uint64_t photons = settings.bounces > 0 && on_device.record.light_count > 0 ? settings.photons : 0;
-    std::uint64_t per_pass = std::clamp<std::uint64_t>(photons, 1, max_photons_per_pass(device));
-    std::uint64_t passes = std::max<std::uint64_t>((photons + per_pass - 1) / per_pass, 1);
-    // All passes count the same, so they must be of one size: a small last one would be the noise of the picture.
-    per_pass = std::max<std::uint64_t>((photons + passes - 1) / passes, 1);
-    PhotonWorkspace workspace = make_photon_workspace(device, photons > 0 ? per_pass : 0, footprints);
-    workspace.reemission = settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    const std::uint64_t photons = settings.bounces > 0 && on_device.record.light_count > 0 ? settings.photons : 0;
+    Passes split = split_photons(photons, max_photons_per_pass(device));
+    PhotonWorkspace workspace = make_workspace(device, settings, split.photons, footprints);
     std::optional<FootprintScale> scale;
     double power = std::max({on_device.power.r, on_device.power.g, on_device.power.b});
-    std::uint32_t samples = static_cast<std::uint32_t>((settings.samples + passes - 1) / passes);
-
-    for (std::uint64_t pass = 0; pass < passes && !statistics.interrupted; ++pass) {
-        PhotonPass emission{.seed = settings.seed, .first = statistics.photons_emitted,
-                            .count = photons * (pass + 1) / passes - photons * pass / passes,
-                            .bounces = settings.bounces};
-        const double unit = power / static_cast<double>(per_pass) / units_per_photon;
+    for (std::uint64_t pass = 0; pass < split.passes && !statistics.interrupted; ++pass) {
+        const std::uint64_t passes = split.passes;
+        const auto samples = static_cast<std::uint32_t>((settings.samples + passes - 1) / passes);
+        const PhotonPass emission{.seed = settings.seed, .first = statistics.photons_emitted,
+                                  .count = photons * (pass + 1) / passes - photons * pass / passes,
+                                  .bounces = settings.bounces};
+        const double unit = power / static_cast<double>(split.photons) / units_per_photon;
         const std::optional<StoredPhotons> stored =
             trace_photons(device, on_device, workspace, emission, static_cast<float>(unit));
+        if (pass == 0 && split.photons > 1 && !has_room(device, stored)) {
+            // Light that is absorbed so little that every photon is stored very often.
+            split = split_photons(photons, split.photons / 2);
+            workspace = PhotonWorkspace();
+            workspace = make_workspace(device, settings, split.photons, footprints);
+            --pass;
+            continue;
+        }
         if (!stored) {
             fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer bounces or photons",
                  scene.name, device.info().name);
@@ -132,7 +162,7 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
             statistics.caustic_radius = radii.caustic;
             if (footprints) {
                 const FootprintSettings& f = settings.footprints;
-                const auto of_pass = static_cast<double>(per_pass);
+                const auto of_pass = static_cast<double>(split.photons);
                 statistics.smoothing =
                     f.smoothing ? *f.smoothing
                                 : smoothing_from(device, workspace, *stored, passes, queries,

@@ -59,7 +59,7 @@ struct RenderStatistics {
     std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most
     std::uint64_t non_finite = 0;               ///< samples left out because they were not finite
     FluxSums flux;
-    bool interrupted = false;                   ///< the picture holds the passes that were finished
+    bool interrupted = false;                   ///< every pixel holds the samples that were finished, maybe none
 };
 
 struct RenderResult {

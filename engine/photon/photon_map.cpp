@@ -34,10 +34,6 @@ constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
 constexpr std::uint32_t leaf_size_of_points = 16;
 
-std::uint64_t most_stored(const Device& device) {
-    return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord), most_photons_in_map);
-}
-
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
@@ -58,7 +54,7 @@ std::uint32_t automatic_leaf_size(double mean_footprints) {
 
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
 void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
-    const std::uint64_t capacity = std::min(wanted, most_stored(device));
+    const std::uint64_t capacity = std::min(wanted, max_stored_photons(device));
     if (capacity <= w.capacity) {
         return;
     }
@@ -129,8 +125,12 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
 
 } // namespace
 
+std::uint64_t max_stored_photons(const Device& device) {
+    return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord), most_photons_in_map);
+}
+
 std::uint64_t max_photons_per_pass(const Device& device) {
-    return most_stored(device) / stored_per_emitted;
+    return max_stored_photons(device) / stored_per_emitted;
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass, bool footprints) {
@@ -180,7 +180,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
             w.traversal.careful = !traced;
             device.upload(w.counters, 0, std::as_bytes(std::span(before)));
             if (!fits) {
-                if (w.capacity >= most_stored(device)) {
+                if (w.capacity >= max_stored_photons(device)) {
                     return std::nullopt;
                 }
                 make_room(device, w, before[counter_stored_slots], 2 * w.capacity);

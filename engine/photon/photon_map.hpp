@@ -52,7 +52,10 @@ struct PhotonWorkspace {
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass, bool footprints = false);
 
-/// The most photons that one pass may emit on this device.
+/// The most photons that a map may hold on this device.
+std::uint64_t max_stored_photons(const Device& device);
+
+/// The most photons that one pass should emit, if they are stored as often as usual.
 std::uint64_t max_photons_per_pass(const Device& device);
 
 /// Emits photons from every light in proportion to power, traces them, and stores them where estimated lobes are, from

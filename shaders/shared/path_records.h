@@ -37,14 +37,17 @@ struct ShadowRecord {
     uint followed_layer;
 };
 
-// Sums over a pixel's samples.
+// Sums over a pixel's samples, and what rounding took from them (Kahan).
 struct FilmRecord {
     float32 direct_r, direct_g, direct_b;
     uint samples;
     float32 indirect_r, indirect_g, indirect_b;
-    uint non_finite;            // samples left out because they were not finite
+    uint asked;                 // finite samples that asked the photon map: of indirect and caustic light
     float32 caustic_r, caustic_g, caustic_b;
-    uint pad;
+    uint non_finite;            // samples left out because they were not finite
+    float32 lost_direct_r, lost_direct_g, lost_direct_b, pad0;
+    float32 lost_indirect_r, lost_indirect_g, lost_indirect_b, pad1;
+    float32 lost_caustic_r, lost_caustic_g, lost_caustic_b, pad2;
 };
 
 // A batch of eye paths: slot = pixel in the batch × samples per pixel + sample.
@@ -55,7 +58,7 @@ struct EyeBatch {
     uint width, height;
     uint bounces;                   // the most scatterings between the light and the first estimated vertex
     uint query_first, query_step;   // samples that ask the photon map: query_first, query_first + query_step, ...
-    float32 query_weight;           // of what they learn: all samples over those that ask
+    uint first_film_pixel;          // of the part of the film
     uint pad;
 };
 

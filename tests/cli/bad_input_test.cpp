@@ -63,7 +63,7 @@ TEST_F(BadInput, Usage) {
                              "1000000x8", "99999999999999999999x8", "''", "'8 x8'"}) {
         expect_failure(scene + "--size " + size, usage, "--size");
     }
-    expect_failure(scene + "--method rays", usage, "photons, path");
+    expect_failure(scene + "--method rays", usage, "photons, ");
     expect_failure(scene + "--backend cuda", usage, "vulkan");
     expect_failure("compare", usage, "a");
     expect_failure("inspect", usage, "scene");

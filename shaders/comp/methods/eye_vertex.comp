@@ -52,10 +52,19 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
     LightRecord light = lights[choose_light(u.x, choice_probability)];
     LightSample s;
     vec3 o = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, surface.geometric_normal);
-    if (!light_sample(light, o, u.yz, s) || !(dot(s.wi, surface.geometric_normal) > 0.0)) {
+    if (!light_sample(light, o, u.yz, s)) {
         return;
     }
     vec3 wi = to_local(frame, s.wi);
+    if (photon_map && light.kind == light_sky) {
+        // Nothing else finds the sky here: by the cosine, not evenly over the sphere, half of which is below.
+        wi = sample_cosine_hemisphere(u.yz);
+        s.wi = to_world(frame, wi);
+        s.radiance = light_color(light) * (PI / max(wi.z, 1e-6));
+    }
+    if (!(dot(s.wi, surface.geometric_normal) > 0.0)) {
+        return;
+    }
     vec3 arriving = throughput * s.radiance * (wi.z / choice_probability);
     float weight = 1.0;
     if (!s.delta && !photon_map) {
@@ -131,10 +140,9 @@ void main() {
     }
     if (photon_map && estimated != 0u && batch.bounces > 0u &&
         (path.sample_index - batch.query_first) % batch.query_step == 0u) {
-        vec3 asked = throughput * batch.query_weight;
         asks[i] = 1u;
         queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
-                                    triangles[hit.triangle].w, asked.x, asked.y, asked.z,
+                                    triangles[hit.triangle].w, throughput.x, throughput.y, throughput.z,
                                     pack_unit(-direction), pack_unit(surface.geometric_normal),
                                     pack_unit(surface.shading_normal), estimated, surface.front ? 1u : 0u);
     }
