@@ -1,6 +1,7 @@
 #include "plan/smoothing.hpp"
 
 #include "shared/footprint.h"
+#include "shared/photon.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 
 #include "shared/differential.h"
 #include "shared/footprint_records.h"
-#include "shared/photon.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -198,34 +197,6 @@ FN vec3 unpack_dual(uint xy, uint zs) {
     real scale = real(bits_float(zs & 0xffff0000u)) / real(32767.0);
     return vec3(real(xy & 0xffffu) - real(32768.0), real(xy >> 16u) - real(32768.0),
                 real(zs & 0xffffu) - real(32768.0)) * scale;
-}
-
-FN FootprintDuals unpack_duals(IN(FootprintRecord) r) {
-    FootprintDuals duals;
-    duals.a = unpack_dual(r.a_xy, r.a_zs);
-    duals.b = unpack_dual(r.b_xy, r.b_zs);
-    return duals;
-}
-
-// from: unit, where the photon came from.
-FN FootprintRecord pack_footprint(vec3 position, vec3 normal, bool caustic, vec3 flux, vec3 from, IN(Footprint) f) {
-    FootprintDuals duals = footprint_duals(f, normal);
-    uvec2 a = pack_dual(duals.a);
-    uvec2 b = pack_dual(duals.b);
-    FootprintRecord r;
-    r.x = float32(position.x);
-    r.y = float32(position.y);
-    r.z = float32(position.z);
-    r.normal = pack_photon_normal(normal, caustic);
-    r.flux_r = float32(flux.x);
-    r.flux_g = float32(flux.y);
-    r.flux_b = float32(flux.z);
-    r.direction = pack_unit(from);
-    r.a_xy = a.x;
-    r.a_zs = a.y;
-    r.b_xy = b.x;
-    r.b_zs = b.y;
-    return r;
 }
 
 ARGAND_SHARED_END

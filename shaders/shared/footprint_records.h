@@ -5,17 +5,6 @@
 
 ARGAND_SHARED_BEGIN
 
-// A photon of the map with its footprint: 48 bytes. What decides whether it reaches a point is in the first and the last
-// lane.
-struct FootprintRecord {
-    float32 x, y, z;
-    uint normal;            // pack_photon_normal
-    float32 flux_r, flux_g, flux_b;
-    uint direction;         // where it came from, pack_unit
-    uint a_xy, a_zs;        // dual axes, pack_dual
-    uint b_xy, b_zs;
-};
-
 // How differentials become footprints, the same for all photons of a pass: make_footprint_scale.
 struct FootprintScale {
     float32 spacing;        // Δ, by which differentials are divided before they are compressed

@@ -4,12 +4,14 @@
 
 #include "shared/footprint.h"
 #include "shared/light_differential.h"
+#include "shared/photon.h"
 #include "shared/random.h"
 
 ARGAND_SHARED_BEGIN
 
 struct FootprintResult {
-    FootprintRecord record;
+    PhotonRecord photon;
+    uint a_xy, a_zs, b_xy, b_zs;
     float32 extent_x, extent_y, extent_z, area;
     float32 weight, spread_u, spread_v, scale;
 };
@@ -54,9 +56,24 @@ FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
                                             real(0.16666666666666666667));
     s.principal_axes = i % 2u;
     Footprint footprint = make_footprint(d, n, event < 2u, s);
-    r.record = pack_footprint(origin, n, event < 2u, flux, -direction, footprint);
-    FootprintDuals duals = unpack_duals(r.record);
-    vec3 packed_normal = unpack_photon_normal(r.record.normal);
+    r.photon.x = float32(origin.x);
+    r.photon.y = float32(origin.y);
+    r.photon.z = float32(origin.z);
+    r.photon.normal = pack_photon_normal(n, event < 2u);
+    r.photon.flux_r = float32(flux.x);
+    r.photon.flux_g = float32(flux.y);
+    r.photon.flux_b = float32(flux.z);
+    r.photon.direction = pack_unit(-direction);
+    FootprintDuals duals = footprint_duals(footprint, n);
+    uvec2 packed_a = pack_dual(duals.a);
+    uvec2 packed_b = pack_dual(duals.b);
+    r.a_xy = packed_a.x;
+    r.a_zs = packed_a.y;
+    r.b_xy = packed_b.x;
+    r.b_zs = packed_b.y;
+    duals.a = unpack_dual(packed_a.x, packed_a.y);
+    duals.b = unpack_dual(packed_b.x, packed_b.y);
+    vec3 packed_normal = unpack_photon_normal(r.photon.normal);
     vec3 extent = footprint_extent(footprint_of_duals(duals, packed_normal, real(0.4)));
     r.extent_x = float32(extent.x);
     r.extent_y = float32(extent.y);

@@ -2,6 +2,7 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/footprint.h"
+#include "shared/photon.h"
 
 layout(set = 0, binding = 0) readonly buffer Photons { PhotonRecord photons[]; };
 layout(set = 0, binding = 1) readonly buffer Order { uint order[]; };

@@ -1,0 +1,309 @@
+// Density estimation over footprints made by hand, against the sum in double precision over what the map keeps.
+#include "footprint_queries.hpp"
+#include "shared/footprint.h"
+#include "shared/photon.h"
+
+#include <random>
+
+namespace argand::testing {
+namespace {
+
+constexpr float albedo = 0.5f;
+constexpr float flatness = 0.4f;
+
+struct Splat {
+    PhotonRecord photon{};
+    glm::vec3 u{0}, v{0};       ///< its positional differentials
+};
+
+/// What the device adds to the layers, and the map that it read.
+struct Sums {
+    std::vector<Gathered> sums;
+    std::vector<PhotonRecord> photons;
+    std::vector<glm::uvec4> footprints;
+    bool finished = true;
+};
+
+struct GatherSettings {
+    std::uint32_t leaf_size = 0;
+    std::uint32_t budget = gather_budget;
+    bool uniform_kernel = false;
+    bool careful = true;
+    std::uint64_t area_samples = 0;
+};
+
+/// Semi-axes are the differentials as they are, but for photons that are not caustic, whose lengths are compressed.
+FootprintScale plain_scale() {
+    FootprintScale s{};
+    s.spacing = s.diffuse = s.caustic = 1;
+    s.radius_min = s.caustic_min = 1e-6f;
+    s.radius_max = s.caustic_max = 1e6f;
+    s.flatness = flatness;
+    return s;
+}
+
+Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<Query>& queries,
+                const GatherSettings& settings = {}) {
+    const DeviceScene scene = upload_scene(device, floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
+    PhotonWorkspace workspace = make_photon_workspace(device, splats.size(), true);
+    std::vector<PhotonRecord> photons;
+    std::vector<glm::uvec4> offsets;
+    std::size_t stored = 0;
+    for (const Splat& splat : splats) {
+        const uvec2 u = pack_dual(splat.u);
+        const uvec2 v = pack_dual(splat.v);
+        photons.push_back(splat.photon);
+        offsets.emplace_back(u.x, u.y, v.x, v.y);
+        stored += splat.photon.normal != no_photon ? 1 : 0;
+    }
+    device.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
+    device.upload(workspace.offsets, 0, std::as_bytes(std::span(offsets)));
+    std::vector<std::uint32_t> counters(counter_count, 0);
+    counters[counter_stored_slots] = static_cast<std::uint32_t>(splats.size());
+    device.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
+    const PhotonMap map = build_photon_map(device, scene, workspace, {splats.size(), stored},
+                                           {.area_samples = settings.area_samples, .leaf_size = settings.leaf_size,
+                                            .footprints = plain_scale()});
+
+    Sums result;
+    result.sums = gather(device, scene, map, queries,
+                         {.budget = settings.budget, .uniform_kernel = settings.uniform_kernel, .careful = settings.careful},
+                         result.finished);
+    const std::size_t kept = stored + map.area_samples;
+    result.photons = download<PhotonRecord>(device, map.photons, kept);
+    result.footprints = download<glm::uvec4>(device, map.footprints, kept);
+    return result;
+}
+
+/// Of one photon at a query, in double precision.
+struct Weight {
+    double value = 0;       ///< flux per area
+    double center = 0;      ///< what it is in the footprint's centre
+    bool uncertain = false; ///< so near to the rim that rounding decides
+};
+
+/// The ellipsoid |A x| <= 1, its axes the columns of the inverse M; a plane of unit normal m through its centre cuts out
+/// an ellipse of area pi |det M| / |Mᵀ m|.
+Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const Query& query, bool uniform_kernel) {
+    const glm::dvec3 a(unpack_dual(footprint.x, footprint.y));
+    const glm::dvec3 b(unpack_dual(footprint.z, footprint.w));
+    const glm::dvec3 n(unpack_photon_normal(photon.normal));
+    const glm::dvec3 m(unpack_unit(pack_unit(query.normal)));
+    const double inverse_area = std::abs(glm::dot(glm::cross(a, b), n));
+    const glm::dmat3 inverse_axes = glm::transpose(glm::dmat3(a, b, n * (std::sqrt(inverse_area) / double(flatness))));
+    const glm::dmat3 axes = glm::inverse(inverse_axes);
+    const glm::dvec3 offset = glm::dvec3(query.position) - glm::dvec3(photon.x, photon.y, photon.z);
+    const glm::dvec3 x = inverse_axes * offset;
+    const double q = glm::dot(x, x);
+    const double cut = double(pi) * std::abs(glm::determinant(axes)) / glm::length(glm::transpose(axes) * m);
+    const double kernel = uniform_kernel ? 1 : 2 * (1 - q);
+    Weight weight;
+    weight.center = (uniform_kernel ? 1 : 2) / cut;
+    weight.uncertain = std::abs(q - 1) < 1e-5;
+    weight.value = q <= 1 && glm::dot(n, m) >= double(same_surface_cosine) ? kernel / cut : 0;
+    return weight;
+}
+
+void expect_exact_sums(const Sums& gathered, const std::vector<Query>& queries, bool uniform_kernel = false) {
+    ASSERT_TRUE(gathered.finished);
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+        Gathered sum;
+        Gathered tolerance;
+        for (std::size_t i = 0; i < gathered.photons.size(); ++i) {
+            const PhotonRecord& p = gathered.photons[i];
+            const Weight weight = weight_at(p, gathered.footprints[i], queries[k], uniform_kernel);
+            if (weight.value == 0 && !weight.uncertain) {
+                continue;
+            }
+            const glm::dvec3 scattered = glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * double(albedo) / double(pi);
+            const bool caustic = photon_is_caustic(p.normal);
+            (caustic ? sum.caustic : sum.indirect) += scattered * weight.value;
+            const bool jumps = weight.uncertain && uniform_kernel;
+            (caustic ? tolerance.caustic : tolerance.indirect) += scattered * weight.center * (jumps ? 1 : 1e-5);
+        }
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(gathered.sums[k].indirect[channel], sum.indirect[channel], tolerance.indirect[channel]) << k;
+            EXPECT_NEAR(gathered.sums[k].caustic[channel], sum.caustic[channel], tolerance.caustic[channel]) << k;
+        }
+    }
+}
+
+class GatherFootprints : public RenderTest {
+protected:
+    GatherFootprints() : random_(11) {}
+
+    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+
+    /// A skewed footprint of about this size.
+    Splat splat(glm::vec3 position, float size, bool caustic = true, glm::vec3 normal = {0, 1, 0}) {
+        const Frame f = make_frame(normal);
+        const float turn = uniform(0, 6.28f);
+        const float skew = turn + uniform(0.5f, 2.5f);
+        Splat s;
+        s.photon = {position.x, position.y, position.z, pack_photon_normal(normal, caustic),
+                    uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
+        s.u = (f.x * std::cos(turn) + f.y * std::sin(turn)) * (size * uniform(0.3f, 3));
+        s.v = (f.x * std::cos(skew) + f.y * std::sin(skew)) * size;
+        // What compresses footprints of photons that are not caustic is undone.
+        const auto compressible = [](glm::vec3 x) { return x * float(std::pow(glm::length(x), 3)); };
+        if (!caustic) {
+            s.u = compressible(s.u);
+            s.v = compressible(s.v);
+        }
+        return s;
+    }
+
+    /// On a bumpy floor, so that tangent planes are tilted against one another and offsets leave them.
+    std::vector<Splat> bumpy(std::size_t count, float size) {
+        std::vector<Splat> splats;
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 normal = glm::normalize(glm::vec3(uniform(-0.4f, 0.4f), 1, uniform(-0.4f, 0.4f)));
+            splats.push_back(splat({uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, size, i % 3 == 0, normal));
+        }
+        return splats;
+    }
+
+    std::vector<Query> bumpy_queries(std::size_t count) {
+        std::vector<Query> queries;
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 normal = glm::normalize(glm::vec3(uniform(-0.2f, 0.2f), 1, uniform(-0.2f, 0.2f)));
+            queries.push_back({{uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, normal});
+        }
+        return queries;
+    }
+
+    std::mt19937 random_;
+};
+
+TEST_F(GatherFootprints, IsTheSumOverFootprintsThatReachTheQuery) {
+    const std::vector<Splat> splats = bumpy(4001, 0.1f);
+    const std::vector<Query> queries = bumpy_queries(67);
+    for (const bool uniform_kernel : {false, true}) {
+        for (const std::uint32_t leaf_size : {0u, 1u, 2u, 16u, most_photons_a_leaf}) {
+            SCOPED_TRACE(::testing::Message() << "leaves of " << leaf_size << ", uniform " << uniform_kernel);
+            const GatherSettings settings{.leaf_size = leaf_size, .uniform_kernel = uniform_kernel, .careful = false};
+            expect_exact_sums(gather(device(), splats, queries, settings), queries, uniform_kernel);
+        }
+    }
+}
+
+TEST_F(GatherFootprints, AnyNumberOfPhotonsAndAnySize) {
+    for (const std::size_t count : {0u, 1u, 2u, 3u, 7u, 64u, 65u, 100'003u}) {
+        for (const float size : {0.01f, 0.3f, 4.0f}) {
+            if (count > 1000 && size > 1) {
+                continue;
+            }
+            SCOPED_TRACE(::testing::Message() << count << " of size " << size);
+            std::vector<Splat> splats = bumpy(count, size);
+            for (std::size_t i = 3; i < count; i += 7) {
+                splats[i].photon.normal = no_photon;
+            }
+            std::vector<Query> queries = bumpy_queries(9);
+            if (count > 0) {
+                const PhotonRecord& p = splats[0].photon;
+                queries.push_back({{p.x, p.y, p.z}});
+            }
+            const Sums gathered = gather(device(), splats, queries);
+            expect_exact_sums(gathered, queries);
+            if (count > 0) {
+                EXPECT_GT(gathered.sums.back().caustic.g, 0);
+            } else {
+                EXPECT_EQ(gathered.sums.front(), Gathered());
+            }
+        }
+    }
+}
+
+TEST_F(GatherFootprints, MillionInOnePointIsTheExactSum) {
+    std::vector<Splat> splats;
+    for (int i = 0; i < 1'000'000; ++i) {
+        splats.push_back(splat({0.25f, 0, -0.5f}, 0.1f, i % 5 == 0));
+    }
+    const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
+    const Sums gathered = gather(device(), splats, queries);
+    expect_exact_sums(gathered, queries);
+    EXPECT_GT(gathered.sums[1].caustic.g, 0);
+    EXPECT_EQ(gathered.sums[2], Gathered());
+    // In one dispatch there is no end to it: that is said, and nothing is added.
+    const Sums hurried = gather(device(), splats, {queries[0]}, {.careful = false});
+    EXPECT_FALSE(hurried.finished);
+    EXPECT_EQ(hurried.sums[0], Gathered());
+}
+
+TEST_F(GatherFootprints, InterruptedQueriesGiveTheSameBits) {
+    const std::vector<Splat> splats = bumpy(1000, 0.2f);
+    const std::vector<Query> queries = bumpy_queries(30);
+    for (const std::uint32_t leaf_size : {1u, 16u, most_photons_a_leaf}) {
+        const Sums whole = gather(device(), splats, queries, {.leaf_size = leaf_size, .budget = 60'000});
+        for (const std::uint32_t budget : {3u, 100u, 1001u}) {
+            const Sums parts = gather(device(), splats, queries, {.leaf_size = leaf_size, .budget = budget});
+            EXPECT_EQ(parts.sums, whole.sums) << leaf_size << ", " << budget;
+        }
+    }
+    const std::vector<Splat> few(splats.begin(), splats.begin() + 60);
+    EXPECT_EQ(gather(device(), few, queries, {.budget = 1}).sums, gather(device(), few, queries).sums);
+}
+
+TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
+    const float height = 0.3f;
+    // A circle of this radius reaches flatness × radius along its normal.
+    const float above = flatness * height;
+    const auto circle = [&](glm::vec3 position, glm::vec3 normal = {0, 1, 0}) {
+        Splat s = splat(position, 1, true, normal);
+        const Frame f = make_frame(normal);
+        s.u = f.x * height;
+        s.v = f.y * height;
+        return s;
+    };
+    const std::vector<Splat> reach{circle({0.1f, 0, 0}), circle({0, 0.9f * above, 0}), circle({0, -0.9f * above, 0}),
+                                   circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.9f, 0)))};
+    const std::vector<Splat> others{circle({0.31f, 0, 0}), circle({0, 1.1f * above, 0}), circle({0, 0, 0}, {0, -1, 0}),
+                                    circle({0, -1e-4f, 0}, {0, -1, 0}), circle({0, 0, 0}, {1, 0, 0}),
+                                    circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.4f, 0)))};
+    for (const Splat& splat : reach) {
+        const Sums one = gather(device(), {splat}, {Query{}});
+        expect_exact_sums(one, {Query{}});
+        EXPECT_GT(one.sums[0].caustic.g, 0);
+    }
+    for (const Splat& splat : others) {
+        EXPECT_EQ(gather(device(), {splat}, {Query{}}).sums[0], Gathered());
+    }
+    // The other side of the floor sees what this one does not.
+    EXPECT_GT(gather(device(), {others[3]}, {Query{.normal = {0, -1, 0}}}).sums[0].caustic.g, 0);
+}
+
+TEST_F(GatherFootprints, EdgesOfSurfacesLoseNothing) {
+    // Photons spread evenly, not one of them caustic: the estimate is the same in the middle, at an edge, in a corner.
+    constexpr int side = 200;
+    std::vector<Splat> splats;
+    for (int i = 0; i < side * side; ++i) {
+        Splat s = splat({(2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1}, 1, false);
+        s.u = {std::pow(0.3f, 4.0f), 0, 0};
+        s.v = {0, 0, std::pow(0.3f, 4.0f)};
+        s.photon.flux_r = s.photon.flux_g = s.photon.flux_b = 4.0f / (side * side);
+        splats.push_back(s);
+    }
+    const std::vector<Query> queries{{{0, 0, 0}}, {{1, 0, 0.1f}}, {{-0.9f, 0, 0.1f}}, {{1, 0, 1}}};
+    for (const Gathered& sum : gather(device(), splats, queries, {.area_samples = 40'000}).sums) {
+        EXPECT_RELATIVE(sum.indirect.g, albedo / double(pi), 0.03);
+    }
+    const std::vector<Gathered> plain = gather(device(), splats, queries).sums;
+    EXPECT_RELATIVE(plain[1].indirect.g, 0.5 * albedo / double(pi), 0.03);
+    EXPECT_RELATIVE(plain[3].indirect.g, 0.25 * albedo / double(pi), 0.03);
+}
+
+// Texels or storage buffers, subgroups or not: the same photons in the same order.
+TEST_F(GatherFootprints, EveryWayToReadTheMapGivesTheSameBits) {
+    const std::vector<Splat> splats = bumpy(5003, 0.1f);
+    const std::vector<Query> queries = bumpy_queries(200);
+    const Sums first = gather(device(), splats, queries, {.area_samples = 1000});
+    EXPECT_NE(first.sums[0], Gathered());
+    for (const DeviceSetting& setting : variant_settings()) {
+        const Sums other = gather(open(setting), splats, queries, {.area_samples = 1000});
+        EXPECT_EQ(other.sums, first.sums) << setting.name;
+        EXPECT_EQ(other.footprints, first.footprints) << setting.name;
+    }
+}
+
+} // namespace
+} // namespace argand::testing
