@@ -32,12 +32,13 @@ protected:
         return names;
     }
 
-    /// `arguments` as a shell reads them; `environment`: NAME=VALUE ...
+    /// Under the API's validation: a message of it would make the tool fail. `arguments` as a shell reads them,
+    /// redirections included; `environment`: NAME=VALUE ...
     Outcome argand(const std::string& arguments, const std::string& environment = "") const {
         const ScratchDirectory streams;
-        const std::string command = "cd '" + directory_.path().string() + "' && env " + environment +
-                                    " '" ARGAND_EXECUTABLE "' " + arguments + " >'" + (streams / "out").string() +
-                                    "' 2>'" + (streams / "error").string() + "' </dev/null";
+        const std::string command = "cd '" + directory_.path().string() + "' && env ARGAND_VALIDATION=1 " + environment +
+                                    " '" ARGAND_EXECUTABLE "' >'" + (streams / "out").string() + "' 2>'" +
+                                    (streams / "error").string() + "' </dev/null " + arguments;
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(streams / "out"), read_text(streams / "error")};
     }

@@ -19,7 +19,7 @@ protected:
 };
 
 TEST_F(Commands, HelpOfEachHasAnExample) {
-    for (const char* command : {"", "render", "compare", "inspect", "devices"}) {
+    for (const char* command : {"", "render", "compare", "inspect", "devices", "bench"}) {
         const Outcome run = argand(std::string(command) + " --help");
         EXPECT_EQ(run.exit_code, 0) << command;
         EXPECT_EQ(run.error, "") << command;

@@ -4,6 +4,7 @@
 #include "base/json.hpp"
 #include "image/files.hpp"
 #include "image/metrics.hpp"
+#include "overwriting.hpp"
 
 #include <array>
 #include <memory>
@@ -32,6 +33,7 @@ Image read_layer(const std::string& path, const std::string& name) {
 
 void compare_files(const CompareOptions& options) {
     if (!options.output.empty()) {
+        check_overwrites_none(options.output, {options.a, options.b});
         check_image_writable(options.output);
     }
     const Image a = read_layer(options.a, options.layer);

@@ -1,7 +1,11 @@
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "commands.hpp"
+#include "device/validation.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 namespace argand {
@@ -22,7 +26,33 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("{}; `argand {}--help` says what there is", error.what(), command);
 }
 
-int run(int argc, char** argv) {
+/// Never throws: the standard error may be closed or on a full disk, too.
+void complain(const std::string& message) {
+    std::fputs(("argand: " + message + "\n").c_str(), stderr);
+}
+
+/// Whether all that was printed has gone out; what it could not be written to shows only when its buffer is emptied.
+bool printed() {
+    errno = 0;
+    const bool flushed = std::fflush(stdout) == 0;
+    if (flushed && std::ferror(stdout) == 0) {
+        return true;
+    }
+    complain(fmt::format("writing to the standard output: {}; send it elsewhere",
+                         errno != 0 ? std::strerror(errno) : "not all of it could be written"));
+    return false;
+}
+
+/// Says what the API's validation had to say. Whether it was nothing.
+bool validated() {
+    const std::vector<std::string> messages = all_validation_messages();
+    for (const std::string& message : messages) {
+        complain("validation: " + one_line(message, 4096));
+    }
+    return messages.empty();
+}
+
+int parse_and_run(int argc, char** argv) {
     CLI::App app("Argand: a photon-mapping renderer for any Vulkan GPU. Reads glTF 2.0, writes PNG and OpenEXR.");
     app.name("argand");
     app.set_version_flag("--version", "argand " ARGAND_VERSION);
@@ -40,10 +70,29 @@ int run(int argc, char** argv) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);
         }
-        fmt::print(stderr, "argand: {}\n", complaint(app, error));
+        complain(complaint(app, error));
         return usage;
     }
     return 0;
+}
+
+int run(int argc, char** argv) {
+    try {
+        return parse_and_run(argc, argv);
+    } catch (const UsageError& error) {
+        complain(error.what());
+        return usage;
+    } catch (const Error& error) {
+        complain(error.what());
+    } catch (const std::bad_alloc&) {
+        complain("the machine is out of memory; ask for a smaller picture or fewer photons");
+    } catch (const std::exception& error) {
+        // printed() says more of one that came of printing.
+        if (std::ferror(stdout) == 0) {
+            complain(fmt::format("unexpected failure ({}); please report it", error.what()));
+        }
+    }
+    return failure;
 }
 
 } // namespace
@@ -51,17 +100,8 @@ int run(int argc, char** argv) {
 } // namespace argand
 
 int main(int argc, char** argv) {
-    try {
-        return argand::run(argc, argv);
-    } catch (const argand::UsageError& error) {
-        fmt::print(stderr, "argand: {}\n", error.what());
-        return argand::usage;
-    } catch (const argand::Error& error) {
-        fmt::print(stderr, "argand: {}\n", error.what());
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "argand: the machine is out of memory; ask for a smaller picture or fewer photons\n");
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "argand: unexpected failure ({}); please report it\n", error.what());
-    }
-    return argand::failure;
+    const int code = argand::run(argc, argv);
+    const bool printed = argand::printed();
+    const bool validated = argand::validated();
+    return code == 0 && !(printed && validated) ? argand::failure : code;
 }

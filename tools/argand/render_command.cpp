@@ -9,6 +9,7 @@
 #include "image/files.hpp"
 #include "methods/render.hpp"
 #include "numbers.hpp"
+#include "overwriting.hpp"
 #include "report.hpp"
 #include "scene/gltf.hpp"
 
@@ -78,10 +79,14 @@ void check(const RenderOptions& options) {
     if (std::find(methods.begin(), methods.end(), options.method) == methods.end()) {
         throw UsageError(fmt::format("choosing method '{}': choose from {}", options.method, fmt::join(methods, ", ")));
     }
+    std::vector<std::string> files{options.scene};
     for (const std::string& output : options.outputs) {
+        check_overwrites_none(output, files);
         check_image_writable(output);
+        files.push_back(output);
     }
     if (!options.report.empty()) {
+        check_overwrites_none(options.report, files);
         check_writable(options.report);
     }
 }

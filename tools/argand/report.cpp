@@ -27,11 +27,14 @@ Json memory_json(const Device& device) {
 Json render_report(Device& device, const Scene& scene, const RenderSettings& settings, float exposure,
                    const std::vector<std::string>& outputs, const RenderStatistics& statistics,
                    const ReportTimes& times) {
+    const DeviceInfo& info = device.info();
+    const std::uint32_t unlimited_bounces = RenderSettings().bounces;
     Json stages = Json::array();
     for (const StageTime& stage : device.stage_times()) {
-        stages.push_back({{"name", stage.name}, {"gpu_seconds", stage.seconds}, {"runs", stage.runs}});
+        stages.push_back({{"name", stage.name},
+                          {"gpu_seconds", info.features.timestamps ? Json(stage.seconds) : Json()},
+                          {"runs", stage.runs}});
     }
-    const DeviceInfo& info = device.info();
     return {{"scene", scene.name},
             {"outputs", outputs},
             {"parameters",
@@ -40,7 +43,7 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
               {"height", settings.height},
               {"spp", settings.samples},
               {"photons", settings.photons},
-              {"bounces", settings.bounces},
+              {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
               {"radius", statistics.radius},
               {"caustic_radius", statistics.caustic_radius},
               {"smoothing", statistics.smoothing},

@@ -3,6 +3,7 @@
 
 #include "base/environment.hpp"
 #include "base/error.hpp"
+#include "device/validation.hpp"
 #include "device/vulkan/result.hpp"
 
 #include <algorithm>
@@ -42,11 +43,21 @@ bool has_instance_extension(const char* name) {
     });
 }
 
+/// Of the whole process: an instance gives messages until it is destroyed, and there may be several in turn.
+ValidationLog& process_log() {
+    static ValidationLog log;
+    return log;
+}
+
+void append(ValidationLog& log, const char* message) {
+    const std::lock_guard lock(log.mutex);
+    log.messages.emplace_back(message);
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
-    auto* validation = static_cast<ValidationLog*>(log);
-    const std::lock_guard lock(validation->mutex);
-    validation->messages.emplace_back(data->pMessage);
+    append(*static_cast<ValidationLog*>(log), data->pMessage);
+    append(process_log(), data->pMessage);
     return VK_FALSE;
 }
 
@@ -145,3 +156,13 @@ std::shared_ptr<Instance> instance() {
 }
 
 } // namespace argand::vulkan
+
+namespace argand {
+
+std::vector<std::string> all_validation_messages() {
+    vulkan::ValidationLog& log = vulkan::process_log();
+    const std::lock_guard lock(log.mutex);
+    return log.messages;
+}
+
+} // namespace argand

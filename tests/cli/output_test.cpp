@@ -1,0 +1,75 @@
+// What the tool writes where, and that it says so when it cannot.
+#include "argand_run.hpp"
+
+#include <filesystem>
+
+namespace argand::testing {
+namespace {
+
+constexpr int failure = 1;
+constexpr int usage = 2;
+
+using Outputs = ArgandTest;
+
+TEST_F(Outputs, NothingThatIsReadOrWrittenIsReplaced) {
+    write_text(file("scene.glb"), read_text(asset("cornell_point.glb")));
+    std::filesystem::create_symlink("scene.glb", file("link.json"));
+    std::filesystem::create_directory(file("folder"));
+    const std::string render = "render scene.glb --size 4x4 --spp 1 ";
+    for (const char* options : {"--json scene.glb", "--json ./folder/../scene.glb", "--json link.json",
+                                "-o a.png --json a.png", "-o a.png --json ./a.png", "-o a.png -o folder/../a.png",
+                                "-o a.exr -o b.png -o a.exr"}) {
+        expect_failure(render + options, usage, "would replace");
+    }
+    expect_failure("render '" + file("scene.glb") + "' --json scene.glb", usage, "would replace");
+    expect_failure("render scene.glb --json scene.png", usage, "would replace"); // the picture's name by default
+    EXPECT_TRUE(read_text(file("scene.glb")) == read_text(asset("cornell_point.glb")));
+
+    ASSERT_EQ(argand(render + "-q -o a.exr -o b.exr --json report.json").exit_code, 0);
+    const std::string before = read_text(file("b.exr"));
+    expect_failure("compare a.exr b.exr -o b.exr", usage, "would replace");
+    expect_failure("compare a.exr b.exr -o ./a.exr", usage, "would replace");
+    EXPECT_TRUE(read_text(file("b.exr")) == before);
+}
+
+TEST_F(Outputs, AFullStandardOutputIsNamed) {
+    if (!std::filesystem::exists("/dev/full")) {
+        GTEST_SKIP() << "there is no /dev/full here, the only output that is always full";
+    }
+    const std::string scene = "'" + asset("cornell_glass.glb") + "' ";
+    for (const std::string& arguments :
+         {"inspect --json " + scene, "inspect " + scene, std::string("devices"), std::string("render --help"),
+          "render --size 4x4 --spp 1 --photons 0 -o a.png " + scene}) {
+        const Outcome run = argand(arguments + " >/dev/full");
+        EXPECT_EQ(run.exit_code, failure) << arguments;
+        EXPECT_THAT(run.error, ::testing::StartsWith("argand: writing to the standard output: ")) << arguments;
+        EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+    }
+    EXPECT_EQ(argand("render missing.glb 2>/dev/full").exit_code, failure);
+    EXPECT_EQ(argand("paint 2>/dev/full").exit_code, usage);
+}
+
+TEST_F(Outputs, ValidationIsHeard) {
+    // Best practices are beyond what Argand asks validation for, and it follows not all of them.
+    const Outcome run = argand("render '" + asset("cornell_point.glb") + "' --size 4x4 --spp 1 --photons 0 -q -o a.png",
+                               "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");
+    EXPECT_EQ(run.exit_code, failure);
+    EXPECT_THAT(run.error, ::testing::StartsWith("argand: validation: "));
+}
+
+TEST_F(Outputs, ReportSaysNullOfWhatThereIsNot) {
+    const std::string render = "render '" + asset("cornell_point.glb") + "' -q --size 4x4 --spp 1 --photons 100 -o a.png ";
+    const Outcome run = argand(render + "--json a.json", "ARGAND_DISABLE=timestamps");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const nlohmann::json report = nlohmann::json::parse(read_text(file("a.json")));
+    EXPECT_TRUE(report.at("parameters").at("bounces").is_null());
+    ASSERT_FALSE(report.at("stages").empty());
+    for (const nlohmann::json& stage : report.at("stages")) {
+        EXPECT_TRUE(stage.at("gpu_seconds").is_null()) << stage;
+        EXPECT_GT(stage.at("runs"), 0) << stage;
+    }
+    EXPECT_GT(report.at("wall_seconds").at("render"), 0);
+}
+
+} // namespace
+} // namespace argand::testing
