@@ -149,6 +149,30 @@ TEST_F(Commands, DeviceByNameAndByIndex) {
     EXPECT_THAT(files(), ElementsAre("a.exr", "b.exr"));
 }
 
+TEST_F(Commands, BenchPrintsARowForEachMeasurement) {
+    // Buffers of 1 MiB leave the small sizes only; without time stamps the clock serves.
+    for (const char* disable : {"", " ARGAND_DISABLE=timestamps"}) {
+        const Outcome run = argand("bench parallel --json", std::string("ARGAND_LIMIT=storage_range=1MiB") + disable);
+        ASSERT_EQ(run.exit_code, 0) << run.error;
+        const nlohmann::json rows = nlohmann::json::parse(run.out);
+        ASSERT_FALSE(rows.empty());
+        for (const nlohmann::json& row : rows) {
+            std::vector<std::string> keys;
+            for (const auto& [key, value] : row.items()) {
+                keys.push_back(key);
+            }
+            EXPECT_THAT(keys, ::testing::UnorderedElementsAre("name", "n", "seconds", "rate", "unit", "bound", "peer",
+                                                              "peer_rate"));
+            EXPECT_GT(row.at("seconds"), 0) << row;
+            const double items = row.at("rate").get<double>() * row.at("seconds").get<double>();
+            EXPECT_NEAR(items, row.at("n"), 1e-6 * items) << row;
+            EXPECT_GT(row.at("bound"), 0) << row;
+            EXPECT_GT(row.at("peer_rate"), 0) << row;
+            EXPECT_NE(row.at("peer"), "") << row;
+        }
+    }
+}
+
 TEST_F(Commands, NotesSayWhatWasMadeUp) {
     const Outcome run = render("-o a.png", "sky_room.glb");
     EXPECT_THAT(run.error, HasSubstr("argand: note: "));

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <system_error>
 
 namespace argand {
 
@@ -31,15 +32,17 @@ void complain(const std::string& message) {
     std::fputs(("argand: " + message + "\n").c_str(), stderr);
 }
 
-/// Whether all that was printed has gone out; what it could not be written to shows only when its buffer is emptied.
-bool printed() {
-    errno = 0;
-    const bool flushed = std::fflush(stdout) == 0;
-    if (flushed && std::ferror(stdout) == 0) {
+/// Whether all that was printed has gone out; often that shows only when the buffer is emptied. `code`: the errno of what
+/// failed before, if anything.
+bool printed(int code) {
+    if (std::fflush(stdout) != 0 && code == 0) {
+        code = errno;
+    }
+    if (code == 0 && std::ferror(stdout) == 0) {
         return true;
     }
     complain(fmt::format("writing to the standard output: {}; send it elsewhere",
-                         errno != 0 ? std::strerror(errno) : "not all of it could be written"));
+                         code != 0 ? std::strerror(code) : "not all of it could be written"));
     return false;
 }
 
@@ -76,7 +79,8 @@ int parse_and_run(int argc, char** argv) {
     return 0;
 }
 
-int run(int argc, char** argv) {
+/// The exit status. `output_error`: the errno of a failure to print.
+int run(int argc, char** argv, int& output_error) {
     try {
         return parse_and_run(argc, argv);
     } catch (const UsageError& error) {
@@ -87,8 +91,10 @@ int run(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         complain("the machine is out of memory; ask for a smaller picture or fewer photons");
     } catch (const std::exception& error) {
-        // printed() says more of one that came of printing.
-        if (std::ferror(stdout) == 0) {
+        const auto* system = dynamic_cast<const std::system_error*>(&error);
+        if (system && std::ferror(stdout) != 0) {
+            output_error = system->code().value();
+        } else {
             complain(fmt::format("unexpected failure ({}); please report it", error.what()));
         }
     }
@@ -100,8 +106,9 @@ int run(int argc, char** argv) {
 } // namespace argand
 
 int main(int argc, char** argv) {
-    const int code = argand::run(argc, argv);
-    const bool printed = argand::printed();
+    int output_error = 0;
+    const int code = argand::run(argc, argv, output_error);
+    const bool printed = argand::printed(output_error);
     const bool validated = argand::validated();
     return code == 0 && !(printed && validated) ? argand::failure : code;
 }

@@ -32,8 +32,8 @@ double median_host_seconds(const std::function<void()>& prepare, const std::func
 /// Bytes per second that the device reads and writes while it copies a buffer too large for caches.
 double copy_rate(Device& device);
 
-/// Reductions, scans, compaction and sorts of 2^10 to 2^24 elements, beside the standard library's on one
-/// thread.
+/// Reductions, scans, compaction and sorts of 2^10 to 2^24 elements, as far as the device can address them, beside the
+/// standard library's on one thread.
 std::vector<BenchRow> bench_parallel(Device& device);
 
 } // namespace argand

@@ -142,7 +142,9 @@ void bench_sorts(const Bench& bench, const std::vector<std::uint32_t>& data, con
 std::vector<BenchRow> bench_parallel(Device& device) {
     std::vector<BenchRow> rows;
     const double copied = copy_rate(device);
-    for (std::uint32_t log_n = 10; log_n <= 24; log_n += 2) {
+    // The largest buffer holds the 64-bit keys.
+    const std::uint64_t most = device.info().limits.storage_range / sizeof(std::uint64_t);
+    for (std::uint32_t log_n = 10; log_n <= 24 && std::uint64_t(1) << log_n <= most; log_n += 2) {
         const Bench bench{device, std::size_t(1) << log_n, copied, rows};
         const std::vector<std::uint32_t> data = random_data<std::uint32_t>(bench.n);
         const Buffer in = upload(device, "bench: elements", data);

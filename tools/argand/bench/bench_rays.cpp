@@ -15,24 +15,8 @@ namespace argand {
 namespace {
 
 constexpr std::uint32_t edge = 1024;    // of the square picture
-constexpr int repetitions = 7;
 
-/// Shortest time that the device spends in work(), of several, after one run to warm up.
-template <class Function>
-double fastest(Device& device, Function&& work) {
-    work();
-    device.wait();
-    double best = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < repetitions; ++i) {
-        device.reset_stage_times();
-        {
-            const StageScope stage(device, "measured");
-            work();
-        }
-        best = std::min(best, device.stage_times().front().seconds);
-    }
-    return best;
-}
+void nothing() {}
 
 std::vector<RayRecord> records(const BenchRays& rays) {
     std::vector<RayRecord> result(rays.origins.size());
@@ -60,8 +44,9 @@ struct RayBench {
         const Buffer uploaded = upload(device, "bench rays", records(rays));
         const Buffer occluded = device.allocate("bench occluded", n * sizeof(std::uint32_t));
         const double seconds =
-            fastest(device, [&] { trace_any(device, bvh, traversal, uploaded, active, occluded, n); });
-        return with_peer(make_row(name, n, seconds, "rays/s"), peer.occluded_rate(rays));
+            median_device_seconds(device, nothing,
+                                  [&] { trace_any(device, bvh, traversal, uploaded, active, occluded, n); });
+        return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::occluded_name, peer.occluded_rate(rays));
     }
 
     BenchRow closest(const std::string& name, const BenchRays& rays, std::vector<HitRecord>& found) {
@@ -69,14 +54,15 @@ struct RayBench {
         const Buffer uploaded = upload(device, "bench rays", records(rays));
         const Buffer hits = device.allocate("bench hits", n * sizeof(HitRecord));
         const double seconds =
-            fastest(device, [&] { trace_closest(device, bvh, traversal, uploaded, active, hits, n); });
+            median_device_seconds(device, nothing,
+                                  [&] { trace_closest(device, bvh, traversal, uploaded, active, hits, n); });
         found = download<HitRecord>(device, hits, n);
-        return with_peer(make_row(name, n, seconds, "rays/s"), peer.closest_rate(rays));
+        return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::closest_name, peer.closest_rate(rays));
     }
 
-    BenchRow with_peer(BenchRow row, double rate) const {
+    static BenchRow with_peer(BenchRow row, const char* name, double rate) {
         if (rate > 0) {
-            row.peer = EmbreePeer::name();
+            row.peer = name;
             row.peer_rate = rate;
         }
         return row;
@@ -136,7 +122,7 @@ std::vector<BenchRow> bench_rays(Device& device) {
 
     TriangleBvh bvh;
     const double seconds =
-        fastest(device, [&] { bvh = build_triangle_bvh(device, positions, triangles, count); });
+        median_device_seconds(device, nothing, [&] { bvh = build_triangle_bvh(device, positions, triangles, count); });
     rows.push_back(make_row("bvh build", count, seconds, "triangles/s"));
 
     std::vector<std::uint32_t> everyone(std::uint64_t(edge) * edge);

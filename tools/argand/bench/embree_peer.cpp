@@ -2,12 +2,12 @@
 
 #ifdef ARGAND_HAVE_EMBREE
 
+#include "bench.hpp"
+
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <embree3/rtcore.h>
-#include <limits>
 #include <thread>
 
 namespace argand {
@@ -58,12 +58,11 @@ RTCRay make_ray(const BenchRays& rays, std::size_t i) {
     return ray;
 }
 
-/// Fastest of several runs of trace(i) for all rays, in chunks that the threads take as they come to them.
+/// Runs of trace(i) for all rays per second, in chunks that the threads take as they come to them.
 template <class Function>
 double rate(std::size_t count, Function&& trace) {
     constexpr std::size_t chunk = 4096;
-    double best = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 5; ++i) {
+    const auto trace_all = [&] {
         std::atomic<std::size_t> next = 0;
         const auto work = [&] {
             for (std::size_t first = next.fetch_add(chunk); first < count; first = next.fetch_add(chunk)) {
@@ -72,16 +71,12 @@ double rate(std::size_t count, Function&& trace) {
                 }
             }
         };
-        const auto begin = std::chrono::steady_clock::now();
-        {
-            std::vector<std::jthread> threads;
-            for (unsigned thread = 0; thread < std::max(1u, std::thread::hardware_concurrency()); ++thread) {
-                threads.emplace_back(work);
-            }
+        std::vector<std::jthread> threads;
+        for (unsigned thread = 0; thread < std::max(1u, std::thread::hardware_concurrency()); ++thread) {
+            threads.emplace_back(work);
         }
-        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    }
-    return double(count) / best;
+    };
+    return double(count) / median_host_seconds([] {}, trace_all);
 }
 
 } // namespace

@@ -15,7 +15,8 @@ public:
     EmbreePeer(const EmbreePeer&) = delete;
     EmbreePeer& operator=(const EmbreePeer&) = delete;
 
-    static const char* name() { return "Embree 3, rtcIntersect1"; }
+    static constexpr const char* closest_name = "Embree 3, rtcIntersect1";
+    static constexpr const char* occluded_name = "Embree 3, rtcOccluded1";
     double closest_rate(const BenchRays& rays) const;
     double occluded_rate(const BenchRays& rays) const;
 
