@@ -2,12 +2,14 @@
 #include "base/error.hpp"
 #include "methods/methods.hpp"
 #include "photon/gather.hpp"
+#include "photon/nearest.hpp"
 #include "plan/radius.hpp"
 #include "plan/smoothing.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace argand {
@@ -30,7 +32,8 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
 /// The radii for all passes, from the photons of the first and the points at which the picture will ask for them. The
 /// radius of caustics follows from where their photons are, which is where the caustics are.
 GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
-                       const StoredPhotons& stored, std::uint64_t passes, const std::vector<glm::vec3>& queries) {
+                       const StoredPhotons& stored, std::uint64_t passes, const std::vector<glm::vec3>& queries,
+                       std::optional<std::uint32_t> neighbours) {
     constexpr std::size_t caustic_samples = 1024;
     const PhotonMap map = build_photon_map(device, scene, workspace, stored);
     const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
@@ -45,7 +48,8 @@ GatherRadii radii_from(Device& device, const DeviceScene& scene, PhotonWorkspace
     const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
     const auto share = static_cast<double>(passes);
     const auto radius_of = [&](const std::vector<PhotonRecord>& some, const std::vector<glm::vec3>& points) {
-        const double in_disc = photons_in_disc(static_cast<double>(some.size()) * share) / share;
+        const double in_disc =
+            neighbours ? *neighbours : photons_in_disc(static_cast<double>(some.size()) * share) / share;
         return median_radius(some, points, center - scene.record.radius, center + scene.record.radius, in_disc);
     };
     GatherRadii radii;
@@ -112,11 +116,26 @@ bool has_room(const Device& device, const std::optional<StoredPhotons>& stored) 
     return stored && stored->slots <= max_stored_photons(device) / 10 * 9;
 }
 
+// r_max of the nearest photons, in radii that hold k of them where photons are as dense as in the median.
+constexpr double reach_of_nearest = 2.5;
+
+/// How radiance is estimated from the map.
+enum class Estimator { radius, footprints, nearest };
+
+/// k of one pass, from the photons of the first.
+std::uint32_t neighbours_of(const RenderSettings& settings, std::uint64_t photons, std::uint64_t passes) {
+    const auto share = static_cast<double>(passes);
+    const double automatic = std::round(photons_in_disc(static_cast<double>(photons) * share) / share);
+    return settings.neighbours.value_or(static_cast<std::uint32_t>(std::max(automatic, 2.0)));
+}
+
 /// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at least once, density
 /// estimation within a radius where eye rays meet estimated lobes, direct light by shadow rays. Each pass has its own
 /// photons and its own eye paths, so that memory is bounded.
 RenderResult render_map(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
-                        bool footprints) {
+                        Estimator estimator) {
+    const bool footprints = estimator == Estimator::footprints;
+    const bool nearest = estimator == Estimator::nearest;
     const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
@@ -157,7 +176,13 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
             const std::vector<glm::vec3> queries =
                 sample_queries(device, on_device, eye, settings, scene.cameras[settings.camera]);
             radii = settings.radius ? GatherRadii{*settings.radius, *settings.radius}
-                                    : radii_from(device, on_device, workspace, *stored, passes, queries);
+                                    : radii_from(device, on_device, workspace, *stored, passes, queries,
+                                                 nearest ? settings.neighbours : std::nullopt);
+            if (nearest) {
+                statistics.neighbours = neighbours_of(settings, stored->photons, passes);
+                radii.indirect *= settings.radius ? 1 : reach_of_nearest;
+                radii.caustic = radii.indirect;
+            }
             statistics.radius = radii.indirect;
             statistics.caustic_radius = radii.caustic;
             if (footprints) {
@@ -176,9 +201,11 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                 scale->caustic_max = std::max(scale->caustic_min, most_caustic * static_cast<float>(radii.caustic));
             }
         }
+        // The nearest ask for their own discs, of which many are smaller than the median.
+        const double sampled = nearest ? 0.75 / reach_of_nearest * statistics.radius : statistics.radius;
         const PhotonMap map = build_photon_map(
             device, on_device, workspace, *stored,
-            {.area_samples = area_samples(on_device.surface_area, statistics.radius),
+            {.area_samples = area_samples(on_device.surface_area, sampled),
              .seed = settings.seed + static_cast<std::uint32_t>(pass), .leaf_size = settings.footprints.leaf_size,
              .footprints = scale});
         statistics.mean_footprints = map.mean_footprints;
@@ -189,6 +216,11 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
             if (footprints) {
                 gather_footprints(device, on_device, map, target, eye.traversal, settings.footprints.uniform_kernel,
                                   asking);
+            } else if (nearest) {
+                gather_nearest(device, on_device, map, target, eye.traversal,
+                               {.neighbours = statistics.neighbours, .radius = radii.indirect,
+                                .samples_per_area = map.area_samples / std::max(on_device.surface_area, 1e-30)},
+                               asking);
             } else {
                 gather_photons(device, on_device, map, target, eye.traversal, radii, asking);
             }
@@ -213,12 +245,17 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
 
 RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
                             const OnProgress& progress) {
-    return render_map(device, scene, settings, progress, false);
+    return render_map(device, scene, settings, progress, Estimator::radius);
 }
 
 RenderResult render_footprints(Device& device, const Scene& scene, const RenderSettings& settings,
                                const OnProgress& progress) {
-    return render_map(device, scene, settings, progress, true);
+    return render_map(device, scene, settings, progress, Estimator::footprints);
+}
+
+RenderResult render_nearest(Device& device, const Scene& scene, const RenderSettings& settings,
+                            const OnProgress& progress) {
+    return render_map(device, scene, settings, progress, Estimator::nearest);
 }
 
 } // namespace argand

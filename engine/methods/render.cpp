@@ -14,7 +14,8 @@ struct NamedMethod {
     Method method;
 };
 
-constexpr NamedMethod methods[] = {{"photons", render_photons}, {"footprints", render_footprints}, {"path", render_path}};
+constexpr NamedMethod methods[] = {{"photons", render_photons}, {"footprints", render_footprints},
+                                   {"knn", render_nearest}, {"path", render_path}};
 
 } // namespace
 

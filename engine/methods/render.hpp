@@ -33,7 +33,8 @@ struct RenderSettings {
     std::uint32_t samples = 8;                  ///< eye paths per pixel
     std::uint64_t photons = 200'000;            ///< photons emitted in all
     std::uint32_t bounces = 0xffff;             ///< the most scatterings between light and first estimated vertex
-    std::optional<double> radius;               ///< of density estimation, in the scene's units
+    std::optional<double> radius;               ///< of density estimation, in the scene's units; of `knn`: r_max
+    std::optional<std::uint32_t> neighbours;    ///< k of `knn` in each pass, at least 1; none: from the photons stored
     std::uint32_t seed = 0;
     std::size_t camera = 0;                     ///< index into Scene::cameras
     float follow_roughness = 0.25f;             ///< glossy lobes at most this rough are followed from the eye
@@ -54,6 +55,7 @@ struct RenderStatistics {
     std::uint64_t photons_stored = 0;
     double radius = 0;                          ///< that was used; 0: none
     double caustic_radius = 0;                  ///< the same for caustic photons
+    std::uint32_t neighbours = 0;               ///< k of `knn`; 0: none
     double smoothing = 0;                       ///< of footprints; 0: none
     double mean_footprints = 0;                 ///< on a point, if they were spread evenly
     std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most

@@ -12,7 +12,7 @@ struct GatherTarget {
     Buffer slots, counts;       ///< slots that ask, and the buffer that holds their number
     Buffer queries;             ///< QueryRecord per slot
     Buffer layers;              ///< LayersRecord
-    Buffer partial;             ///< GatherRecord: queries between two dispatches
+    Buffer partial;             ///< GatherRecord: queries between two dispatches (gather_nearest does without)
 };
 
 /// Radii of density estimation, in the scene's units; caustics are sharp, and have one of their own, at most the other.

@@ -68,6 +68,10 @@ struct PhotonGatherParams {
     float32 radius;             // of density estimation within a radius
     float32 caustic_radius;     // the same of caustic photons, at most `radius`
     float32 flatness;           // of footprints
+    uint neighbours;            // k
+    float32 samples_per_area;   // area samples
+    uint first_query;           // of this dispatch
+    uint places;                // for queries that are put aside; 0: they are not (nearest_gather only)
     uint pad;
 };
 

@@ -177,8 +177,13 @@ void add_render_command(CLI::App& app) {
         ->add_option("--bounces", settings.bounces,
                      "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
         ->check(integer_between(0, 0xffff));
-    command->add_option("--radius", options->radius, "Radius of density estimation (default: from the scene)")
+    command->add_option("--radius", options->radius,
+                        "Radius of density estimation; of method knn, the largest (default: from the scene)")
         ->check(number_between(1e-18, 1e18));   // its square and the inverse of that are finite
+    command
+        ->add_option("--k", settings.neighbours,
+                     "Photons that an estimate of method knn takes, the nearest (default: from the photons stored)")
+        ->check(integer_between(1, 0xffffffff));
     command->add_option("--follow-roughness", settings.follow_roughness,
                         "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
         ->capture_default_str()

@@ -46,6 +46,7 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
               {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
               {"radius", statistics.radius},
               {"caustic_radius", statistics.caustic_radius},
+              {"k", statistics.neighbours},
               {"smoothing", statistics.smoothing},
               {"leaf_size", statistics.leaf_size},
               {"follow_roughness", settings.follow_roughness},

@@ -1,6 +1,6 @@
 // Density estimation over the footprints that reach a query: Fabianowski and Dingliana 2009, eq. 1 and section 6.3.
 // Included by kernels that define TEXELS (0 or 1).
-#include "photon/query.glsl"
+#include "photon/query_state.glsl"
 #include "shared/footprint.h"
 
 #if TEXELS

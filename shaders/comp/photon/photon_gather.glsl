@@ -1,5 +1,5 @@
 // Density estimation within a radius. Included by kernels that define TEXELS (0 or 1).
-#include "photon/query.glsl"
+#include "photon/query_state.glsl"
 
 void main() {
     Query q;

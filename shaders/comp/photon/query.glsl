@@ -1,5 +1,5 @@
 // What all kinds of density estimation at the eye's queries have in common: reading a query, what its surface scatters of
-// a photon's flux, sums that can be put aside between two dispatches, and their end.
+// a photon's flux, and adding the sums to the layers.
 #include "photon/map_walk.glsl"
 #include "shared/bsdf.h"
 #include "shared/path_records.h"
@@ -9,7 +9,6 @@ layout(set = 0, binding = 3) readonly buffer Active { uint active_slots[]; };
 layout(set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 5) readonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
-layout(set = 0, binding = 7) buffer Gathers { GatherRecord gathers[]; };
 layout(set = 0, binding = 8) buffer Unfinished { uint unfinished[]; };
 layout(set = 0, binding = 9) buffer Layers { LayersRecord layers[]; };
 layout(push_constant) uniform Push { PhotonGatherParams params; };
@@ -50,31 +49,15 @@ struct Query {
     uint node;              // to go on with
 };
 
-// False: there is nothing to do.
-bool load_query(out Query q) {
-    uint i = THREAD_INDEX;
-    if (i >= counts[params.count_index]) {
-        return false;
-    }
-    q.slot = active_slots[i];
-    QueryRecord record = queries[q.slot];
+// The query of a slot, before its walk.
+Query make_query(uint slot) {
+    Query q;
+    q.slot = slot;
+    QueryRecord record = queries[slot];
     q.indirect = Sum(vec3(0.0), vec3(0.0));
     q.caustic = Sum(vec3(0.0), vec3(0.0));
     q.coverage = 0.0;
     q.node = first_node();
-    if (params.first == 0u) {
-        GatherRecord g = gathers[q.slot];
-        q.indirect.value = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
-        q.caustic.value = vec3(g.caustic_r, g.caustic_g, g.caustic_b);
-        q.indirect.compensation =
-            vec3(g.indirect_compensation_r, g.indirect_compensation_g, g.indirect_compensation_b);
-        q.caustic.compensation = vec3(g.caustic_compensation_r, g.caustic_compensation_g, g.caustic_compensation_b);
-        q.coverage = g.coverage;
-        q.node = g.node;
-        if (q.node == lbvh_end) {
-            return false;
-        }
-    }
     q.material = materials[record.material];
     q.lobes = record.lobes;
     q.lambertian = !glossy || bsdf_lobes(q.material) == LOBE_DIFFUSE;
@@ -87,7 +70,7 @@ bool load_query(out Query q) {
     q.wo = to_local(q.frame, unpack_unit(record.direction));
     q.reflectance = q.lambertian ? bsdf_eval(q.material, q.wo, vec3(0.0, 0.0, 1.0), q.lobes) : vec3(0.0);
     q.throughput = vec3(record.throughput_r, record.throughput_g, record.throughput_b);
-    return true;
+    return q;
 }
 
 // Whether a photon's or an area sample's packed normal is that of the query's surface, on its side.
@@ -111,19 +94,8 @@ vec3 scattered(Query q, uvec4 carried) {
     return flux * (wi.z > 0.0 ? bsdf_eval(q.material, q.wo, wi, q.lobes) : vec3(0.0));
 }
 
-// Puts the query aside if its walk has not come to its end. Else adds the sums to the layers; the scales are for what
-// the kernels lost off the surfaces.
-void store_query(Query q, float indirect_scale, float caustic_scale) {
-    if (q.node != lbvh_end) {
-        vec3 a = q.indirect.compensation;
-        vec3 b = q.caustic.compensation;
-        gathers[q.slot] =
-            GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z, q.node, q.caustic.value.x,
-                         q.caustic.value.y, q.caustic.value.z, q.coverage, a.x, a.y, a.z, 0.0, b.x, b.y, b.z, 0.0);
-        atomicAdd(unfinished[0], 1u);
-        return;
-    }
-    gathers[q.slot].node = lbvh_end;
-    add_to_layer(q.slot, layer_indirect, q.throughput * indirect_scale * q.indirect.value);
-    add_to_layer(q.slot, layer_caustic, q.throughput * caustic_scale * q.caustic.value);
+// Adds sums to the query's layers.
+void add_to_layers(Query q, vec3 indirect, vec3 caustic) {
+    add_to_layer(q.slot, layer_indirect, q.throughput * indirect);
+    add_to_layer(q.slot, layer_caustic, q.throughput * caustic);
 }
