@@ -1,5 +1,6 @@
 #include "bench_photons.hpp"
 
+#include "bench_nearest.hpp"
 #include "cornell_scene.hpp"
 #include "methods/render.hpp"
 #include "photon/photon_map.hpp"
@@ -47,6 +48,10 @@ std::vector<BenchRow> bench_photons(Device& device) {
     rows.push_back({"photons, Cornell box", photons, traced, photons / traced, "photons/s", copied / traced_bytes, "", 0});
     // Codes and order pass through four passes of the sort, records are read and written once.
     rows.push_back({"photon map", left.slots, built, stored / built, "photons/s", copied / (4 * 2 * 8 + 2 * 32 + 16), "", 0});
+
+    for (BenchRow& row : bench_nearest(device, scene, workspace, left)) {
+        rows.push_back(std::move(row));
+    }
 
     // Of a render's stages only the device's own time stamps tell.
     if (!device.info().features.timestamps) {

@@ -1,0 +1,346 @@
+// Density estimation over the k nearest photons: which they are, and the sum over them, against nanoflann and double
+// precision.
+#include "rendering.hpp"
+
+#include "photon/nearest.hpp"
+#include "shared/bsdf.h"
+#include "shared/nearest_records.h"
+#include "shared/path_records.h"
+#include "shared/photon.h"
+#include "shared/query_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+#include <random>
+
+namespace argand::testing {
+namespace {
+
+constexpr float albedo = 0.5f;
+constexpr std::uint32_t ks[] = {1, 2, 3, 150, 499, 500};
+
+struct Query {
+    glm::vec3 position{0};
+    glm::vec3 normal{0, 1, 0};
+};
+
+/// A photon's squared distance, by its bits, and its place in the map.
+struct Neighbour {
+    std::uint32_t bits, index;
+    auto operator<=>(const Neighbour&) const = default;
+};
+
+struct Answer {
+    glm::dvec3 indirect{0}, caustic{0};
+    NearestRecord state;
+};
+
+struct Answers {
+    std::vector<PhotonRecord> photons;      // in the order of the map
+    std::vector<Answer> of;
+    bool finished = true;
+};
+
+struct Points {
+    const std::vector<PhotonRecord>& photons;
+    std::size_t kdtree_get_point_count() const { return photons.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return axis == 0 ? photons[i].x : axis == 1 ? photons[i].y : photons[i].z;
+    }
+    template <class Box> bool kdtree_get_bbox(Box&) const { return false; }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3, std::uint32_t>;
+
+/// nanoflann's result set: the k first by distance in the query's flat ball and place, of photons on its surface. That
+/// distance is no less than the Euclidean one, by which nanoflann leaves out what is too far.
+class OnSurface {
+public:
+    OnSurface(const std::vector<PhotonRecord>& photons, const Query& query, std::size_t k, float radius)
+        : photons_(photons), query_(query), normal_(unpack_unit(pack_unit(query.normal))),
+          own_(pack_photon_normal(normal_, false)), k_(k), limit_(float_bits(radius * radius)) {}
+
+    bool addPoint(float, std::uint32_t index) {
+        const PhotonRecord& p = photons_[index];
+        const glm::vec3 d = glm::vec3(p.x, p.y, p.z) - query_.position;
+        const float height = dot3(d, normal_);
+        const std::uint32_t bits = float_bits(dot3(d, d) + nearest_stretch * (height * height));
+        const bool same_side = (p.normal & photon_normal_mask) == own_ ||
+                               dot3(unpack_photon_normal(p.normal), normal_) >= same_surface_cosine;
+        if ((p.normal & area_sample_bit) == 0 && bits < limit_ && same_side) {
+            found_.push_back({bits, index});
+            std::push_heap(found_.begin(), found_.end());
+            if (found_.size() > k_) {
+                std::pop_heap(found_.begin(), found_.end());
+                found_.pop_back();
+            }
+        }
+        return true;
+    }
+    float worstDist() const {
+        const std::uint32_t bits = found_.size() == k_ ? found_.front().bits : limit_;
+        return bits_float(bits) * 1.0001f + 1e-37f;     // those as far as the k-th, too
+    }
+    bool full() const { return found_.size() == k_; }
+    std::size_t size() const { return found_.size(); }
+    std::vector<Neighbour> sorted() {
+        std::sort_heap(found_.begin(), found_.end());
+        return found_;
+    }
+
+private:
+    const std::vector<PhotonRecord>& photons_;
+    const Query& query_;
+    glm::vec3 normal_;
+    std::uint32_t own_;
+    std::size_t k_;
+    std::uint32_t limit_;
+    std::vector<Neighbour> found_;
+};
+
+class GatherNearest : public RenderTest {
+protected:
+    GatherNearest() : random_(7) {}
+
+    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+
+    PhotonRecord photon(glm::vec3 position, bool caustic = false, glm::vec3 normal = {0, 1, 0}) {
+        return {position.x, position.y, position.z, pack_photon_normal(normal, caustic),
+                uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
+    }
+
+    std::vector<PhotonRecord> floor_photons(std::size_t count) {
+        std::vector<PhotonRecord> photons;
+        for (std::size_t i = 0; i < count; ++i) {
+            photons.push_back(photon({uniform(-1, 1), 0, uniform(-1, 1)}, i % 3 == 0));
+        }
+        return photons;
+    }
+
+    std::vector<Query> floor_queries(std::size_t count) {
+        std::vector<Query> queries;
+        for (std::size_t i = 0; i < count; ++i) {
+            queries.push_back({{uniform(-1, 1), 0, uniform(-1, 1)}});
+        }
+        return queries;
+    }
+
+    Answers gather(Device& on, const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, std::uint32_t k,
+                   float radius, std::uint32_t budget = gather_budget, bool careful = true, std::uint64_t area_samples = 0) {
+        const DeviceScene scene = upload_scene(on, floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
+        PhotonWorkspace workspace = make_photon_workspace(on, photons.size() + area_samples);
+        on.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
+        std::vector<std::uint32_t> counters(counter_count, 0);
+        counters[counter_stored_slots] = static_cast<std::uint32_t>(photons.size());
+        on.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
+        const PhotonMap map =
+            build_photon_map(on, scene, workspace, {photons.size(), photons.size()}, {.area_samples = area_samples});
+
+        const std::size_t n = queries.size();
+        std::vector<std::uint32_t> active;
+        std::vector<QueryRecord> records;
+        for (const Query& q : queries) {
+            active.push_back(static_cast<std::uint32_t>(active.size()));
+            records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, pack_unit(q.normal),
+                               pack_unit(q.normal), pack_unit(q.normal), LOBE_DIFFUSE, 1});
+        }
+        GatherTarget target{.slots = upload(on, "slots", active),
+                            .counts = upload(on, "counts", std::vector<std::uint32_t>{static_cast<std::uint32_t>(n)}),
+                            .queries = upload(on, "queries", records),
+                            .layers = upload(on, "layers", std::vector<LayersRecord>(n)),
+                            .partial = Buffer()};
+        Traversal traversal = make_traversal(on, n);
+        traversal.careful = careful;
+        on.fill(traversal.unfinished, 0);
+        gather_nearest(on, scene, map, target, traversal,
+                       {.neighbours = k, .radius = radius, .samples_per_area = map.area_samples / scene.surface_area},
+                       Count(target.counts, 0, n), budget);
+        Answers answers;
+        answers.finished = download<std::uint32_t>(on, traversal.unfinished, 1)[0] == 0;
+        const auto layers = download<LayersRecord>(on, target.layers, n);
+        std::vector<NearestRecord> states(n);
+        if (careful) {
+            states = download<NearestRecord>(on, on.scratch(nearest_states, 0), n);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const LayersRecord& l = layers[i];
+            EXPECT_EQ(l.direct_r, 0);
+            answers.of.push_back({{l.indirect_r, l.indirect_g, l.indirect_b}, {l.caustic_r, l.caustic_g, l.caustic_b}, states[i]});
+        }
+        answers.photons = download<PhotonRecord>(on, map.photons, download<std::uint32_t>(on, map.counters, 1, counter_stored)[0]);
+        return answers;
+    }
+
+    /// The k-th neighbour is nanoflann's, to the bit of its distance, and so are all before it; the estimate is the
+    /// kernel's sum over them.
+    void expect_nearest(const Answers& answers, const std::vector<Query>& queries, std::uint32_t k, float radius) {
+        const Points points{answers.photons};
+        const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            OnSurface found(answers.photons, queries[i], k, radius);
+            if (!answers.photons.empty()) {
+                tree.findNeighbors(found, &queries[i].position.x, nanoflann::SearchParams());
+            }
+            const std::vector<Neighbour> expected = found.sorted();
+            const NearestRecord& state = answers.of[i].state;
+            ASSERT_EQ(state.phase, nearest_done);
+            if (expected.size() == k) {
+                EXPECT_EQ(state.low, expected.back().bits) << i;
+                EXPECT_EQ(state.last, expected.back().index) << i;
+            } else {
+                EXPECT_EQ(state.low, float_bits(radius * radius)) << i;
+                EXPECT_EQ(state.last, nearest_none) << i;
+            }
+            const double least = std::max(double(nearest_least) * nearest_least * radius * radius, double(nearest_least_square));
+            const double r2 = std::max<double>(bits_float(state.low), least);
+            glm::dvec3 indirect(0);
+            glm::dvec3 caustic(0);
+            glm::dvec3 without_kernel(0);
+            for (const Neighbour& neighbour : expected) {
+                const PhotonRecord& p = answers.photons[neighbour.index];
+                const glm::dvec3 term = 2 / (double(pi) * r2) * albedo / double(pi) * glm::dvec3(p.flux_r, p.flux_g, p.flux_b);
+                (photon_is_caustic(p.normal) ? caustic : indirect) += term * (1 - bits_float(neighbour.bits) / r2);
+                without_kernel += term;
+            }
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(answers.of[i].indirect[c], indirect[c], 2e-6 * without_kernel[c]) << i;
+                EXPECT_NEAR(answers.of[i].caustic[c], caustic[c], 2e-6 * without_kernel[c]) << i;
+            }
+        }
+    }
+
+    std::mt19937 random_;
+};
+
+TEST_F(GatherNearest, AreNanoflannsAtEverySize) {
+    for (const std::size_t count : {0u, 1u, 2u, 7u, 65u, 999u, 30'001u}) {
+        const std::vector<PhotonRecord> photons = floor_photons(count);
+        const std::vector<Query> queries = floor_queries(count > 10'000 ? 200 : 33);
+        for (const std::uint32_t k : ks) {
+            for (const float radius : {0.05f, 0.4f, 5.0f}) {
+                SCOPED_TRACE(::testing::Message() << k << " of " << count << " within " << radius);
+                expect_nearest(gather(device(), photons, queries, k, radius), queries, k, radius);
+            }
+        }
+    }
+}
+
+TEST_F(GatherNearest, OnCurvedSurfacesAndInCorners) {
+    std::vector<PhotonRecord> photons;
+    std::vector<Query> queries;
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::vec3 n = glm::normalize(glm::vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + 1e-3f);
+        photons.push_back(photon(0.5f * n, i % 4 == 0, n));
+        photons.push_back(photon({uniform(-1, 1), -0.5f, uniform(-1, 1)}));
+        if (i % 100 == 0) {
+            queries.push_back({0.5f * n, n});
+            queries.push_back({{n.x, -0.5f, n.z}});
+        }
+    }
+    for (const std::uint32_t k : ks) {
+        SCOPED_TRACE(k);
+        expect_nearest(gather(device(), photons, queries, k, 0.6f), queries, k, 0.6f);
+    }
+}
+
+TEST_F(GatherNearest, EqualDistancesGoByTheOrderOfTheMap) {
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 64 * 64; ++i) {
+        for (int copy = 0; copy < 3; ++copy) {
+            photons.push_back(photon({float(i % 64 - 32) / 32, 0, float(i / 64 - 32) / 32}, copy == 0));
+        }
+    }
+    const std::vector<Query> queries{{{0, 0, 0}}, {{1.0f / 64, 0, 0}}, {{1.0f / 64, 0, 1.0f / 64}}, {{-1, 0, -1}}};
+    for (const std::uint32_t k : {1u, 2u, 3u, 4u, 7u, 12u, 13u, 100u, 500u}) {
+        SCOPED_TRACE(k);
+        expect_nearest(gather(device(), photons, queries, k, 0.8f), queries, k, 0.8f);
+    }
+}
+
+TEST_F(GatherNearest, MillionInOnePoint) {
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 1'000'000; ++i) {
+        photons.push_back(photon({0.25f, 0, -0.5f}, i % 5 == 0));
+    }
+    photons.push_back(photon({0.2f, 0, -0.5f}));
+    // In the point, and beside it, where all but one are equally far.
+    const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
+    for (const std::uint32_t k : {1u, 2u, 500u, 2'000'000u}) {
+        SCOPED_TRACE(k);
+        const Answers answers = gather(device(), photons, queries, k, 0.1f);
+        expect_nearest(answers, queries, k, 0.1f);
+        EXPECT_TRUE(std::isfinite(answers.of[0].indirect.g));
+    }
+    // In one dispatch there is no end to it: that is said, and nothing is added.
+    const Answers hurried = gather(device(), photons, {queries[0]}, 500, 0.1f, gather_budget, false);
+    EXPECT_FALSE(hurried.finished);
+    EXPECT_EQ(hurried.of[0].indirect, glm::dvec3(0));
+}
+
+TEST_F(GatherNearest, DenseAndSparseTogether) {
+    // From photon to photon and over twelve orders of magnitude in distance: every depth of the histograms.
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 20'000; ++i) {
+        const float r = std::pow(10.0f, uniform(-12, 0));
+        const float angle = uniform(0, 6.2831853f);
+        photons.push_back(photon({r * std::cos(angle), 0, r * std::sin(angle)}, i % 2 == 0));
+    }
+    const std::vector<Query> queries{{{0, 0, 0}}, {{1e-6f, 0, 0}}, {{0.1f, 0, 0}}, {{-1, 0, 0}}};
+    for (const std::uint32_t k : ks) {
+        SCOPED_TRACE(k);
+        expect_nearest(gather(device(), photons, queries, k, 1.5f), queries, k, 1.5f);
+    }
+}
+
+TEST_F(GatherNearest, InterruptedQueriesAndVariantsGiveTheSameBits) {
+    const std::vector<PhotonRecord> photons = floor_photons(10'000);
+    const std::vector<Query> queries = floor_queries(100);
+    const Answers whole = gather(device(), photons, queries, 150, 0.7f, 60'000, false, 5000);
+    const auto expect_same = [&](const Answers& other) {
+        EXPECT_TRUE(other.finished);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            EXPECT_EQ(other.of[i].indirect, whole.of[i].indirect) << i;
+            EXPECT_EQ(other.of[i].caustic, whole.of[i].caustic) << i;
+        }
+    };
+    for (const std::uint32_t budget : {100u, 1000u, 1001u, 60'000u}) {
+        SCOPED_TRACE(budget);
+        expect_same(gather(device(), photons, queries, 150, 0.7f, budget, true, 5000));
+    }
+    for (const DeviceSetting& setting : variant_settings()) {
+        SCOPED_TRACE(setting.name);
+        expect_same(gather(open(setting), photons, queries, 150, 0.7f, 60'000, true, 5000));
+    }
+}
+
+TEST_F(GatherNearest, EvenlySpreadPhotonsGiveTheirDensity) {
+    // In the mean whatever k is, and at edges and in corners, where it is the area samples that do it.
+    const std::size_t count = 40'000;
+    std::vector<PhotonRecord> photons = floor_photons(count);
+    for (PhotonRecord& p : photons) {
+        p.flux_r = p.flux_g = p.flux_b = 4.0f / float(count);
+        p.normal &= ~photon_caustic_bit;
+    }
+    const auto mean_at = [&](const std::vector<Query>& queries, std::uint32_t k, std::uint64_t area_samples) {
+        double sum = 0;
+        for (const Answer& answer : gather(device(), photons, queries, k, 1, gather_budget, true, area_samples).of) {
+            sum += answer.indirect.g;
+        }
+        return sum / static_cast<double>(queries.size()) / (albedo / double(pi));
+    };
+    std::vector<Query> inside = floor_queries(4000);
+    std::vector<Query> at_edge;
+    for (Query& q : inside) {
+        q.position *= 0.8f;
+        at_edge.push_back({{1, 0, q.position.z}});
+    }
+    for (const std::uint32_t k : {20u, 150u}) {
+        EXPECT_NEAR(mean_at(inside, k, 0), 1, 0.03) << k;
+    }
+    EXPECT_NEAR(mean_at(at_edge, 150, 0), 0.5, 0.03);
+    EXPECT_NEAR(mean_at(at_edge, 150, 40'000), 1, 0.04);
+}
+
+} // namespace
+} // namespace argand::testing

@@ -1,0 +1,59 @@
+#include "bench_nearest.hpp"
+
+#include "nanoflann_peer.hpp"
+#include "photon/nearest.hpp"
+#include "plan/radius.hpp"
+#include "shared/bsdf.h"
+#include "shared/path_records.h"
+#include "shared/photon.h"
+#include "shared/query_record.h"
+
+#include <fmt/format.h>
+
+namespace argand {
+
+std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                                    const StoredPhotons& stored) {
+    const PhotonMap map = build_photon_map(device, scene, workspace, stored);
+    const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
+    std::vector<glm::vec3> points;
+    std::vector<glm::vec3> asked;
+    std::vector<QueryRecord> records;
+    std::vector<std::uint32_t> slots;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const PhotonRecord& p = photons[i];
+        points.emplace_back(p.x, p.y, p.z);
+        if (i % 8 == 0) {
+            const std::uint32_t normal = pack_unit(unpack_photon_normal(p.normal));
+            records.push_back({p.x, p.y, p.z, 0, 1, 1, 1, normal, normal, normal, LOBE_DIFFUSE, 1});
+            slots.push_back(static_cast<std::uint32_t>(slots.size()));
+            asked.push_back(points.back());
+        }
+    }
+    const std::uint64_t n = asked.size();
+    const GatherTarget target{.slots = upload(device, "bench slots", slots),
+                              .counts = upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)}),
+                              .queries = upload(device, "bench queries", records),
+                              .layers = device.allocate("bench layers", n * sizeof(LayersRecord)),
+                              .partial = Buffer()};
+    device.fill(target.layers, 0);
+    Traversal traversal = make_traversal(device, n);
+    device.fill(traversal.unfinished, 0);
+    const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
+    std::vector<BenchRow> rows;
+    for (const std::uint32_t k : {50u, 150u, 500u}) {
+        const double radius = 2.5 * median_radius(photons, std::span(asked).subspan(0, std::min<std::size_t>(n, 2000)),
+                                                  center - scene.record.radius, center + scene.record.radius, k);
+        const double seconds = median_host_seconds([&] { device.wait(); }, [&] {
+            gather_nearest(device, scene, map, target, traversal, {.neighbours = k, .radius = radius},
+                           Count(target.counts, 0, n));
+            device.wait();
+        });
+        const double peer = nanoflann_rate(points, asked, k);
+        rows.push_back({fmt::format("{} nearest photons", k), n, seconds, static_cast<double>(n) / seconds, "queries/s", 0,
+                        peer > 0 ? nanoflann_name : "", peer});
+    }
+    return rows;
+}
+
+} // namespace argand
