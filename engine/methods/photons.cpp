@@ -84,10 +84,13 @@ constexpr double reference_photons = 200'000;
 
 FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing, double largest,
                         const SceneRecord& scene) {
-    return make_footprint_scale(static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
-                                static_cast<float>(smoothing), static_cast<float>(settings.caustic_smoothing),
-                                static_cast<float>(largest), static_cast<float>(settings.flatness),
-                                settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
+    FootprintScale scale =
+        make_footprint_scale(static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
+                             static_cast<float>(smoothing), static_cast<float>(settings.caustic_smoothing),
+                             static_cast<float>(largest), static_cast<float>(settings.flatness),
+                             settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
+    scale.principal_axes = settings.paper_axes ? 0 : 1;
+    return scale;
 }
 
 struct Passes {

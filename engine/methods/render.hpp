@@ -21,6 +21,7 @@ struct FootprintSettings {
     double flatness = 0.3;                      ///< half-axis along the normal over the mean of the others
     bool uniform_kernel = false;                ///< instead of Epanechnikov's
     bool fixed_smoothing = false;               ///< footprints shrink as n^(-1/2), as in the paper, not as n^(-1/6)
+    bool paper_axes = false;                    ///< the differentials are compressed as they are, not the ellipse's axes
     bool paper_reemission = false;              ///< diffuse reflection spaces photons as the paper does
     std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most; 0: automatic
 };

@@ -21,7 +21,7 @@ struct FootprintDuals {
 
 // photons: of this pass; reference_photons: at which smoothing holds; length: of the scene, which smoothing (in units of
 // length^(3/4)) and largest are relative to; exponent: footprints shrink as photons^-exponent, 1/6 by default and 1/2 in
-// the paper, whose smoothing is fixed.
+// the paper, whose smoothing is fixed. The axes are the paper's, the differentials as they are.
 FN FootprintScale make_footprint_scale(real photons, real reference_photons, real length, real smoothing,
                                        real caustic_smoothing, real largest, real flatness, real exponent) {
     real n = max(photons, real(1.0));

@@ -1,4 +1,5 @@
-// Density estimation over footprints made by hand, against the sum in double precision over what the map keeps.
+// Density estimation over footprints made by hand, against the sum in double precision over what the map
+// keeps.
 #include "footprint_queries.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
@@ -13,7 +14,7 @@ constexpr float flatness = 0.4f;
 
 struct Splat {
     PhotonRecord photon{};
-    glm::vec3 u{0}, v{0};       ///< its positional differentials
+    glm::vec3 u{0}, v{0}; ///< its positional differentials
 };
 
 /// What the device adds to the layers, and the map that it read.
@@ -32,7 +33,8 @@ struct GatherSettings {
     std::uint64_t area_samples = 0;
 };
 
-/// Semi-axes are the differentials as they are, but for photons that are not caustic, whose lengths are compressed.
+/// Semi-axes are the differentials as they are, but for photons that are not caustic, whose lengths are
+/// compressed.
 FootprintScale plain_scale() {
     FootprintScale s{};
     s.spacing = s.diffuse = s.caustic = 1;
@@ -43,7 +45,7 @@ FootprintScale plain_scale() {
 }
 
 Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<Query>& queries,
-                const GatherSettings& settings = {}) {
+            const GatherSettings& settings = {}) {
     const DeviceScene scene = upload_scene(device, floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
     PhotonWorkspace workspace = make_photon_workspace(device, splats.size(), true);
     std::vector<PhotonRecord> photons;
@@ -62,13 +64,15 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
     counters[counter_stored_slots] = static_cast<std::uint32_t>(splats.size());
     device.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
     const PhotonMap map = build_photon_map(device, scene, workspace, {splats.size(), stored},
-                                           {.area_samples = settings.area_samples, .leaf_size = settings.leaf_size,
+                                           {.area_samples = settings.area_samples,
+                                            .leaf_size = settings.leaf_size,
                                             .footprints = plain_scale()});
 
     Sums result;
-    result.sums = gather(device, scene, map, queries,
-                         {.budget = settings.budget, .uniform_kernel = settings.uniform_kernel, .careful = settings.careful},
-                         result.finished);
+    result.sums = gather(
+        device, scene, map, queries,
+        {.budget = settings.budget, .uniform_kernel = settings.uniform_kernel, .careful = settings.careful},
+        result.finished);
     const std::size_t kept = stored + map.area_samples;
     result.photons = download<PhotonRecord>(device, map.photons, kept);
     result.footprints = download<glm::uvec4>(device, map.footprints, kept);
@@ -82,15 +86,17 @@ struct Weight {
     bool uncertain = false; ///< so near to the rim that rounding decides
 };
 
-/// The ellipsoid |A x| <= 1, its axes the columns of the inverse M; a plane of unit normal m through its centre cuts out
-/// an ellipse of area pi |det M| / |Mᵀ m|.
-Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const Query& query, bool uniform_kernel) {
+/// The ellipsoid |A x| <= 1, its axes the columns of the inverse M; a plane of unit normal m through its
+/// centre cuts out an ellipse of area pi |det M| / |Mᵀ m|.
+Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const Query& query,
+                 bool uniform_kernel) {
     const glm::dvec3 a(unpack_dual(footprint.x, footprint.y));
     const glm::dvec3 b(unpack_dual(footprint.z, footprint.w));
     const glm::dvec3 n(unpack_photon_normal(photon.normal));
     const glm::dvec3 m(unpack_unit(pack_unit(query.normal)));
     const double inverse_area = std::abs(glm::dot(glm::cross(a, b), n));
-    const glm::dmat3 inverse_axes = glm::transpose(glm::dmat3(a, b, n * (std::sqrt(inverse_area) / double(flatness))));
+    const glm::dmat3 inverse_axes =
+        glm::transpose(glm::dmat3(a, b, n * (std::sqrt(inverse_area) / double(flatness))));
     const glm::dmat3 axes = glm::inverse(inverse_axes);
     const glm::dvec3 offset = glm::dvec3(query.position) - glm::dvec3(photon.x, photon.y, photon.z);
     const glm::dvec3 x = inverse_axes * offset;
@@ -115,15 +121,20 @@ void expect_exact_sums(const Sums& gathered, const std::vector<Query>& queries, 
             if (weight.value == 0 && !weight.uncertain) {
                 continue;
             }
-            const glm::dvec3 scattered = glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * double(albedo) / double(pi);
+            const glm::dvec3 scattered =
+                glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * double(albedo) / double(pi);
             const bool caustic = photon_is_caustic(p.normal);
             (caustic ? sum.caustic : sum.indirect) += scattered * weight.value;
             const bool jumps = weight.uncertain && uniform_kernel;
-            (caustic ? tolerance.caustic : tolerance.indirect) += scattered * weight.center * (jumps ? 1 : 1e-5);
+            (caustic ? tolerance.caustic : tolerance.indirect) +=
+                scattered * weight.center * (jumps ? 1 : 1e-5);
         }
         for (int channel = 0; channel < 3; ++channel) {
-            EXPECT_NEAR(gathered.sums[k].indirect[channel], sum.indirect[channel], tolerance.indirect[channel]) << k;
-            EXPECT_NEAR(gathered.sums[k].caustic[channel], sum.caustic[channel], tolerance.caustic[channel]) << k;
+            EXPECT_NEAR(gathered.sums[k].indirect[channel], sum.indirect[channel],
+                        tolerance.indirect[channel])
+                << k;
+            EXPECT_NEAR(gathered.sums[k].caustic[channel], sum.caustic[channel], tolerance.caustic[channel])
+                << k;
         }
     }
 }
@@ -140,7 +151,7 @@ protected:
         const float turn = uniform(0, 6.28f);
         const float skew = turn + uniform(0.5f, 2.5f);
         Splat s;
-        s.photon = {position.x, position.y, position.z, pack_photon_normal(normal, caustic),
+        s.photon = {position.x,       position.y,       position.z,       pack_photon_normal(normal, caustic),
                     uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
         s.u = (f.x * std::cos(turn) + f.y * std::sin(turn)) * (size * uniform(0.3f, 3));
         s.v = (f.x * std::cos(skew) + f.y * std::sin(skew)) * size;
@@ -158,7 +169,8 @@ protected:
         std::vector<Splat> splats;
         for (std::size_t i = 0; i < count; ++i) {
             const glm::vec3 normal = glm::normalize(glm::vec3(uniform(-0.4f, 0.4f), 1, uniform(-0.4f, 0.4f)));
-            splats.push_back(splat({uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, size, i % 3 == 0, normal));
+            splats.push_back(
+                splat({uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, size, i % 3 == 0, normal));
         }
         return splats;
     }
@@ -181,7 +193,8 @@ TEST_F(GatherFootprints, IsTheSumOverFootprintsThatReachTheQuery) {
     for (const bool uniform_kernel : {false, true}) {
         for (const std::uint32_t leaf_size : {0u, 1u, 2u, 16u, most_photons_a_leaf}) {
             SCOPED_TRACE(::testing::Message() << "leaves of " << leaf_size << ", uniform " << uniform_kernel);
-            const GatherSettings settings{.leaf_size = leaf_size, .uniform_kernel = uniform_kernel, .careful = false};
+            const GatherSettings settings{
+                .leaf_size = leaf_size, .uniform_kernel = uniform_kernel, .careful = false};
             expect_exact_sums(gather(device(), splats, queries, settings), queries, uniform_kernel);
         }
     }
@@ -255,11 +268,13 @@ TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
         s.v = f.y * height;
         return s;
     };
-    const std::vector<Splat> reach{circle({0.1f, 0, 0}), circle({0, 0.9f * above, 0}), circle({0, -0.9f * above, 0}),
+    const std::vector<Splat> reach{circle({0.1f, 0, 0}), circle({0, 0.9f * above, 0}),
+                                   circle({0, -0.9f * above, 0}),
                                    circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.9f, 0)))};
-    const std::vector<Splat> others{circle({0.31f, 0, 0}), circle({0, 1.1f * above, 0}), circle({0, 0, 0}, {0, -1, 0}),
-                                    circle({0, -1e-4f, 0}, {0, -1, 0}), circle({0, 0, 0}, {1, 0, 0}),
-                                    circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.4f, 0)))};
+    const std::vector<Splat> others{
+        circle({0.31f, 0, 0}),         circle({0, 1.1f * above, 0}),
+        circle({0, 0, 0}, {0, -1, 0}), circle({0, -1e-4f, 0}, {0, -1, 0}),
+        circle({0, 0, 0}, {1, 0, 0}),  circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.4f, 0)))};
     for (const Splat& splat : reach) {
         const Sums one = gather(device(), {splat}, {Query{}});
         expect_exact_sums(one, {Query{}});
@@ -273,11 +288,13 @@ TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
 }
 
 TEST_F(GatherFootprints, EdgesOfSurfacesLoseNothing) {
-    // Photons spread evenly, not one of them caustic: the estimate is the same in the middle, at an edge, in a corner.
+    // Photons spread evenly, not one of them caustic: the estimate is the same in the middle, at an edge, in
+    // a corner.
     constexpr int side = 200;
     std::vector<Splat> splats;
     for (int i = 0; i < side * side; ++i) {
-        Splat s = splat({(2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1}, 1, false);
+        Splat s = splat({(2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1},
+                        1, false);
         s.u = {std::pow(0.3f, 4.0f), 0, 0};
         s.v = {0, 0, std::pow(0.3f, 4.0f)};
         s.photon.flux_r = s.photon.flux_g = s.photon.flux_b = 4.0f / (side * side);

@@ -25,8 +25,8 @@ protected:
         const DeviceScene on_device = upload_scene(device(), scene, 0.25f);
         PhotonWorkspace workspace = make_photon_workspace(device(), count, true);
         workspace.reemission = reemission;
-        const auto stored =
-            trace_photons(device(), on_device, workspace, {.seed = 5, .count = count, .bounces = bounces}, 1e-9f);
+        const auto stored = trace_photons(device(), on_device, workspace,
+                                          {.seed = 5, .count = count, .bounces = bounces}, 1e-9f);
         EXPECT_TRUE(stored.has_value());
         const std::size_t slots = stored ? stored->slots : 0;
         const auto photons = download<PhotonRecord>(device(), workspace.photons, slots);
@@ -37,15 +37,17 @@ protected:
             if (p.normal != no_photon) {
                 const glm::dvec3 u(unpack_dual(offsets[i].x, offsets[i].y));
                 const glm::dvec3 v(unpack_dual(offsets[i].z, offsets[i].w));
-                landed.push_back({{p.x, p.y, p.z}, double(pi) * glm::length(glm::cross(u, v)), photon_is_caustic(p.normal)});
+                landed.push_back({{p.x, p.y, p.z},
+                                  double(pi) * glm::length(glm::cross(u, v)),
+                                  photon_is_caustic(p.normal)});
             }
         }
         return landed;
     }
 };
 
-// Photons are stored from their second hit on, so a mirror comes first: where every photon has come by it, footprints
-// are those of the light's image, and the mean of area × density is pi.
+// Photons are stored from their second hit on, so a mirror comes first: where every photon has come by it,
+// footprints are those of the light's image, and the mean of area × density is pi.
 TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
     const std::pair<const char*, Light> lights[] = {
         {"point", point_light({0.1f, 1, 0.2f}, glm::vec3(1))},
@@ -56,15 +58,17 @@ TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
             SCOPED_TRACE(::testing::Message() << name << ", a mirror of " << reflectance);
             Scene scene;
             add_floor(scene, 6, 0, add_material(scene, mirror(glm::vec3(reflectance))));
-            add_quad(scene, {-1.5f, 2, -1.5f}, {3, 0, 0}, {0, 0, 3}, add_material(scene, lambertian(glm::vec3(0.5f))));
+            add_quad(scene, {-1.5f, 2, -1.5f}, {3, 0, 0}, {0, 0, 3},
+                     add_material(scene, lambertian(glm::vec3(0.5f))));
             scene.lights = {light};
             const std::vector<Landed> landed = trace(scene, 1, 600'000);
-            // The mean over photons is the integral of area × density over the number of photons: so is the sum of
-            // areas over a window's area.
+            // The mean over photons is the integral of area × density over the number of photons: so is the
+            // sum of areas over a window's area.
             double sum = 0;
             int count = 0;
             for (const Landed& photon : landed) {
-                if (std::abs(photon.position.x) < 1 && std::abs(photon.position.z) < 1 && photon.position.y > 1) {
+                if (std::abs(photon.position.x) < 1 && std::abs(photon.position.z) < 1 &&
+                    photon.position.y > 1) {
                     EXPECT_TRUE(photon.caustic);
                     sum += photon.area;
                     ++count;
@@ -105,8 +109,9 @@ Spread spread_in_box(const std::vector<Landed>& landed) {
     return {sum, products[n / 4], products[n / 2], products[3 * n / 4]};
 }
 
-// Deeper footprints only approximate pi: they know nothing of photons whose paths have crossed. Independent spreads add
-// 1 with each bounce; virtual origins multiply, and the paper's spacing is too wide for what is sampled by cosine.
+// Deeper footprints only approximate pi: they know nothing of photons whose paths have crossed. Independent
+// spreads add 1 with each bounce; virtual origins multiply, and the paper's spacing is too wide for what is
+// sampled by cosine.
 TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
     Scene box = box_scene(lambertian(glm::vec3(0.6f)));
     box.lights.push_back(point_light({0.2f, 0.4f, -0.1f}, glm::vec3(1)));
@@ -124,8 +129,8 @@ TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
             result.push_back(spread_in_box({all.begin() + ends[depth - 1], all.begin() + ends[depth]}));
             const Spread& s = result.back();
             RecordProperty(fmt::format("{}_{}", name, depth),
-                           fmt::format("mean {:.2f} pi, quartiles {:.2f} {:.2f} {:.2f}", s.mean / pi, s.quartile / pi,
-                                       s.median / pi, s.upper_quartile / pi));
+                           fmt::format("mean {:.2f} pi, quartiles {:.2f} {:.2f} {:.2f}", s.mean / pi,
+                                       s.quartile / pi, s.median / pi, s.upper_quartile / pi));
         }
         return result;
     };
@@ -142,8 +147,8 @@ TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
     }
 }
 
-// The flux that is stored is the integral of the estimate over all surfaces; without samples of the surfaces' area, part
-// of it is lost off their edges.
+// The flux that is stored is the integral of the estimate over all surfaces; without samples of the surfaces'
+// area, part of it is lost off their edges.
 TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     const double albedo = 0.5;
     Scene box = box_scene(lambertian(glm::vec3(float(albedo))));
@@ -151,7 +156,8 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     const DeviceScene scene = upload_scene(device(), box, 0.25f);
     constexpr std::uint64_t count = 50'000;
     PhotonWorkspace workspace = make_photon_workspace(device(), count, true);
-    const auto stored = trace_photons(device(), scene, workspace, {.seed = 5, .count = count, .bounces = 0xffff}, 1e-9f);
+    const auto stored =
+        trace_photons(device(), scene, workspace, {.seed = 5, .count = count, .bounces = 0xffff}, 1e-9f);
     ASSERT_TRUE(stored.has_value());
 
     double flux = 0;
@@ -176,7 +182,8 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
         }
     }
     const auto scale_for = [&](float smoothing, float largest) {
-        return make_footprint_scale(float(count), float(count), scene.record.radius, smoothing, 5, largest, 0.3f, 1.0f / 6);
+        return make_footprint_scale(float(count), float(count), scene.record.radius, smoothing, 5, largest,
+                                    0.3f, 1.0f / 6);
     };
     const auto photons = download<PhotonRecord>(device(), workspace.photons, stored->slots);
     const auto offsets = download<glm::uvec4>(device(), workspace.offsets, stored->slots);
@@ -184,8 +191,9 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     ASSERT_GT(smoothing, 0);
 
     const auto integral = [&](std::uint64_t area_samples) {
-        const PhotonMap map = build_photon_map(device(), scene, workspace, *stored,
-                                               {.area_samples = area_samples, .footprints = scale_for(float(smoothing), 0.3f)});
+        const PhotonMap map =
+            build_photon_map(device(), scene, workspace, *stored,
+                             {.area_samples = area_samples, .footprints = scale_for(float(smoothing), 0.3f)});
         EXPECT_EQ(map.area_samples, area_samples);
         bool finished = false;
         double sum = 0;
@@ -202,8 +210,8 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     RecordProperty("lost_off_edges", std::to_string(1 - plain / flux));
 }
 
-// Lengths of the scene cancel: a millimetre's model is the same picture as a kilometre's, but for photons that rounding
-// sends another way.
+// Lengths of the scene cancel: a millimetre's model is the same picture as a kilometre's, but for photons
+// that rounding sends another way.
 TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
     RenderSettings settings = settings_of("footprints", 32, 4);
     settings.photons = 20'000;
@@ -214,6 +222,26 @@ TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
         EXPECT_RELATIVE(other.statistics.smoothing, expected.statistics.smoothing, 0.01);
         EXPECT_RELATIVE(other.statistics.mean_footprints, expected.statistics.mean_footprints, 0.02);
         EXPECT_LT(compare(layer(other, "indirect"), layer(expected, "indirect")).rel_mse, 1e-4) << factor;
+    }
+}
+
+// Each is another estimate of the same light.
+TEST_F(FootprintTrace, OptionsOfThePaperChangeTheNoiseNotTheLight) {
+    RenderSettings settings = settings_of("footprints", 32, 16);
+    // Not learnt, which would undo what the exponent does.
+    settings.footprints.smoothing = 5;
+    settings.photons = 50'000;
+    const Scene room = room_scene();
+    const Image expected = layer(render(room, settings), "indirect");
+    for (bool FootprintSettings::*option :
+         {&FootprintSettings::paper_axes, &FootprintSettings::paper_reemission,
+          &FootprintSettings::uniform_kernel, &FootprintSettings::fixed_smoothing}) {
+        RenderSettings other = settings;
+        other.footprints.*option = true;
+        const Image image = layer(render(room, other), "indirect");
+        EXPECT_FALSE(same_bits(image, expected));
+        EXPECT_RELATIVE(mean(image).g, mean(expected).g, 0.03);
+        EXPECT_LT(compare(image, expected).rel_mse, 0.05);
     }
 }
 

@@ -30,7 +30,8 @@ struct Stored {
     std::vector<glm::uvec4> offsets;
 
     void add(glm::vec3 position, glm::vec3 normal, bool caustic, glm::vec3 u, glm::vec3 v) {
-        PhotonRecord photon{position.x, position.y, position.z, pack_photon_normal(normal, caustic), 1, 1, 1, 0};
+        PhotonRecord photon{position.x, position.y, position.z, pack_photon_normal(normal, caustic),
+                            1,          1,          1,          0};
         const uvec2 a = pack_dual(u);
         const uvec2 b = pack_dual(v);
         photons.push_back(photon);
@@ -82,7 +83,8 @@ TEST(Smoothing, AsManyFootprintsOnAPointAsAreAskedFor) {
                 }
                 counts.push_back(count);
             }
-            const auto enough = std::count_if(counts.begin(), counts.end(), [&](int n) { return n >= on_point; });
+            const auto enough =
+                std::count_if(counts.begin(), counts.end(), [&](int n) { return n >= on_point; });
             EXPECT_NEAR(static_cast<double>(enough), 48, 8) << ratio << ", " << on_point;
         }
     }

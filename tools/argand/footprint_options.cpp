@@ -26,6 +26,8 @@ void add_footprint_options(CLI::App& command, FootprintSettings& settings) {
     group.add_flag("--uniform-kernel", settings.uniform_kernel, "A uniform kernel instead of Epanechnikov's");
     group.add_flag("--fixed-smoothing", settings.fixed_smoothing,
                    "Footprints shrink as n^(-1/2) with the number of photons, not as n^(-1/6)");
+    group.add_flag("--paper-axes", settings.paper_axes,
+                   "Compresses a footprint's differentials as they are, not the axes of its ellipse");
     group.add_flag("--paper-reemission", settings.paper_reemission,
                    "Diffuse reflection spaces photons evenly over the sphere, not as they are sampled");
 }
