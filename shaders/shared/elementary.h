@@ -1,5 +1,5 @@
 // Elementary functions, exact to a few units in the last place (ULP) on every device: built-ins differ between drivers
-// (acos by 3,500 ULP on lavapipe). Minimax polynomials after reduction of the argument; without fused multiply-add,
+// (pow by 20 ULP on lavapipe). Minimax polynomials after reduction of the argument; without fused multiply-add,
 // with which the tricks below that split numbers would still be right but the bits would differ. As double they are the
 // standard library's, the tests' truth.
 #ifndef ARGAND_SHARED_ELEMENTARY_H
@@ -24,18 +24,6 @@ FN void sincos_eighth(real x, OUT(real) s, OUT(real) c) {
     s = x + x * (z * (real(-0.16666654873513564) + z * (real(0.008332173545502582) + z * real(-0.0001951665613228911))));
     c = real(1.0) - (real(0.5) * z - z * z * (real(0.041666646747906703) +
         z * (real(-0.0013887361455679613) + z * real(2.443773065703703e-05))));
-}
-
-// asin(x) - x over x, as a function of z = x² up to 1/4.
-FN real asin_remainder(real z) {
-    return z * (real(0.16666753925067881) + z * (real(0.07495241836698374) + z * (real(0.04547709315910427) +
-           z * (real(0.02414762262481871) + z * real(0.04221853663915809)))));
-}
-
-// atan(x) - x over x, as a function of z = x² up to tan²(pi/8).
-FN real atan_remainder(real z) {
-    return z * (real(-0.33333315423859367) + z * (real(0.1999848401751824) + z * (real(-0.1424373907927387) +
-           z * (real(0.10595141781612295) + z * real(-0.06081160509287167)))));
 }
 
 // exp(x) - 1 - x for |x| up to ln(2)/2.
@@ -123,109 +111,6 @@ FN void sincos_2pi(real u, OUT(real) s, OUT(real) c) {
     c = (q & 1u) != 0u ? sine : cosine;
     s = (q & 2u) != 0u ? -s : s;
     c = (q == 1u || q == 2u) ? -c : c;
-}
-
-// Sine and cosine for |x| up to 8192 [rad]. Cody and Waite 1980: pi/2 in four parts, of which the first three have so
-// few bits that their multiples are exact.
-FN void sincos_real(real x, OUT(real) s, OUT(real) c) {
-#ifdef ARGAND_REAL_DOUBLE
-    s = std::sin(x);
-    c = std::cos(x);
-#else
-    real quarter = floor(x * real(0.63661977236758134) + real(0.5));
-    real r = ((x - quarter * real(1.5703125)) - quarter * real(0.0004837512969970703)) -
-             quarter * real(7.549533620476723e-08);
-    r = r - quarter * real(2.5633440682570896e-12);
-    real sine, cosine;
-    sincos_eighth(r, sine, cosine);
-    uint q = uint(int(quarter)) & 3u;
-    s = (q & 1u) != 0u ? cosine : sine;
-    c = (q & 1u) != 0u ? sine : cosine;
-    s = (q & 2u) != 0u ? -s : s;
-    c = (q == 1u || q == 2u) ? -c : c;
-#endif
-}
-
-// Arc cosine [0, pi]; x beyond ±1 counts as ±1.
-FN real acos_real(real x) {
-    real a = min(abs(x), real(1.0));
-#ifdef ARGAND_REAL_DOUBLE
-    return std::acos(x < 0 ? -a : a);
-#else
-    if (a <= real(0.5)) {
-        real s = x + x * asin_remainder(x * x);
-        return real(1.57079637050628662) - (s + real(4.37113882867379e-8));   // pi/2 in two parts
-    }
-    real z = (real(1.0) - a) * real(0.5);   // exact
-    real s = sqrt(z);                       // the sine of half the angle
-    real r = real(2.0) * (s + s * asin_remainder(z));
-    return x < real(0.0) ? real(3.14159274101257324) - (r + real(8.74227765734758e-8)) : r;
-#endif
-}
-
-// Angle of (x, y) from the x axis, [-pi, pi]; 0 or ±pi for x = y = 0. Finite arguments.
-FN real atan2_real(real y, real x) {
-#ifdef ARGAND_REAL_DOUBLE
-    return std::atan2(y, x);
-#else
-    real ax = abs(x);
-    real ay = abs(y);
-    real large = max(ax, ay);
-    real small = min(ax, ay);
-    real a = real(0.0);
-    if (large > real(0.0)) {
-        if (large > real(1e38)) {   // so that the sum below stays finite
-            large *= real(0.25);
-            small *= real(0.25);
-        }
-        bool eighth = small > real(0.41421356) * large;
-        real t = eighth ? (small - large) / (small + large) : small / large;
-        a = t + t * atan_remainder(t * t);
-        a = eighth ? real(0.785398185253143311) + (a - real(2.1855694143368964e-8)) : a;   // pi/4 in two parts
-    }
-    a = ay > ax ? real(1.57079637050628662) - (a + real(4.37113882867379e-8)) : a;
-    // The sign bit, not the sign, tells the side of zeros.
-    a = (float_bits(x) >> 31u) != 0u ? real(3.14159274101257324) - (a + real(8.74227765734758e-8)) : a;
-    return (float_bits(y) >> 31u) != 0u ? -a : a;
-#endif
-}
-
-FN real exp_real(real x) {
-#ifdef ARGAND_REAL_DOUBLE
-    return std::exp(x);
-#else
-    if (!is_finite(x)) {
-        return (float_bits(x) == 0xff800000u) ? real(0.0) : x;
-    }
-    real bounded = clamp(x, real(-104.0), real(89.0));      // below the least number, above the largest
-    real k = floor(bounded * LOG2_E + real(0.5));
-    real high = bounded - k * LN2_HIGH;
-    real low = k * LN2_LOW;
-    real r = high - low;
-    return scale_by_power(real(1.0) + ((exp_remainder(r) - low) + high), int(k));
-#endif
-}
-
-// Natural logarithm; -infinity for 0, NaN below.
-FN real log_real(real x) {
-#ifdef ARGAND_REAL_DOUBLE
-    return std::log(x);
-#else
-    if (!is_finite(x) || x <= real(0.0)) {
-        uint bits = float_bits(x);
-        bool zero = (bits & 0x7fffffffu) == 0u;
-        return zero ? bits_float(0xff800000u) : bits_float(bits == 0x7f800000u ? bits : 0x7fc00000u);
-    }
-    int exponent;
-    real f = split_mantissa(x, exponent) - real(1.0);       // exact
-    real k = real(exponent);
-    real s = f / (real(2.0) + f);
-    real half_square = real(0.5) * f * f;
-    // log(1+f) = 2 atanh(s) = f - (f²/2 - s (f²/2 + R)), where f itself is exact.
-    real z = s * s;
-    real remainder = real(2.0) * z * (real(0.33333333333333333) + z * atanh_tail(z));
-    return k * LN2_HIGH - ((half_square - (s * (half_square + remainder) + k * LN2_LOW)) - f);
-#endif
 }
 
 // x to the power of y, for finite x >= 0 and y. The logarithm is carried in two numbers, for a result near the largest

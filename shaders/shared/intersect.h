@@ -1,4 +1,4 @@
-// Rays against triangles and boxes, and points on triangles, with bounds of the rounding errors: no scene-wide epsilon.
+// Rays against triangles, and points on triangles, with bounds of the rounding errors: no scene-wide epsilon.
 // All of it is the same at any scale, as long as products of two lengths neither over- nor underflow.
 #ifndef ARGAND_SHARED_INTERSECT_H
 #define ARGAND_SHARED_INTERSECT_H
@@ -80,46 +80,9 @@ FN bool intersect_triangle(IN(RayShear) shear, vec3 origin, vec3 v0, vec3 v1, ve
     return t >= tmin && t <= tmax;
 }
 
-// A ray made ready for boxes. Of its origin there are two copies, moved towards the boxes' low and high sides.
-struct RaySlabs {
-    vec3 origin_low, origin_high;
-    vec3 inverse;           // of the direction; for a zero a number so large that it decides, and yet finite
-};
-
-// reach: no vertex in any box is further from the origin than this along any axis (see box_reach).
-//
-// The shear of intersect_triangle moves vertices by up to 6 roundings of the reach, so that it may find a triangle whose
-// box the ray misses by that much, and not find the neighbour. Boxes are therefore met as if they were larger by a
-// little more. This also decides about rays that run in the very plane of a box's side.
-FN RaySlabs ray_slabs(vec3 origin, vec3 direction, real reach) {
-    RaySlabs slabs;
-    vec3 size = abs(origin);
-    vec3 margin = size * error_bound(4) + vec3(reach * error_bound(8));
-    slabs.origin_low = origin + margin;
-    slabs.origin_high = origin - margin;
-    real most = real(7.9228162514264338e28);     // 2^96
-    vec3 d = direction;
-    slabs.inverse = vec3(abs(d.x) * most > real(1.0) ? real(1.0) / d.x : most,
-                         abs(d.y) * most > real(1.0) ? real(1.0) / d.y : most,
-                         abs(d.z) * most > real(1.0) ? real(1.0) / d.z : most);
-    return slabs;
-}
-
-// The reach from an origin into a box: that of the whole scene serves every ray.
+// The furthest, along any axis, that a vertex in the box is from the origin: that of the whole scene serves every ray.
 FN real box_reach(vec3 origin, vec3 low, vec3 high) {
     return max_component(max(abs(low - origin), abs(high - origin)));
-}
-
-// Whether the ray may meet something in the box (low <= high) at a t of [0, tmax], and from which t on. Never wrongly
-// false: the far side is moved by the rounding of the slabs' distances (Ize 2013, "Robust BVH Ray Traversal").
-FN bool intersect_box(IN(RaySlabs) slabs, vec3 low, vec3 high, real tmax, OUT(real) tnear) {
-    vec3 a = (low - slabs.origin_low) * slabs.inverse;
-    vec3 b = (high - slabs.origin_high) * slabs.inverse;
-    vec3 enter = min(a, b);
-    vec3 leave = max(a, b);
-    tnear = max(max(enter.x, enter.y), max(enter.z, real(0.0)));
-    real tfar = min(min(leave.x, leave.y), min(leave.z, tmax));
-    return tnear <= tfar * (real(1.0) + real(2.0) * error_bound(3));
 }
 
 // Point of a triangle with the weights u, v of its second and third vertex, and a bound of how far along any axis

@@ -78,6 +78,14 @@ FN vec3 light_power(IN(LightRecord) l, real radius) {
 // Mean over the channels of an emissive triangle's power per area and side, for choosing lights in proportion to power.
 FN real light_weight_of_emitter(vec3 radiance) { return PI * mean_component(radiance); }
 
+// Density, in solid angle, with which a light chosen in proportion to these weights, of which light_weight is the sum, and
+// light_sample find the point of an emissive triangle that is met at this distance, under this cosine (above 0) to its
+// normal. The triangle's area does not matter: a larger one is chosen more often.
+FN real emitter_density(vec3 radiance, real sides, real light_weight, real distance, real cosine) {
+    real weight = light_weight_of_emitter(radiance) * sides;
+    return weight / light_weight * distance * distance / cosine;
+}
+
 FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) {
     real area;
     vec3 n = light_normal(l, area);
@@ -133,22 +141,6 @@ FN bool light_sample(IN(LightRecord) l, vec3 p, vec2 u, OUT(LightSample) s) {
     }
     s.radiance = light_color(l) * share / s.distance / s.distance;
     return share > real(0.0) && is_finite3(s.radiance);
-}
-
-// Solid-angle density with which light_sample, at a distance along wi from a point that sees the light's surface of unit
-// normal n there, gives wi; 0 for lights without extent and where the light does not shine.
-FN real light_pdf(IN(LightRecord) l, vec3 wi, real distance, vec3 n) {
-    if (l.kind == light_sky) {
-        return UNIFORM_SPHERE_PDF;
-    }
-    real cosine = -dot3(wi, n);
-    cosine = l.double_sided != 0u ? abs(cosine) : cosine;
-    if (l.kind != light_triangle || !(cosine > real(1e-6))) {
-        return real(0.0);
-    }
-    real area;
-    light_normal(l, area);
-    return area > real(0.0) ? distance / (area * cosine) * distance : real(0.0);
 }
 
 // Direction of a spot's photon, exactly in proportion to the falloff. On the ramp, where it grows with the square of the

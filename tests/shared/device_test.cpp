@@ -18,18 +18,13 @@ bool rounds_exactly(const Device& device) {
 
 class SharedMaths : public DeviceTest {};
 
-constexpr int function_count = 9;
+constexpr int function_count = 3;
 using Values = std::array<float, function_count>;
 
 Values on_host(glm::vec2 in) {
     Values v{};
     sincos_2pi(in.x, v[0], v[1]);
-    sincos_real(in.x, v[2], v[3]);
-    v[4] = acos_real(in.x);
-    v[5] = atan2_real(in.y, in.x);
-    v[6] = exp_real(in.y);
-    v[7] = log_real(std::abs(in.x));
-    v[8] = pow_real(std::abs(in.x), in.y);
+    v[2] = pow_real(std::abs(in.x), in.y);
     return v;
 }
 
@@ -38,12 +33,6 @@ std::array<double, function_count> truth_of(glm::vec2 in) {
     const double y = in.y;
     return {truth::elementary("sin_2pi", x),
             truth::elementary("cos_2pi", x),
-            std::sin(x),
-            std::cos(x),
-            std::acos(x),
-            std::atan2(y, x),
-            std::exp(y),
-            std::log(std::abs(x)),
             std::pow(std::abs(x), y)};
 }
 
@@ -60,16 +49,15 @@ TEST_F(SharedMaths, ElementaryFunctionsHaveAFewUlps) {
     const Buffer out = device.allocate("outputs", inputs.size() * sizeof(Values));
     dispatch(device, kernels::test_elementary{.inputs = in, .outputs = out}, inputs.size());
     const auto values = download<Values>(device, out, inputs.size());
-    const char* names[] = {"sin 2 pi", "cos 2 pi", "sin", "cos", "acos", "atan2", "exp", "log", "pow"};
+    const char* names[] = {"sin 2 pi", "cos 2 pi", "pow"};
     std::array<double, function_count> worst{};
     std::array<int, function_count> differing{};
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const Values host = on_host(inputs[i]);
         const auto truth = truth_of(inputs[i]);
         for (int k = 0; k < function_count; ++k) {
-            // Near zero sine and cosine are as exact as 2 pi and pi are; single precision's smallest is far
-            // below.
-            const bool near_zero = k < 4 && std::abs(truth[k]) < 1e-6;
+            // Near zero sine and cosine are as exact as 2 pi is; single precision's smallest is far below.
+            const bool near_zero = k < 2 && std::abs(truth[k]) < 1e-6;
             worst[k] = std::max(worst[k], near_zero ? 0 : testing::ulps(values[i][k], truth[k]));
             differing[k] +=
                 std::bit_cast<std::uint32_t>(host[k]) != std::bit_cast<std::uint32_t>(values[i][k]);

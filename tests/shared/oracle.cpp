@@ -43,10 +43,6 @@ LightSample light_sample(const Record& light, glm::dvec3 p, glm::dvec2 u) {
     return {lit, s.wi, s.radiance, s.distance, s.pdf};
 }
 
-double light_pdf(const Record& light, glm::dvec3 wi, double distance, glm::dvec3 normal) {
-    return oracle::light_pdf(as<LightRecord>(light), wi, distance, normal);
-}
-
 glm::dvec3 light_power(const Record& light, double radius) {
     return oracle::light_power(as<LightRecord>(light), radius);
 }
@@ -83,22 +79,6 @@ double elementary(const char* name, double x, double y) {
     if (f == "sin_2pi" || f == "cos_2pi") {
         sincos_2pi(x, s, c);
         return f == "sin_2pi" ? s : c;
-    }
-    if (f == "sin" || f == "cos") {
-        sincos_real(x, s, c);
-        return f == "sin" ? s : c;
-    }
-    if (f == "acos") {
-        return acos_real(x);
-    }
-    if (f == "atan2") {
-        return atan2_real(x, y);
-    }
-    if (f == "exp") {
-        return exp_real(x);
-    }
-    if (f == "log") {
-        return log_real(x);
     }
     if (f == "pow") {
         return pow_real(x, y);

@@ -28,7 +28,6 @@ struct LightSample {
     double distance, pdf;
 };
 LightSample light_sample(const Record& light, glm::dvec3 p, glm::dvec2 u);
-double light_pdf(const Record& light, glm::dvec3 wi, double distance, glm::dvec3 normal);
 glm::dvec3 light_power(const Record& light, double radius);
 
 struct Emission {
@@ -52,7 +51,7 @@ unsigned pack_photon_normal(glm::dvec3 normal, bool caustic);
 glm::dvec3 unpack_photon_normal(unsigned packed);
 double kernel_weight(double squared_distance);
 
-/// By name: sin_2pi, cos_2pi, sin, cos, acos, atan2, exp, log, pow.
+/// By name: sin_2pi, cos_2pi, pow.
 double elementary(const char* name, double x, double y = 0);
 
 } // namespace argand::truth

@@ -19,7 +19,7 @@ struct TransportResult {
     float32 radiance_x, radiance_y, radiance_z, light_pdf;
     float32 origin_x, origin_y, origin_z, distance;
     float32 direction_x, direction_y, direction_z, flux;
-    float32 t, u, v, tnear;
+    float32 t, u, v, reach;
     uint lobe, hit, code, packed;
     uint random, fixed_low, fixed_high, pad;
 };
@@ -74,21 +74,19 @@ FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(Ca
     vec3 towards = a * u.x + b * u.y + d * (real(1.0) - u.x - u.y) - eye;
     real length_;
     towards = unit_and_length(towards, length_);
-    real t, bu, bv, tnear;
+    real t, bu, bv;
     bool hit = intersect_triangle(ray_shear(towards), eye, a, b, d, real(0.0), real(1e30), t, bu, bv);
-    vec3 low = min(a, min(b, d));
-    vec3 high = max(a, max(b, d));
-    bool met = intersect_box(ray_slabs(eye, towards, box_reach(eye, low, high)), low, high, real(1e30), tnear);
     r.t = t;
     r.u = bu;
     r.v = bv;
-    r.tnear = tnear;
-    r.hit = (hit ? 1u : 0u) | (met ? 2u : 0u);
+    r.reach = box_reach(eye, min(a, min(b, d)), max(a, max(b, d)));
+    r.hit = hit ? 1u : 0u;
     // Of numbers that every device has to the bit.
     r.code = morton30(vec3(u.x, u.y, u.z), vec3(real(0.0)), vec3(real(1.0)));
     r.packed = unpack_unit(uint(i) * 2654435761u).z >= real(0.0) ? 1u : 0u;
-    r.random = pcg4d(uvec4(i, 1u, 2u, 3u)).w;
-    uvec2 sum = fixed_add(fixed_from_float(float32(u.x), 60), fixed_negate(fixed_from_float(float32(u.y), 61)));
+    uvec4 words = pcg4d(uvec4(i, 1u, 2u, 3u));
+    r.random = words.w;
+    uvec2 sum = fixed_add(uvec2(words.x, words.y), uvec2(words.z, words.w));
     r.fixed_low = sum.x;
     r.fixed_high = sum.y;
     r.pad = 0u;

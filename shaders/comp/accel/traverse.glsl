@@ -35,8 +35,10 @@ struct Ray {
     bvec3 backwards;
 };
 
-// As ray_slabs in shared/intersect.h, with room also for the rounding of the grids' planes, which are at most twice as
-// far away as the scene's sides.
+// The shear of intersect_triangle moves vertices by up to 6 roundings of the reach, so that it may find a triangle whose
+// box the ray misses by that much, and not find the neighbour. Boxes are therefore met as if they were larger by a little
+// more, with room also for the rounding of the grids' planes, which are at most twice as far away as the scene's sides.
+// This also decides about rays that run in the very plane of a box's side.
 Ray make_ray(vec3 origin, vec3 direction, vec3 low, vec3 high) {
     Ray ray;
     ray.origin = origin;

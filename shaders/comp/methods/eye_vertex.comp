@@ -38,13 +38,6 @@ RayRecord make_ray(Surface surface, vec3 direction, float t_max) {
     return RayRecord(o.x, o.y, o.z, t_max, direction.x, direction.y, direction.z, 0u);
 }
 
-// Density, in solid angle, with which a light sample at the path's last vertex would have found this emitter.
-float emitter_density(MaterialRecord m, float distance, float cosine) {
-    float sides = m.double_sided != 0u ? 2.0 : 1.0;
-    float weight = light_weight_of_emitter(vec3(m.emission_r, m.emission_g, m.emission_b)) * sides;
-    return weight / scene[0].light_weight * distance * distance / cosine;
-}
-
 void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, Frame frame, MaterialRecord m, vec3 wo,
                   uint estimated, uint followed, float estimated_probability) {
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
@@ -117,7 +110,8 @@ void main() {
         float weight = 1.0;
         if (path.pdf > 0.0) {
             float cosine = max(-dot(direction, surface.geometric_normal), 1.0e-12);
-            weight = power_heuristic(path.pdf, emitter_density(m, hit.t, cosine));
+            float sides = m.double_sided != 0u ? 2.0 : 1.0;
+            weight = power_heuristic(path.pdf, emitter_density(emission, sides, scene[0].light_weight, hit.t, cosine));
         }
         add_to_layer(slot, layer_of_emission(path.state), throughput * emission * weight);
     }

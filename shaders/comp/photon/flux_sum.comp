@@ -1,6 +1,7 @@
 #version 460
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
+#include "shared/fixed_point.h"
 #include "shared/photon_records.h"
 
 layout(set = 0, binding = 0) readonly buffer Ledgers { FluxLedger ledgers[]; };
@@ -15,9 +16,8 @@ void add(uint index, uint value) {
         return;
     }
     uint old = atomicAdd(sums[2u * index], value);
-    uint carry = old + value < old ? 1u : 0u;
     uint sign_extension = (value & 0x80000000u) != 0u ? 0xffffffffu : 0u;
-    atomicAdd(sums[2u * index + 1u], carry + sign_extension);
+    atomicAdd(sums[2u * index + 1u], fixed_add(uvec2(old, 0u), uvec2(value, sign_extension)).y);
 }
 
 void main() {
