@@ -1,6 +1,5 @@
 #include "base/interrupt.hpp"
 
-#include "base/error.hpp"
 #include <atomic>
 #include <csignal>
 #include <unistd.h>
@@ -36,12 +35,6 @@ void catch_interrupts() {
 
 bool interrupted() {
     return signalled.load(std::memory_order_relaxed);
-}
-
-void stop_if_interrupted(const char* work) {
-    if (interrupted()) {
-        fail("interrupted while {}", work);
-    }
 }
 
 void forget_interrupt() {

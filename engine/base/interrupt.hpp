@@ -10,9 +10,6 @@ void catch_interrupts();
 /// True once such a signal has come.
 bool interrupted();
 
-/// Throws an Error, "interrupted while WORK", if a signal has come.
-void stop_if_interrupted(const char* work);
-
 /// Forgets a signal that has come.
 void forget_interrupt();
 

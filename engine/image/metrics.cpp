@@ -91,16 +91,6 @@ Metrics compare(const Image& a, const Image& b, std::string_view name_a, std::st
     return metrics;
 }
 
-Image difference(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
-    check_pair(a, b, name_a, name_b);
-    Image result{a.width, a.height, {}};
-    result.pixels.reserve(a.pixels.size());
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        result.pixels.push_back(a.pixels[i] - b.pixels[i]);
-    }
-    return result;
-}
-
 Image difference_picture(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
     check_pair(a, b, name_a, name_b);
     const double mean = mean_of_channels(mean_of(b));

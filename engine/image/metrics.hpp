@@ -29,11 +29,7 @@ Metrics compare(const Image& a, const Image& b, std::string_view name_a = "A", s
 /// size and not empty.
 double ssim(const Image& a, const Image& b);
 
-/// A − B per channel. Errors as in `compare`.
-Image difference(const Image& a, const Image& b, std::string_view name_a = "A",
-                 std::string_view name_b = "B");
-
-/// Their difference to look at: black where A equals B, red where A is brighter, blue where it is darker, in
+/// Their difference, to look at: black where A equals B, red where A is brighter, blue where it is darker, in
 /// full colour where the luminances differ by sqrt(b² + 0.01·mean(b)²) or more. Errors as in `compare`.
 Image difference_picture(const Image& a, const Image& b, std::string_view name_a = "A",
                          std::string_view name_b = "B");

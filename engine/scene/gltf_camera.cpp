@@ -13,10 +13,7 @@ bool is_positive(double value) {
 
 /// glTF's cameras look along −Z, with +Y up. False if the transform leaves no direction to look in.
 bool place(const GltfSource& source, const glm::dmat4& to_world, Camera& camera, const std::string& what) {
-    camera.position = glm::vec3(glm::dvec3(to_world[3]));
-    if (!is_finite(camera.position)) {
-        source.fail("{} has a position that is not finite", what);
-    }
+    camera.position = position_of(source, to_world, what);
     const glm::dvec3 forward = unit_or_zero(-glm::dvec3(to_world[2]));
     const glm::dvec3 right = unit_or_zero(glm::cross(forward, unit_or_zero(glm::dvec3(to_world[1]))));
     if (forward == glm::dvec3(0) || right == glm::dvec3(0)) {

@@ -49,11 +49,7 @@ void read_cone(const GltfSource& source, const json* spot, Light& light, const s
 
 /// The light as its node places it; false if the transform leaves it no direction.
 bool place(const GltfSource& source, const glm::dmat4& to_world, Light& light, const std::string& what) {
-    const glm::dvec3 position(to_world[3]);
-    light.position = glm::vec3(position);
-    if (!is_finite(light.position)) {
-        source.fail("{} has a position that is not finite", what);
-    }
+    light.position = position_of(source, to_world, what);
     const glm::dvec3 direction = unit_or_zero(-glm::dvec3(to_world[2])); // glTF's lights shine along −Z
     if (light.kind != LightKind::point && direction == glm::dvec3(0)) {
         return false;

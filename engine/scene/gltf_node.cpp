@@ -1,5 +1,6 @@
 #include "scene/gltf_node.hpp"
 
+#include "scene/direction.hpp"
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -100,6 +101,14 @@ std::vector<GltfNode> flatten_nodes(const GltfSource& source) {
         push(nodes[std::size_t(next.index)].children, flat.back().to_world);
     }
     return flat;
+}
+
+glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world, const std::string& what) {
+    const glm::vec3 position{glm::dvec3(to_world[3])};
+    if (!is_finite(position)) {
+        source.fail("{} has a position that is not finite", what);
+    }
+    return position;
 }
 
 } // namespace argand

@@ -16,4 +16,7 @@ struct GltfNode {
 /// or two parents).
 std::vector<GltfNode> flatten_nodes(const GltfSource& source);
 
+/// Where a node's transform puts what it carries. Error, which names that, if it is not finite.
+glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world, const std::string& what);
+
 } // namespace argand

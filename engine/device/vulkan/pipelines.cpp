@@ -1,12 +1,10 @@
 #include "device/vulkan/pipelines.hpp"
 
+#include "base/atomic_write.hpp"
 #include "base/environment.hpp"
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 #include "device/vulkan/result.hpp"
-
-#include <fstream>
-#include <iterator>
-#include <random>
 
 namespace argand::vulkan {
 
@@ -25,16 +23,19 @@ std::filesystem::path cache_file_of(const VkPhysicalDeviceProperties& properties
 }
 
 /// The cache is only a help: a file that cannot be read counts as empty, and drivers reject one that is not theirs.
-std::vector<char> read_if_there(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+std::vector<std::uint8_t> read_if_there(const std::filesystem::path& file) {
+    try {
+        return read_file(file);
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 } // namespace
 
 Pipelines::Pipelines(VkDevice device, bool push_descriptors, const VkPhysicalDeviceProperties& properties)
     : device_(device), push_descriptors_(push_descriptors), cache_file_(cache_file_of(properties)) {
-    const std::vector<char> data = read_if_there(cache_file_);
+    const std::vector<std::uint8_t> data = read_if_there(cache_file_);
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     create.initialDataSize = data.size();
     create.pInitialData = data.data();
@@ -61,7 +62,7 @@ void Pipelines::save() const {
         vkGetPipelineCacheData(device_, cache_, &size, nullptr) != VK_SUCCESS) {
         return;
     }
-    std::vector<char> data(size);
+    std::vector<std::uint8_t> data(size);
     if (vkGetPipelineCacheData(device_, cache_, &size, data.data()) != VK_SUCCESS) {
         return;
     }
@@ -69,21 +70,13 @@ void Pipelines::save() const {
     if (data == read_if_there(cache_file_)) {
         return;
     }
-    // Written beside and renamed, under a name of this process's own, for several may run at once.
     std::error_code ignored;
     std::filesystem::create_directories(cache_file_.parent_path(), ignored);
-    const std::filesystem::path temporary =
-        cache_file_.parent_path() / fmt::format("{}.{:08x}", cache_file_.filename().string(), std::random_device{}());
-    bool written = false;
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        out.write(data.data(), static_cast<std::streamsize>(size));
-        written = out.good();
+    try {
+        write_atomically(cache_file_, data);
+    } catch (const Error&) {
+        // The next process compiles again.
     }
-    if (written) {
-        std::filesystem::rename(temporary, cache_file_, ignored);
-    }
-    std::filesystem::remove(temporary, ignored);
 }
 
 VkDescriptorSetLayout Pipelines::set_layout(Slots slots) {
