@@ -14,7 +14,7 @@ struct NamedMethod {
     Method method;
 };
 
-constexpr NamedMethod methods[] = {{"photons", render_photons}, {"footprints", render_footprints},
+constexpr NamedMethod methods[] = {{"footprints", render_footprints}, {"photons", render_photons},
                                    {"knn", render_nearest}, {"path", render_path}};
 
 } // namespace

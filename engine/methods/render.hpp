@@ -28,7 +28,7 @@ struct FootprintSettings {
 
 /// What a user asks for.
 struct RenderSettings {
-    std::string method = "photons";
+    std::string method = "footprints";
     int width = 512;
     int height = 512;
     std::uint32_t samples = 8;                  ///< eye paths per pixel

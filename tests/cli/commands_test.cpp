@@ -58,7 +58,7 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
     render("-q -o a.png --json report.json --bounces 3 --seed 7 --exposure 0.5 --radius 0.25 --camera 0");
     const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
     const nlohmann::json& p = report.at("parameters");
-    EXPECT_EQ(p.at("method"), "photons");
+    EXPECT_EQ(p.at("method"), "footprints");
     EXPECT_EQ(p.at("width"), 6);
     EXPECT_EQ(p.at("height"), 4);
     EXPECT_EQ(p.at("spp"), 2);
