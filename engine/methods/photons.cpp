@@ -213,6 +213,7 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
              .footprints = scale});
         statistics.mean_footprints = map.mean_footprints;
         statistics.leaf_size = map.leaf_size;
+        statistics.footprint_scale = scale;
         const Gather gather = [&](const Count& asking) {
             const GatherTarget target{.slots = eye.asking, .counts = eye.counts, .queries = eye.queries,
                                       .layers = eye.layers, .partial = partial};

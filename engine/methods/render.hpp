@@ -3,6 +3,7 @@
 #include "device/device.hpp"
 #include "image/image.hpp"
 #include "scene/scene.hpp"
+#include "shared/footprint_records.h"
 
 #include <array>
 #include <cstdint>
@@ -60,6 +61,7 @@ struct RenderStatistics {
     double smoothing = 0;                       ///< of footprints; 0: none
     double mean_footprints = 0;                 ///< on a point, if they were spread evenly
     std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most
+    std::optional<FootprintScale> footprint_scale;  ///< of every pass; none: no footprints
     std::uint64_t non_finite = 0;               ///< samples left out because they were not finite
     FluxSums flux;
     bool interrupted = false;                   ///< every pixel holds the samples that were finished, maybe none

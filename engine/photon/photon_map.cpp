@@ -201,6 +201,9 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                            const PhotonMapSettings& settings) {
     PhotonMap map;
     make_room(device, w, stored.slots, stored.slots + settings.area_samples);
+    // Of a map that was built before, its samples are left out.
+    const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
+    device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
     // A quarter of what is asked for will do. The step between two samples has 32 bits, so one alone cannot be.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
     if (fitting > 1 && 4 * fitting >= settings.area_samples) {

@@ -5,6 +5,8 @@
 #include "bench/bench.hpp"
 #include "bench/bench_photons.hpp"
 #include "bench/bench_rays.hpp"
+#include "bench/fd09.hpp"
+#include "numbers.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -16,6 +18,8 @@ namespace {
 struct BenchOptions {
     std::vector<std::string> names;
     std::string device;
+    std::string paper;
+    Fd09Settings fd09;
     bool json = false;
 };
 
@@ -50,7 +54,30 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
             {"unit", row.unit}, {"bound", row.bound}, {"peer", row.peer},       {"peer_rate", row.peer_rate}};
 }
 
+void run_paper(const BenchOptions& options) {
+    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::vector<PaperTable> tables = bench_fd09(*device, options.fd09);
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const PaperTable& table : tables) {
+        for (nlohmann::ordered_json row : table.rows) {
+            row["table"] = table.title;
+            rows.push_back(row);
+        }
+    }
+    if (options.json) {
+        fmt::print("{}", json_text(rows));
+        return;
+    }
+    for (const PaperTable& table : tables) {
+        fmt::print("{}", markdown(table));
+    }
+}
+
 void run(const BenchOptions& options) {
+    if (!options.paper.empty()) {
+        run_paper(options);
+        return;
+    }
     for (const std::string& name : options.names) {
         if (std::none_of(std::begin(benches), std::end(benches), [&](const NamedBench& b) { return name == b.name; })) {
             throw UsageError(fmt::format("measuring '{}': there is no such benchmark; choose from {}", name,
@@ -84,10 +111,43 @@ void add_bench_command(CLI::App& app) {
     auto options = std::make_shared<BenchOptions>();
     command->add_option("name", options->names, fmt::format("Any of {} (default: all)", names()));
     command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
+    Fd09Settings& fd09 = options->fd09;
+    CLI::Option* paper =
+        command->add_option("--paper", options->paper,
+                            "Measure instead what a paper did: fd09, Fabianowski and Dingliana 2009")
+            ->check(CLI::IsMember({"fd09"}));
+    command->add_option("--scene", fd09.scenes, "With --paper: glTF files (default: of the project's own)")
+        ->needs(paper)
+        ->check(CLI::ExistingFile);
+    command->add_option("--part", fd09.parts, fmt::format("With --paper: {} (default: all)", fmt::join(fd09_parts(), ", ")))
+        ->needs(paper)
+        ->check(CLI::IsMember(fd09_parts()));
+    command->add_option("--size", fd09.size, "With --paper: pixels a side where speed is measured")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(integer_between(1, 4096));
+    command->add_option("--error-size", fd09.error_size, "With --paper: pixels a side where error is measured")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(integer_between(1, 4096));
+    command->add_option("--photons", fd09.photons, "With --paper: photons emitted (default: as in the paper)")
+        ->needs(paper)
+        ->check(integer_between(1, 4'000'000));
+    command
+        ->add_option("--reference-samples", fd09.reference_samples,
+                     "With --paper: samples a pixel of each of two references")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(integer_between(1, 1 << 20));
+    command->add_option("--runs", fd09.runs, "With --paper: interleaved runs, of which the median counts")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(integer_between(1, 101));
     command->add_flag("--json", options->json, "Print JSON, one object per measurement");
     command->footer("Rates are items per second: median of several runs, GPU time. The bound is what the rate would be if\n"
                     "only memory traffic counted, at the copy rate measured in the same run; the peer does the same on\n"
-                    "the host.\n\nExample:\n  argand bench parallel --json");
+                    "the host.\n\nExample:\n  argand bench parallel --json\n"
+                    "  argand bench --paper fd09 --part table1 --scene assets/ring.glb");
     command->callback([options] { run(*options); });
 }
 

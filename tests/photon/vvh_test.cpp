@@ -1,0 +1,241 @@
+// The voxel volume heuristic's trees, and that a map walked through them holds what the linear build's does.
+#include "device_fixture.hpp"
+#include "photon/gather.hpp"
+#include "photon/vvh.hpp"
+#include "shared/bsdf.h"
+#include "shared/footprint.h"
+#include "shared/path_records.h"
+#include "shared/query_record.h"
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+namespace argand {
+namespace {
+
+std::vector<BoxRecord> random_boxes(std::size_t count, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> coordinate(-1, 1);
+    std::vector<BoxRecord> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 p = i % 5 == 0 ? glm::vec3(0.5f) : glm::vec3(coordinate(random), coordinate(random), coordinate(random));
+        const float size = 0.05f + 0.04f * coordinate(random);
+        boxes.push_back({p.x - size, p.y - size, p.z - size, 0, p.x + size, p.y + size, p.z + size, 0});
+    }
+    return boxes;
+}
+
+/// What a walk by escape references from the root sees, if it enters every node.
+struct Walked {
+    std::vector<std::uint32_t> leaves;
+    std::size_t nodes = 0;
+};
+
+Walked walk(const LaidOutTree& tree) {
+    Walked walked;
+    std::uint32_t node = tree.leaves.empty() ? lbvh_end : tree.leaves.size() == 1 ? 1u : 0u;
+    while (node != lbvh_end && walked.nodes < 2 * tree.nodes.size()) {
+        ++walked.nodes;
+        const bool leaf = (node & 1u) != 0;
+        if (leaf) {
+            walked.leaves.push_back(tree.nodes[node].child);
+        }
+        node = leaf ? tree.nodes[node].escape : tree.nodes[node].child;
+    }
+    return walked;
+}
+
+bool holds(const LbvhNode& node, const BoxRecord& box) {
+    return node.low_x <= box.low_x && node.low_y <= box.low_y && node.low_z <= box.low_z && node.high_x >= box.high_x &&
+           node.high_y >= box.high_y && node.high_z >= box.high_z;
+}
+
+TEST(VolumeTree, LeavesPartTheBoxesAndBoxesHoldTheirs) {
+    for (const std::size_t count : {0u, 1u, 2u, 3u, 100u, 5000u}) {
+        for (const std::uint32_t leaf_size : {1u, 4u, 512u}) {
+            SCOPED_TRACE(testing::Message() << count << " in leaves of " << leaf_size);
+            const std::vector<BoxRecord> boxes = random_boxes(count, 1);
+            const VolumeTree tree = build_volume_tree(boxes, leaf_size);
+            std::vector<std::uint32_t> sorted = tree.order;
+            std::sort(sorted.begin(), sorted.end());
+            ASSERT_EQ(sorted.size(), count);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                ASSERT_EQ(sorted[i], i);
+            }
+            const LaidOutTree laid_out = lay_out(tree, leaf_size);
+            const Walked walked = walk(laid_out);
+            ASSERT_EQ(walked.nodes, count == 0 ? 0 : 2 * laid_out.leaves.size() - 1);
+            ASSERT_EQ(walked.leaves, laid_out.leaves);
+            std::uint32_t next = 0;
+            for (std::size_t i = 0; i < laid_out.leaves.size(); ++i) {
+                const std::uint32_t first = laid_out.leaves[i] & leaf_first_mask;
+                const std::uint32_t last = first + (laid_out.leaves[i] >> leaf_first_bits);
+                ASSERT_EQ(first, next);
+                ASSERT_LT(last - first, leaf_size);
+                for (std::uint32_t k = first; k <= last; ++k) {
+                    ASSERT_TRUE(holds(laid_out.nodes[2 * i + 1], boxes[tree.order[k]]));
+                }
+                next = last + 1;
+            }
+            ASSERT_EQ(next, count);
+        }
+    }
+}
+
+TEST(VolumeTree, FusedLeavesAreThoseOfATreeBuiltWithThem) {
+    const std::vector<BoxRecord> boxes = random_boxes(3000, 2);
+    const LaidOutTree fused = lay_out(build_volume_tree(boxes, 1), 16);
+    const LaidOutTree built = lay_out(build_volume_tree(boxes, 16), 16);
+    ASSERT_EQ(fused.leaves, built.leaves);
+    ASSERT_EQ(std::memcmp(fused.nodes.data(), built.nodes.data(), built.nodes.size() * sizeof(LbvhNode)), 0);
+}
+
+TEST(VolumeTree, RootIsSplitWhereTheCostIsLeast) {
+    const std::vector<BoxRecord> boxes = random_boxes(60, 3);
+    const VolumeTree tree = build_volume_tree(boxes, 1);
+    const auto cost = [](const VolumeNode& a, const VolumeNode& b) {
+        const auto term = [](const VolumeNode& n) {
+            const BoxRecord& x = n.box;
+            return double(x.high_x - x.low_x) * (x.high_y - x.low_y) * (x.high_z - x.low_z) * n.count;
+        };
+        return term(a) + term(b);
+    };
+    const VolumeNode& root = tree.nodes[0];
+    const double chosen = cost(tree.nodes[root.left], tree.nodes[root.right]);
+    double least = chosen * 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto centre = [&](const BoxRecord& b) {
+            return axis == 0 ? b.low_x + b.high_x : axis == 1 ? b.low_y + b.high_y : b.low_z + b.high_z;
+        };
+        std::vector<BoxRecord> sorted = boxes;
+        std::stable_sort(sorted.begin(), sorted.end(),
+                         [&](const BoxRecord& a, const BoxRecord& b) { return centre(a) < centre(b); });
+        const auto side = [&](std::size_t begin, std::size_t end) {
+            VolumeNode node{.first = 0, .count = static_cast<std::uint32_t>(end - begin), .box = sorted[begin]};
+            for (std::size_t i = begin; i < end; ++i) {
+                const BoxRecord& b = sorted[i];
+                node.box = {std::min(node.box.low_x, b.low_x), std::min(node.box.low_y, b.low_y),
+                            std::min(node.box.low_z, b.low_z), 0, std::max(node.box.high_x, b.high_x),
+                            std::max(node.box.high_y, b.high_y), std::max(node.box.high_z, b.high_z), 0};
+            }
+            return node;
+        };
+        for (std::size_t i = 1; i < sorted.size(); ++i) {
+            least = std::min(least, cost(side(0, i), side(i, sorted.size())));
+        }
+    }
+    EXPECT_NEAR(chosen, least, 1e-5 * least);
+}
+
+TEST(VolumeTree, BoxesInOnePlaceMakeNoDeepTree) {
+    const std::vector<BoxRecord> boxes(4096, BoxRecord{0, 0, 0, 0, 1, 1, 1, 0});
+    const VolumeTree tree = build_volume_tree(boxes, 1);
+    std::vector<int> depth(tree.nodes.size(), 0);
+    int deepest = 0;
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        deepest = std::max(deepest, depth[i]);
+        if (tree.nodes[i].left != 0) {
+            depth[tree.nodes[i].left] = depth[tree.nodes[i].right] = depth[i] + 1;
+        }
+    }
+    EXPECT_EQ(deepest, 12);
+}
+
+/// The grey square |x|, |z| <= 1, facing up.
+Scene floor_scene() {
+    Scene scene;
+    scene.name = "floor";
+    Material grey;
+    grey.base_color = glm::vec3(0.5f);
+    grey.metallic = 0;
+    grey.specular = 0;
+    scene.materials.push_back(grey);
+    scene.positions = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    scene.normals.assign(4, glm::vec3(0));
+    scene.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.triangle_material = {0, 0};
+    return scene;
+}
+
+using VolumeHeuristicMap = VariantTest;
+
+TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
+    Device& device = open_variant();
+    const DeviceScene scene = upload_scene(device, floor_scene(), 0.25f);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> coordinate(-1, 1);
+    constexpr std::size_t count = 20'000;
+    std::vector<PhotonRecord> photons;
+    std::vector<glm::uvec4> offsets;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool flat = i % 4 != 0;
+        const glm::vec3 normal = flat ? glm::vec3(0, 1, 0) : glm::normalize(glm::vec3(0.3f * coordinate(random), 1, 0));
+        photons.push_back({coordinate(random), 0, coordinate(random), pack_photon_normal(normal, i % 3 == 0),
+                           1 + coordinate(random), 1, 0.5f, pack_unit({0, 1, 0})});
+        const glm::vec3 u(0.04f + 0.03f * coordinate(random), 0, 0.03f * coordinate(random));
+        const glm::uvec2 a = pack_dual(u);
+        const glm::uvec2 b = pack_dual(glm::vec3(0.3f * u.z, 0, 0.05f));
+        offsets.emplace_back(a.x, a.y, b.x, b.y);
+    }
+    PhotonWorkspace workspace = make_photon_workspace(device, count, true);
+    device.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
+    device.upload(workspace.offsets, 0, std::as_bytes(std::span(offsets)));
+    std::vector<std::uint32_t> counters(counter_count, 0);
+    counters[counter_stored_slots] = count;
+    device.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
+    const FootprintScale scale = make_footprint_scale(count, count, 1, 10, 1, 0.1f, 0.3f, 0.5f);
+    const PhotonMap linear =
+        build_photon_map(device, scene, workspace, {count, count}, {.area_samples = 1000, .leaf_size = 8, .footprints = scale});
+
+    const std::vector<BoxRecord> boxes = footprint_boxes(device, linear);
+    ASSERT_EQ(boxes.size(), count + 1000);
+    const auto leaf_words = download<std::uint32_t>(device, linear.lbvh.order,
+                                                    download<std::uint32_t>(device, linear.counters, 1, counter_leaves)[0]);
+    const auto nodes = download<LbvhNode>(device, linear.lbvh.nodes, 2 * leaf_words.size());
+    for (std::size_t i = 0; i < leaf_words.size(); ++i) {
+        const std::uint32_t first = leaf_words[i] & leaf_first_mask;
+        float low = boxes[first].low_x;
+        for (std::uint32_t k = first; k <= first + (leaf_words[i] >> leaf_first_bits); ++k) {
+            low = std::min(low, boxes[k].low_x);
+        }
+        ASSERT_NEAR(nodes[2 * i + 1].low_x, low, 1e-5);
+    }
+
+    std::vector<QueryRecord> queries;
+    std::vector<std::uint32_t> slots;
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        slots.push_back(i);
+        const std::uint32_t up = pack_unit({0, 1, 0});
+        queries.push_back({coordinate(random), 0, coordinate(random), 0, 1, 1, 1, up, up, up, LOBE_DIFFUSE, 1});
+    }
+    const auto gather = [&](const PhotonMap& map) {
+        const GatherTarget target{.slots = upload(device, "slots", slots),
+                                  .counts = upload(device, "counts", std::vector<std::uint32_t>{500, 0, 0, 0}),
+                                  .queries = upload(device, "queries", queries),
+                                  .layers = upload(device, "layers", std::vector<LayersRecord>(500)),
+                                  .partial = device.allocate("partial", 500 * sizeof(GatherRecord))};
+        Traversal traversal = make_traversal(device, 500);
+        device.fill(traversal.unfinished, 0);
+        gather_footprints(device, scene, map, target, traversal, false, Count(target.counts, 0, 500));
+        EXPECT_EQ(download<std::uint32_t>(device, traversal.unfinished, 1)[0], 0u);
+        return download<LayersRecord>(device, target.layers, 500);
+    };
+    const std::vector<LayersRecord> expected = gather(linear);
+    const VolumeTree tree = build_volume_tree(boxes, 1);
+    const PhotonMap sorted = reordered(device, linear, tree.order);
+    for (const std::uint32_t leaf_size : {1u, 32u, most_photons_a_leaf}) {
+        SCOPED_TRACE(leaf_size);
+        const std::vector<LayersRecord> found = gather(with_tree(device, sorted, tree, leaf_size));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            ASSERT_GT(expected[i].indirect_r, 0);
+            ASSERT_NEAR(found[i].indirect_r, expected[i].indirect_r, 1e-4 * expected[i].indirect_r);
+            ASSERT_NEAR(found[i].caustic_g, expected[i].caustic_g, 1e-4 * expected[i].caustic_g);
+        }
+    }
+}
+
+INSTANTIATE_VARIANTS(VolumeHeuristicMap);
+
+} // namespace
+} // namespace argand

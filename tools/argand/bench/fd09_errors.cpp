@@ -1,0 +1,186 @@
+#include "fd09.hpp"
+#include "fd09_map.hpp"
+#include "image/files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace argand {
+
+namespace {
+
+constexpr int runs = 3;
+constexpr double ladder[] = {0.25, 0.5, 1, 2, 4};   // photons of the methods that are compared with
+
+/// A picture's time on the device [s], its error, and what the map was like.
+struct Point {
+    double seconds = 0, gathering = 0, error = 0;
+    RenderStatistics statistics;
+};
+
+struct References {
+    Image a, b;
+};
+
+const Image& indirect(const RenderResult& result) {
+    return *find_layer(result.layers, "indirect");
+}
+
+RenderResult run(Device& device, const Scene& scene, const RenderSettings& settings) {
+    return render(device, scene, settings, [](double) { return true; });
+}
+
+/// relMSE as in image/metrics.hpp, less the references' own noise: theirs is independent, so its product is 0 on average.
+double rel_mse(const Image& image, const References& references) {
+    glm::dvec3 mean(0);
+    const std::size_t pixels = image.pixels.size();
+    for (std::size_t i = 0; i < pixels; ++i) {
+        mean += 0.5 * (glm::dvec3(references.a.pixels[i]) + glm::dvec3(references.b.pixels[i])) / double(pixels);
+    }
+    const double floor = 0.01 * std::pow((mean.r + mean.g + mean.b) / 3, 2);
+    double sum = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double a = references.a.pixels[i][c];
+            const double b = references.b.pixels[i][c];
+            const double x = image.pixels[i][c];
+            sum += (x - a) * (x - b) / (0.25 * (a + b) * (a + b) + floor);
+        }
+    }
+    return sum / (3 * double(pixels));
+}
+
+/// One more measurement of a point: medians are taken at the end, so that runs of several can be interleaved.
+struct Series {
+    RenderSettings settings;
+    std::vector<double> seconds, gathering, errors;
+    RenderStatistics statistics;
+
+    void add_run(Device& device, const Scene& scene, const References& references, std::uint32_t seed) {
+        settings.seed = seed;
+        device.reset_stage_times();
+        const RenderResult result = run(device, scene, settings);
+        double all = 0;
+        for (const StageTime& stage : device.stage_times()) {
+            all += stage.seconds;
+            if (stage.name == "gather photons") {
+                gathering.push_back(stage.seconds);
+            }
+        }
+        seconds.push_back(all);
+        errors.push_back(rel_mse(indirect(result), references));
+        statistics = result.statistics;
+    }
+
+    Point point() const {
+        double error = 0;
+        for (const double e : errors) {
+            error += e / double(errors.size());
+        }
+        return {median(seconds), median(gathering), error, statistics};
+    }
+};
+
+/// Time at which the error is as given, interpolated in logarithms between points of growing number of photons. If it is
+/// never reached or always undercut, that at the nearest end, marked as a bound.
+nlohmann::ordered_json time_at(const std::vector<Point>& points, double error) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Point& a = points[i - 1];
+        const Point& b = points[i];
+        if (a.error >= error && b.error <= error && a.error > b.error && b.error > 0) {
+            const double t = std::log(a.error / error) / std::log(a.error / b.error);
+            return a.seconds * std::pow(b.seconds / a.seconds, t);
+        }
+    }
+    return points.front().error < error ? fmt::format("< {:.3g}", points.front().seconds)
+                                        : fmt::format("> {:.3g}", points.back().seconds);
+}
+
+std::vector<std::string> peers() {
+    std::vector<std::string> found;
+    for (const std::string& name : method_names()) {
+        if (name != "footprints" && name != "path") {
+            found.push_back(name);
+        }
+    }
+    return found;
+}
+
+} // namespace
+
+void measure_errors(Device& device, const Scene& scene, const RenderSettings& settings, std::uint32_t reference_samples,
+                    PaperTable& estimators, PaperTable& kernels) {
+    RenderSettings path = settings;
+    path.method = "path";
+    path.samples = reference_samples;
+    path.seed = 1001;
+    References references;
+    references.a = indirect(run(device, scene, path));
+    path.seed = 1002;
+    references.b = indirect(run(device, scene, path));
+
+    Series footprints{.settings = settings};
+    footprints.settings.method = "footprints";
+    Series uniform = footprints;
+    uniform.settings.footprints.uniform_kernel = true;
+    std::vector<std::vector<Series>> others;
+    for (const std::string& name : peers()) {
+        others.emplace_back();
+        for (const double factor : ladder) {
+            Series series{.settings = settings};
+            series.settings.method = name;
+            series.settings.photons = static_cast<std::uint64_t>(factor * double(settings.photons));
+            others.back().push_back(series);
+        }
+    }
+    for (std::uint32_t seed = 0; seed < runs; ++seed) {
+        footprints.add_run(device, scene, references, seed);
+        uniform.add_run(device, scene, references, seed);
+        for (std::vector<Series>& of_method : others) {
+            for (Series& series : of_method) {
+                series.add_run(device, scene, references, seed);
+            }
+        }
+    }
+
+    const Point ours = footprints.point();
+    nlohmann::ordered_json row{{"scene", scene.name},
+                               {"triangles", scene.triangles.size()},
+                               {"emitted", settings.photons},
+                               {"hits", ours.statistics.photons_stored},
+                               {"s", ours.statistics.smoothing},
+                               {"r_max", ours.statistics.footprint_scale ? ours.statistics.footprint_scale->radius_max : 0.0f},
+                               {"footprints a point", ours.statistics.mean_footprints},
+                               {"relMSE, indirect", ours.error},
+                               {"footprints [s]", ours.seconds},
+                               {"footprints, gathering [s]", ours.gathering}};
+    const std::vector<std::string> names = peers();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::vector<Point> points;
+        for (const Series& series : others[i]) {
+            points.push_back(series.point());
+        }
+        const Point& same_photons = points[std::size(ladder) / 2];
+        row[names[i] + ", same photons: relMSE"] = same_photons.error;
+        row[names[i] + ", same photons [s]"] = same_photons.seconds;
+        row[names[i] + ", same photons: gathering [s]"] = same_photons.gathering;
+        row[names[i] + ", most photons: relMSE"] = points.back().error;
+        const nlohmann::ordered_json equal = time_at(points, ours.error);
+        row[names[i] + ", equal error [s]"] = equal;
+        row[names[i] + " / footprints"] =
+            equal.is_number() ? nlohmann::ordered_json(equal.get<double>() / ours.seconds)
+            : points.front().error < ours.error ? nlohmann::ordered_json(fmt::format("< {:.3g}", points.front().seconds / ours.seconds))
+                                                : nlohmann::ordered_json(fmt::format("> {:.3g}", points.back().seconds / ours.seconds));
+    }
+    estimators.rows.push_back(row);
+    const Point flat = uniform.point();
+    kernels.rows.push_back({{"scene", scene.name},
+                            {"relMSE, uniform", flat.error},
+                            {"relMSE, Epanechnikov", ours.error},
+                            {"gathering, uniform [s]", flat.gathering},
+                            {"gathering, Epanechnikov [s]", ours.gathering},
+                            {"frame, Epanechnikov / uniform", ours.seconds / flat.seconds}});
+}
+
+} // namespace argand

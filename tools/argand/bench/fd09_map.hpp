@@ -1,0 +1,29 @@
+#pragma once
+
+#include "methods/eye_paths.hpp"
+#include "methods/render.hpp"
+#include "photon/gather.hpp"
+
+namespace argand {
+
+/// The photons of a picture by the method `footprints`, and what its map is built with.
+struct PaperMap {
+    RenderSettings render;
+    RenderStatistics statistics;    ///< of the picture
+    DeviceScene scene;
+    PhotonWorkspace workspace;
+    StoredPhotons stored;
+    PhotonMapSettings settings;
+    EyeWorkspace eye;
+    Buffer partial;                 ///< GatherRecord per slot of `eye`
+};
+
+/// Renders the picture once, which says how large footprints are, and traces its photons again, all in one pass.
+PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSettings& render);
+
+/// A map that stays as it is when others are built from the same photons, but for its footprints' order.
+PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size);
+
+double median(std::vector<double> values);
+
+} // namespace argand

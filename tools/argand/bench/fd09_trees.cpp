@@ -1,0 +1,125 @@
+#include "fd09.hpp"
+#include "fd09_map.hpp"
+#include "photon/vvh.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace argand {
+
+namespace {
+
+constexpr std::uint32_t leaf_sizes[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512};
+
+struct Candidate {
+    PhotonMap map;
+    std::vector<double> seconds;    ///< of each run, over all queries of the picture
+};
+
+/// The time of every candidate's gathering for all of the picture's queries. Runs are interleaved: whatever else the
+/// machine does, it does to all.
+void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& candidates, int runs,
+                      std::uint64_t& queries) {
+    for (Candidate& candidate : candidates) {
+        candidate.seconds.assign(static_cast<std::size_t>(runs), 0.0);
+    }
+    EyeWorkspace& eye = paper.eye;
+    // Queries go on until they are done, also where some take more steps than one dispatch allows.
+    eye.traversal.careful = true;
+    const auto gather = [&](const Count& asking) {
+        const GatherTarget target{.slots = eye.asking, .counts = eye.counts, .queries = eye.queries,
+                                  .layers = eye.layers, .partial = paper.partial};
+        const std::uint32_t count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
+        queries += count;
+        if (count == 0) {
+            return;
+        }
+        for (int run = -1; run < runs; ++run) {     // one to warm up
+            for (Candidate& candidate : candidates) {
+                device.reset_stage_times();
+                gather_footprints(device, paper.scene, candidate.map, target, eye.traversal, false, asking);
+                const double seconds = device.stage_times().front().seconds;
+                if (run >= 0) {
+                    candidate.seconds[static_cast<std::size_t>(run)] += seconds;
+                }
+            }
+        }
+    };
+    trace_eye_paths(device, paper.scene, eye, paper.render, 0, 1, gather, [](double) { return true; });
+}
+
+/// Rates over leaf sizes, and how near T_auto, the last candidate, is to the best.
+nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper, std::span<const Candidate> candidates,
+                              std::uint64_t queries) {
+    nlohmann::ordered_json row{{"scene", scene}, {"emitted", paper.render.photons}, {"hits", paper.stored.photons}};
+    double best = 0;
+    double automatic = 0;
+    for (const Candidate& candidate : candidates) {
+        automatic = 1e-3 * static_cast<double>(queries) / median(candidate.seconds);
+        best = std::max(best, automatic);
+        const bool last = &candidate == &candidates.back();
+        row[last ? "T_auto's kqueries/s" : std::to_string(candidate.map.leaf_size)] = automatic;
+    }
+    row["T_auto"] = candidates.back().map.leaf_size;
+    row["footprints a point"] = candidates.back().map.mean_footprints;
+    row["T_auto of best [%]"] = 100 * automatic / best;
+    return row;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs, PaperTable& linear,
+                   PaperTable& heuristic, PaperTable& builds) {
+    using Clock = std::chrono::steady_clock;
+    PaperMap paper = trace_paper_map(device, scene, render);
+    const PhotonMap automatic = build(device, paper, 0);
+    const std::vector<BoxRecord> boxes = footprint_boxes(device, automatic);
+
+    std::vector<double> linear_seconds;
+    std::vector<double> heuristic_seconds;
+    VolumeTree tree;
+    for (int run = 0; run < std::min(runs, 3); ++run) {
+        device.wait();
+        Clock::time_point start = Clock::now();
+        build(device, paper, automatic.leaf_size);
+        device.wait();
+        linear_seconds.push_back(seconds_since(start));
+        start = Clock::now();
+        tree = build_volume_tree(boxes, automatic.leaf_size);
+        heuristic_seconds.push_back(seconds_since(start));
+    }
+    tree = build_volume_tree(boxes, 1);
+    const PhotonMap sorted = reordered(device, automatic, tree.order);
+
+    std::vector<Candidate> candidates;
+    for (const std::uint32_t leaf_size : leaf_sizes) {
+        candidates.push_back({build(device, paper, leaf_size), {}});
+    }
+    candidates.push_back({build(device, paper, automatic.leaf_size), {}});
+    const std::size_t of_each = candidates.size();
+    for (std::size_t i = 0; i < of_each; ++i) {
+        candidates.push_back({with_tree(device, sorted, tree, candidates[i].map.leaf_size), {}});
+    }
+    std::uint64_t queries = 0;
+    gather_with_each(device, paper, candidates, runs, queries);
+
+    const std::span<const Candidate> all(candidates);
+    linear.rows.push_back(row_of(scene.name, paper, all.first(of_each), queries));
+    heuristic.rows.push_back(row_of(scene.name, paper, all.last(of_each), queries));
+    const double ratio = heuristic.rows.back()["T_auto's kqueries/s"].get<double>();
+    const double linear_built = median(linear_seconds);
+    const double heuristic_built = median(heuristic_seconds);
+    builds.rows.push_back({{"scene", scene.name},
+                           {"in the map", boxes.size()},
+                           {"linear build [ms]", 1e3 * linear_built},
+                           {"VVH build [ms]", 1e3 * heuristic_built},
+                           {"VVH / linear, building", heuristic_built / linear_built},
+                           {"linear / VVH, rate [%]",
+                            100 * linear.rows.back()["T_auto's kqueries/s"].get<double>() / ratio}});
+}
+
+} // namespace argand
