@@ -13,9 +13,9 @@ namespace {
 constexpr int runs = 3;
 constexpr double ladder[] = {0.25, 0.5, 1, 2, 4};   // photons of the methods that are compared with
 
-/// A picture's time on the device [s], its error, and what the map was like.
+/// A picture's time [s], its error, and what the map was like.
 struct Point {
-    double seconds = 0, gathering = 0, error = 0;
+    double seconds = 0, error = 0;
     RenderStatistics statistics;
 };
 
@@ -54,21 +54,13 @@ double rel_mse(const Image& image, const References& references) {
 /// One more measurement of a point: medians are taken at the end, so that runs of several can be interleaved.
 struct Series {
     RenderSettings settings;
-    std::vector<double> seconds, gathering, errors;
+    std::vector<double> seconds, errors;
     RenderStatistics statistics;
 
     void add_run(Device& device, const Scene& scene, const References& references, std::uint32_t seed) {
         settings.seed = seed;
-        device.reset_stage_times();
-        const RenderResult result = run(device, scene, settings);
-        double all = 0;
-        for (const StageTime& stage : device.stage_times()) {
-            all += stage.seconds;
-            if (stage.name == "gather photons") {
-                gathering.push_back(stage.seconds);
-            }
-        }
-        seconds.push_back(all);
+        RenderResult result;
+        seconds.push_back(seconds_of(device, [&] { result = run(device, scene, settings); }));
         errors.push_back(rel_mse(indirect(result), references));
         statistics = result.statistics;
     }
@@ -78,7 +70,7 @@ struct Series {
         for (const double e : errors) {
             error += e / double(errors.size());
         }
-        return {median(seconds), median(gathering), error, statistics};
+        return {median(seconds), error, statistics};
     }
 };
 
@@ -153,8 +145,7 @@ void measure_errors(Device& device, const Scene& scene, const RenderSettings& se
                                {"r_max", ours.statistics.footprint_scale ? ours.statistics.footprint_scale->radius_max : 0.0f},
                                {"footprints a point", ours.statistics.mean_footprints},
                                {"relMSE, indirect", ours.error},
-                               {"footprints [s]", ours.seconds},
-                               {"footprints, gathering [s]", ours.gathering}};
+                               {"footprints [s]", ours.seconds}};
     const std::vector<std::string> names = peers();
     for (std::size_t i = 0; i < names.size(); ++i) {
         std::vector<Point> points;
@@ -164,7 +155,6 @@ void measure_errors(Device& device, const Scene& scene, const RenderSettings& se
         const Point& same_photons = points[std::size(ladder) / 2];
         row[names[i] + ", same photons: relMSE"] = same_photons.error;
         row[names[i] + ", same photons [s]"] = same_photons.seconds;
-        row[names[i] + ", same photons: gathering [s]"] = same_photons.gathering;
         row[names[i] + ", most photons: relMSE"] = points.back().error;
         const nlohmann::ordered_json equal = time_at(points, ours.error);
         row[names[i] + ", equal error [s]"] = equal;
@@ -178,9 +168,9 @@ void measure_errors(Device& device, const Scene& scene, const RenderSettings& se
     kernels.rows.push_back({{"scene", scene.name},
                             {"relMSE, uniform", flat.error},
                             {"relMSE, Epanechnikov", ours.error},
-                            {"gathering, uniform [s]", flat.gathering},
-                            {"gathering, Epanechnikov [s]", ours.gathering},
-                            {"frame, Epanechnikov / uniform", ours.seconds / flat.seconds}});
+                            {"uniform [s]", flat.seconds},
+                            {"Epanechnikov [s]", ours.seconds},
+                            {"rate, Epanechnikov / uniform", flat.seconds / ours.seconds}});
 }
 
 } // namespace argand

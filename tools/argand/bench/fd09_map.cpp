@@ -4,6 +4,8 @@
 #include "plan/radius.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
 
 namespace argand {
 
@@ -43,6 +45,17 @@ PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size) {
     device.copy(BufferView(map.counters, 0, counter_count * 4), BufferView(counters, 0, counter_count * 4));
     map.counters = counters;
     return map;
+}
+
+double seconds_of(Device& device, const std::function<void()>& work) {
+    device.wait();
+    const std::clock_t processor = std::clock();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    device.wait();
+    return device.info().kind == DeviceKind::cpu
+               ? static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC
+               : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 double median(std::vector<double> values) {

@@ -3,7 +3,6 @@
 #include "photon/vvh.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace argand {
 
@@ -36,9 +35,9 @@ void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& c
         }
         for (int run = -1; run < runs; ++run) {     // one to warm up
             for (Candidate& candidate : candidates) {
-                device.reset_stage_times();
-                gather_footprints(device, paper.scene, candidate.map, target, eye.traversal, false, asking);
-                const double seconds = device.stage_times().front().seconds;
+                const double seconds = seconds_of(device, [&] {
+                    gather_footprints(device, paper.scene, candidate.map, target, eye.traversal, false, asking);
+                });
                 if (run >= 0) {
                     candidate.seconds[static_cast<std::size_t>(run)] += seconds;
                 }
@@ -66,15 +65,10 @@ nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper, s
     return row;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 } // namespace
 
 void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs, PaperTable& linear,
                    PaperTable& heuristic, PaperTable& builds) {
-    using Clock = std::chrono::steady_clock;
     PaperMap paper = trace_paper_map(device, scene, render);
     const PhotonMap automatic = build(device, paper, 0);
     const std::vector<BoxRecord> boxes = footprint_boxes(device, automatic);
@@ -83,14 +77,9 @@ void measure_trees(Device& device, const Scene& scene, const RenderSettings& ren
     std::vector<double> heuristic_seconds;
     VolumeTree tree;
     for (int run = 0; run < std::min(runs, 3); ++run) {
-        device.wait();
-        Clock::time_point start = Clock::now();
-        build(device, paper, automatic.leaf_size);
-        device.wait();
-        linear_seconds.push_back(seconds_since(start));
-        start = Clock::now();
-        tree = build_volume_tree(boxes, automatic.leaf_size);
-        heuristic_seconds.push_back(seconds_since(start));
+        linear_seconds.push_back(seconds_of(device, [&] { build(device, paper, automatic.leaf_size); }));
+        heuristic_seconds.push_back(
+            seconds_of(device, [&] { tree = build_volume_tree(boxes, automatic.leaf_size); }));
     }
     tree = build_volume_tree(boxes, 1);
     const PhotonMap sorted = reordered(device, automatic, tree.order);

@@ -1,0 +1,68 @@
+// argand bench --paper fd09, on small pictures.
+#include "argand_run.hpp"
+
+namespace argand::testing {
+namespace {
+
+class PaperBench : public ArgandTest {
+protected:
+    nlohmann::json measure(const std::string& part) const {
+        const Outcome run = argand("bench --paper fd09 --json --size 16 --error-size 8 --photons 2000 --runs 1 "
+                                   "--reference-samples 16 --part " + part + " --scene '" + asset("cornell_area.glb") + "'");
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return nlohmann::json::parse(run.out);
+    }
+};
+
+TEST_F(PaperBench, LeafSizesOfBothBuilds) {
+    const nlohmann::json rows = measure("table1");
+    ASSERT_EQ(rows.size(), 3u);
+    for (std::size_t build = 0; build < 2; ++build) {
+        EXPECT_EQ(rows[build]["scene"], "cornell_area");
+        EXPECT_GT(rows[build]["hits"], 500);
+        for (const char* leaf_size : {"1", "2", "4", "8", "16", "32", "64", "128", "256", "512"}) {
+            EXPECT_GT(rows[build][leaf_size], 0) << leaf_size;
+        }
+        EXPECT_GT(rows[build]["T_auto of best [%]"], 0);
+        EXPECT_LE(rows[build]["T_auto of best [%]"], 100);
+    }
+    EXPECT_GT(rows[2]["in the map"], rows[0]["hits"]);
+    EXPECT_GT(rows[2]["VVH build [ms]"], 0);
+}
+
+TEST_F(PaperBench, RadiiCountEveryFootprint) {
+    const nlohmann::json hits = measure("figure5");
+    const nlohmann::json rows = measure("table3");
+    ASSERT_EQ(rows.size(), 1u);
+    std::uint64_t sum = 0;
+    for (const auto& [key, value] : rows[0].items()) {
+        sum += value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
+    }
+    EXPECT_EQ(sum, hits[0]["hits"].get<std::uint64_t>());
+}
+
+TEST_F(PaperBench, SharesAddUp) {
+    const nlohmann::json rows = measure("figure5");
+    const nlohmann::json& row = rows[0];
+    EXPECT_NEAR(row["tracing [%]"].get<double>() + row["building [%]"].get<double>() + row["rendering [%]"].get<double>(), 100,
+                1e-6);
+    EXPECT_GT(row["frame [s]"], 0);
+}
+
+TEST_F(PaperBench, EstimatorsAndKernelsAtEqualError) {
+    const nlohmann::json rows = measure("table2");
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_GT(rows[0]["footprints [s]"], 0);
+    EXPECT_TRUE(rows[0].contains("photons / footprints"));
+    EXPECT_NE(rows[1]["relMSE, uniform"], rows[1]["relMSE, Epanechnikov"]);
+}
+
+TEST_F(PaperBench, UnknownPapersAndPartsAreRefused) {
+    expect_failure("bench --paper jensen96", 2, "--paper");
+    expect_failure("bench --paper fd09 --part table9", 2, "--part");
+    expect_failure("bench --part table1", 2, "--paper");
+    expect_failure("bench --paper fd09", 1, "--scene");     // not in the project's folder
+}
+
+} // namespace
+} // namespace argand::testing
