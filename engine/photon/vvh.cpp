@@ -1,6 +1,7 @@
 #include "photon/vvh.hpp"
 
 #include "shared/footprint.h"
+#include "shared/photon.h"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 #include "photon/vvh.hpp"
 #include "shared/bsdf.h"
 #include "shared/footprint.h"
+#include "shared/photon.h"
 #include "shared/path_records.h"
 #include "shared/query_record.h"
 

@@ -1,6 +1,7 @@
 #include "fd09.hpp"
 #include "fd09_map.hpp"
 #include "shared/footprint.h"
+#include "shared/photon.h"
 
 #include <algorithm>
 #include <array>
