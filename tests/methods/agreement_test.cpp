@@ -69,7 +69,7 @@ TEST_F(Agreement, ShadingNormals) {
     expect_same_mean(scene, 16, 512, "indirect", 0.05);
 }
 
-TEST_F(Agreement, CameraInsideGlass) {
+TEST_F(Agreement, SlowCameraInsideGlass) {
     // A Lambertian block in the glass in which the camera is too: what it reflects comes to it through glass.
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(0.5f)));
     add_sphere(scene, glm::vec3(0), 0.8f, 12, false, add_material(scene, glass(1.5f, true)));
@@ -78,7 +78,7 @@ TEST_F(Agreement, CameraInsideGlass) {
     expect_same_mean(scene, 8, 4096, "", 0.05);
 }
 
-TEST_F(Agreement, ErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
+TEST_F(Agreement, SlowErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
     const Scene scene = room_scene();
     const Reference truth = reference(scene, 24, 1024);
     const double few = error(photons(scene, 24, 10'000, 0.3), truth, "indirect");

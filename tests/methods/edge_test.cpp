@@ -234,7 +234,7 @@ TEST_F(PhotonEdge, PassesAreIndependentEstimatesOfTheSame) {
     }
 }
 
-TEST_F(PhotonEdge, PassesGrowSmallerWhereEveryPhotonIsStoredOften) {
+TEST_F(PhotonEdge, SlowPassesGrowSmallerWhereEveryPhotonIsStoredOften) {
     // Walls that reflect almost everything: a photon is stored far more often than room is made for.
     Scene scene = load_asset("closed_box.gltf");
     for (Material& material : scene.materials) {

@@ -258,7 +258,7 @@ TEST_F(GatherNearest, EqualDistancesGoByTheOrderOfTheMap) {
     }
 }
 
-TEST_F(GatherNearest, MillionInOnePoint) {
+TEST_F(GatherNearest, SlowMillionInOnePoint) {
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 1'000'000; ++i) {
         photons.push_back(photon({0.25f, 0, -0.5f}, i % 5 == 0));
