@@ -85,13 +85,13 @@ private:
 };
 
 /// A test that runs once for each of variant_settings(); see INSTANTIATE_VARIANTS.
-class VariantTest : public DeviceTest, public testing::WithParamInterface<DeviceSetting> {
+class VariantTest : public DeviceTest, public ::testing::WithParamInterface<DeviceSetting> {
 protected:
     Device& open_variant() { return open(GetParam()); }
 };
 
 #define INSTANTIATE_VARIANTS(suite)                                                                          \
-    INSTANTIATE_TEST_SUITE_P(Variants, suite, testing::ValuesIn(argand::variant_settings()),                 \
+    INSTANTIATE_TEST_SUITE_P(Variants, suite, ::testing::ValuesIn(argand::variant_settings()),                 \
                              [](const auto& variant) { return variant.param.name; })
 
 } // namespace argand

@@ -1,8 +1,11 @@
 #include "methods/eye_paths.hpp"
 
 #include "kernels/camera_rays.hpp"
+#include "kernels/estimate_add.hpp"
 #include "kernels/eye_vertex.hpp"
 #include "kernels/film_add.hpp"
+#include "kernels/query_cells.hpp"
+#include "kernels/query_owners.hpp"
 #include "kernels/shadow_add.hpp"
 #include "parallel/compact.hpp"
 #include "shared/geometry_records.h"
@@ -10,6 +13,8 @@
 #include "shared/query_record.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace argand {
 
@@ -19,14 +24,62 @@ namespace {
 // allows.
 constexpr std::uint64_t slots_on_cpu = 1u << 17;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
-// Light from photons is smooth, and asking for it costs more than all the rest: every other sample asks.
+// Asking for light from photons costs more than all the rest. Where answers are not shared, every other sample asks.
 constexpr std::uint32_t samples_per_query = 2;
+// Samples of a pixel that are traced together for the sake of sharing answers.
+constexpr std::uint64_t samples_that_share = 8;
 // The film adds a pixel's samples in one loop: well below the 65,535 iterations after which lavapipe ends loops.
 constexpr std::uint64_t most_samples_at_once = 1u << 14;
 // Of the paths that ask the photon map, among EyeWorkspace::counts.
 constexpr std::uint32_t asking_count = 2;
 // Vertices recorded before the host asks whether any path is left.
 constexpr int vertices_between_checks = 4;
+
+QueryShareParams share_params(const EyeWorkspace& w, double cell, bool pixel_sized) {
+    QueryShareParams p{.pixel = 3e38f};
+    p.cell = cell > 0 ? std::max(static_cast<float>(cell), 1e-30f) : 0;
+    if (pixel_sized) {
+        const double across = glm::length(glm::dvec3(w.view.across_x, w.view.across_y, w.view.across_z));
+        p.pixel = static_cast<float>(across * w.view.origin_share);
+        p.pixel_slope = static_cast<float>(across * (1 - w.view.origin_share));
+        p.eye_x = w.view.origin_x;
+        p.eye_y = w.view.origin_y;
+        p.eye_z = w.view.origin_z;
+    }
+    p.mask = static_cast<std::uint32_t>(w.cells.size() / 4 - 1);
+    return p;
+}
+
+/// Has the queries of the active paths answered, one for all that share a cell, and adds to the paths' layers.
+void ask(Device& device, EyeWorkspace& w, const Count& active, std::uint32_t part, double cell,
+         bool pixel_sized, const Gather& gather) {
+    {
+        const StageScope stage(device, "share queries");
+        if (cell > 0) {
+            device.fill(w.cells, no_query);
+            device.fill(w.owners, no_query);
+        }
+        dispatch_indirect(device,
+                          kernels::query_cells{.active_slots = w.active, .counts = w.counts, .asks = w.asks,
+                                               .queries = w.queries, .table = w.cells, .owners = w.owners,
+                                               .sources = w.sources, .params = share_params(w, cell, pixel_sized)},
+                          w.counts);
+        dispatch_indirect(device,
+                          kernels::query_owners{.active_slots = w.active, .counts = w.counts, .owners = w.owners,
+                                                .asks = w.asks, .sources = w.sources, .chosen = w.chosen},
+                          w.counts);
+    }
+    {
+        const StageScope stage(device, "compact");
+        compact(device, w.chosen, w.active, w.asking, w.counts, asking_count, active);
+    }
+    gather(Count(w.counts, asking_count, active.bound), part);
+    const StageScope stage(device, "share queries");
+    dispatch_indirect(device,
+                      kernels::estimate_add{.active_slots = w.active, .counts = w.counts, .sources = w.sources,
+                                            .queries = w.queries, .estimates = w.estimates, .layers = w.layers},
+                      w.counts);
+}
 
 /// Traces the paths of a batch to their end.
 void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera, const EyeBatch& batch,
@@ -74,11 +127,13 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                               w.counts);
         }
         if (gather) {
-            {
-                const StageScope stage(device, "compact");
-                compact(device, w.asks, w.active, w.asking, w.counts, asking_count, active);
+            const QuerySharing& sharing = w.sharing;
+            if (sharing.caustics_apart) {
+                ask(device, w, active, map_indirect, sharing.cell, sharing.pixel_sized, gather);
+                ask(device, w, active, map_caustic, 0, false, gather);
+            } else {
+                ask(device, w, active, map_whole, sharing.cell, sharing.pixel_sized, gather);
             }
-            gather(Count(w.counts, asking_count, slots));
         }
         {
             const StageScope stage(device, "compact");
@@ -116,6 +171,7 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, pixels * settings.samples);
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(GatherRecord));    // the largest per slot
     const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
+    w.view = camera;
     w.camera = upload<CameraRecord>(device, "camera", std::span(&camera, 1));
     w.rays = per_slot("eye rays", sizeof(RayRecord));
     w.hits = per_slot("eye hits", sizeof(HitRecord));
@@ -129,7 +185,16 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     w.occluded = per_slot("shadow ray flags", 4);
     w.queries = device.allocate("photon map queries", queries ? w.slots * sizeof(QueryRecord) : sizeof(QueryRecord));
     w.asks = device.allocate("eye path flags", queries ? w.slots * 4 : 4);
-    w.asking = device.allocate("asking eye paths", queries ? w.slots * 4 : 4);
+    if (queries) {
+        w.chosen = per_slot("eye path flags", 4);
+        w.asking = per_slot("asking eye paths", 4);
+        w.estimates = per_slot("photon map answers", sizeof(EstimateRecord));
+        w.partial = per_slot("unfinished query sums", sizeof(GatherRecord));
+        w.sources = per_slot("photon map answers' slots", 4);
+        const std::uint64_t entries = std::bit_ceil(w.slots + 1);
+        w.cells = device.allocate("cells of queries", entries * 4);
+        w.owners = device.allocate("owners of cells", entries * 4);
+    }
     w.counts = device.allocate("eye path counts", 16);
     w.traversal = make_traversal(device, w.slots);
     w.film_pixels = device.info().limits.storage_range / sizeof(FilmRecord);
@@ -140,12 +205,18 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     return w;
 }
 
+GatherTarget query_target(const EyeWorkspace& w, std::uint32_t part) {
+    return {.slots = w.asking, .counts = w.counts, .queries = w.queries, .estimates = w.estimates,
+            .partial = w.partial, .part = part};
+}
+
 bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const RenderSettings& settings,
                      std::uint32_t first_sample, std::uint32_t samples, const Gather& gather,
                      const OnProgress& progress) {
     const std::uint64_t pixels = std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
+    const std::uint64_t least_at_once = gather ? std::min(samples_that_share, w.slots) : 1;
     const std::uint64_t samples_at_once =
-        std::min(std::clamp<std::uint64_t>(w.slots / pixels, 1, samples), most_samples_at_once);
+        std::min({std::max(w.slots / pixels, least_at_once), std::uint64_t(samples), most_samples_at_once});
     const std::uint64_t pixels_at_once = std::min(pixels, w.slots / samples_at_once);
     const double batches = static_cast<double>(pixels) * samples;
     double done = 0;
@@ -165,8 +236,10 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
             batch.width = static_cast<std::uint32_t>(settings.width);
             batch.height = static_cast<std::uint32_t>(settings.height);
             batch.bounces = settings.bounces;
-            batch.query_first = first_sample;
-            batch.query_step = gather ? samples_per_query : 1;
+            batch.shares_queries = gather && w.sharing.cell > 0 ? 1 : 0;
+            batch.query_step = samples_per_query;
+            const std::uint32_t asking = (batch.samples + samples_per_query - 1) / samples_per_query;
+            batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(asking);
             trace_batch(device, scene, w, batch, gather);
             if (!w.traversal.careful && download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
                 w.traversal.careful = true;
@@ -195,10 +268,11 @@ std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, 
     batch.samples = 1;
     batch.bounces = settings.bounces;
     batch.query_step = 1;
+    batch.query_weight = 1;
     const CameraRecord record = camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
     const Buffer small_picture = upload<CameraRecord>(device, "camera", std::span(&record, 1));
     std::vector<glm::vec3> positions;
-    trace_paths(device, scene, w, small_picture, batch, [&](const Count& asking) {
+    trace_paths(device, scene, w, small_picture, batch, [&](const Count& asking, std::uint32_t) {
         const auto count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
         const std::vector<QueryRecord> queries = download<QueryRecord>(device, w.queries, batch.pixels);
         for (const std::uint32_t slot : download<std::uint32_t>(device, w.asking, count)) {
@@ -230,10 +304,9 @@ std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& w, const Ren
         const FilmRecord& f = film[i];
         const std::uint32_t finite = f.samples - f.non_finite;
         const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
-        const float asked_scale = f.asked > 0 ? 1.0f / static_cast<float>(f.asked) : 0.0f;
         layers[1].image.pixels[i] = glm::vec3(f.direct_r, f.direct_g, f.direct_b) * scale;
-        layers[2].image.pixels[i] = glm::vec3(f.indirect_r, f.indirect_g, f.indirect_b) * asked_scale;
-        layers[3].image.pixels[i] = glm::vec3(f.caustic_r, f.caustic_g, f.caustic_b) * asked_scale;
+        layers[2].image.pixels[i] = glm::vec3(f.indirect_r, f.indirect_g, f.indirect_b) * scale;
+        layers[3].image.pixels[i] = glm::vec3(f.caustic_r, f.caustic_g, f.caustic_b) * scale;
         layers[0].image.pixels[i] = layers[1].image.pixels[i] + layers[2].image.pixels[i] + layers[3].image.pixels[i];
         statistics.non_finite += f.non_finite;
     }

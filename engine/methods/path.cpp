@@ -1,3 +1,4 @@
+#include "methods/budget.hpp"
 #include "methods/eye_paths.hpp"
 #include "methods/methods.hpp"
 
@@ -9,14 +10,22 @@ namespace argand {
 /// roulette: the reference for everything else.
 RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings,
                          const OnProgress& progress) {
+    Budget budget(settings.budget);
     const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
     EyeWorkspace workspace =
         make_eye_workspace(device, settings,
                            camera_record(scene.cameras[settings.camera], settings.width, settings.height), false);
     RenderResult result;
-    result.statistics.interrupted =
-        !trace_eye_paths(device, on_device, workspace, settings, 0, settings.samples, nullptr, progress);
-    result.statistics.passes = 1;
+    std::uint64_t& passes = result.statistics.passes;
+    bool more = true;
+    while (more) {
+        const auto first_sample = static_cast<std::uint32_t>(passes * settings.samples);
+        result.statistics.interrupted =
+            !trace_eye_paths(device, on_device, workspace, settings, first_sample, settings.samples, nullptr,
+                             [&](double part) { return progress(budget.share(passes, part, 1)); });
+        ++passes;
+        more = budget.another(passes, 1) && !result.statistics.interrupted;
+    }
     result.layers = resolve_film(device, workspace, settings, result.statistics);
     return result;
 }

@@ -34,12 +34,15 @@ struct RenderSettings {
     int height = 512;
     std::uint32_t samples = 8;                  ///< eye paths per pixel
     std::uint64_t photons = 200'000;            ///< photons emitted in all
+    std::optional<double> budget;               ///< seconds: so many samples and photons again and again until then
     std::uint32_t bounces = 0xffff;             ///< the most scatterings between light and first estimated vertex
     std::optional<double> radius;               ///< of density estimation, in the scene's units; of `knn`: r_max
     std::optional<std::uint32_t> neighbours;    ///< k of `knn` in each pass, at least 1; none: from the photons stored
     std::uint32_t seed = 0;
     std::size_t camera = 0;                     ///< index into Scene::cameras
     float follow_roughness = 0.25f;             ///< glossy lobes at most this rough are followed from the eye
+    double query_cell = 0.3;                    ///< edge of the cells in which diffuse surfaces share one density
+                                                ///< estimate, in radii of estimation; 0: none are shared
     FootprintSettings footprints;
 };
 

@@ -27,7 +27,7 @@ template <class Kernel> void run_radius(const Work& work, const Buffer& unfinish
                       Kernel{.nodes = work.map.lbvh.nodes, .photons = work.map.photons, .counters = work.map.counters,
                              .active_slots = work.target.slots, .counts = work.target.counts,
                              .queries = work.target.queries, .materials = work.scene.materials,
-                             .gathers = work.target.partial, .unfinished = unfinished, .layers = work.target.layers,
+                             .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .params = work.params, .constants = {.glossy = work.scene.has_glossy}},
                       work.asking.buffer, work.asking.index);
 }
@@ -37,7 +37,7 @@ template <class Kernel> void run_footprints(const Work& work, const Buffer& unfi
                       Kernel{.nodes = work.map.lbvh.nodes, .photons = work.map.photons, .counters = work.map.counters,
                              .active_slots = work.target.slots, .counts = work.target.counts,
                              .queries = work.target.queries, .materials = work.scene.materials,
-                             .gathers = work.target.partial, .unfinished = unfinished, .layers = work.target.layers,
+                             .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .footprints = work.map.footprints, .params = work.params,
                              .constants = {.glossy = work.scene.has_glossy, .uniform_kernel = work.uniform_kernel}},
                       work.asking.buffer, work.asking.index);
@@ -49,6 +49,7 @@ void gather(Work work, Traversal& traversal, Run storage, Run texels) {
     const Run run = read_as_texels(work.device, work.map.lbvh.nodes, work.map.photons) ? texels : storage;
     work.params.first = 1;
     work.params.count_index = work.asking.index;
+    work.params.part = work.target.part;
     work.params.boundary_correction = work.map.area_samples > 0 ? 1 : 0;
     if (!traversal.careful) {
         run(work, traversal.unfinished);

@@ -15,7 +15,7 @@ Kernel make_kernel(const DeviceScene& scene, const PhotonMap& map, const GatherT
                    const Buffer& states, const Buffer& words, const PhotonGatherParams& params) {
     return {.nodes = map.lbvh.nodes, .photons = map.photons, .counters = map.counters, .active_slots = target.slots,
             .counts = target.counts, .queries = target.queries, .materials = scene.materials, .states = states,
-            .unfinished = unfinished, .layers = target.layers, .suspended_words = words, .params = params,
+            .unfinished = unfinished, .estimates = target.estimates, .suspended_words = words, .params = params,
             .constants = {.glossy = scene.has_glossy}};
 }
 
@@ -29,6 +29,7 @@ void gather_nearest(Device& device, const DeviceScene& scene, const PhotonMap& m
     params.boundary_correction = map.area_samples > 0 ? 1 : 0;
     params.radius = static_cast<float>(settings.radius);
     params.neighbours = settings.neighbours;
+    params.part = target.part;
     params.samples_per_area = static_cast<float>(settings.samples_per_area);
     const char* const words_name = "nearest photons: bins";
     if (!traversal.careful) {

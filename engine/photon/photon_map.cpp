@@ -196,7 +196,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
     dispatch(device, kernels::photon_tally{.photons = w.photons, .counters = w.counters},
              (w.capacity + slots_per_tally - 1) / slots_per_tally);
     const std::vector<std::uint32_t> counters = download<std::uint32_t>(device, w.counters, counter_count);
-    return StoredPhotons{counters[counter_stored_slots], counters[counter_photons]};
+    return StoredPhotons{counters[counter_stored_slots], counters[counter_photons], pass.count};
 }
 
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const StoredPhotons& stored,

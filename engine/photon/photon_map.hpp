@@ -35,6 +35,7 @@ struct PhotonPass {
 struct StoredPhotons {
     std::uint64_t slots = 0;    ///< records in use, some of them empty
     std::uint64_t photons = 0;
+    std::uint64_t emitted = 0;
 };
 
 /// Device memory for tracing photons; grows with need.

@@ -11,8 +11,9 @@ namespace argand {
 
 namespace {
 
-// Enough for a median within a few per cent; every one is compared with all photons.
+// Enough for a median within a few per cent: every point is compared with every photon that is looked at.
 constexpr std::size_t points_looked_at = 96;
+constexpr std::size_t photons_looked_at = 50'000;
 
 struct Ellipse {
     glm::vec3 position, a, b, normal;
@@ -23,7 +24,8 @@ struct Ellipse {
 double median_smoothing(std::span<const PhotonRecord> photons, std::span<const glm::uvec4> offsets,
                         std::span<const glm::vec3> points, const FootprintScale& unit, double on_point) {
     std::vector<Ellipse> ellipses;
-    for (std::size_t i = 0; i < photons.size(); ++i) {
+    const std::size_t stride = std::max<std::size_t>(photons.size() / photons_looked_at, 1);
+    for (std::size_t i = 0; i < photons.size(); i += stride) {
         const PhotonRecord& photon = photons[i];
         if (photon.normal == no_photon || photon_is_caustic(photon.normal)) {
             continue;
@@ -38,7 +40,8 @@ double median_smoothing(std::span<const PhotonRecord> photons, std::span<const g
     if (ellipses.empty() || points.empty()) {
         return 0;
     }
-    const auto nth = std::min(static_cast<std::size_t>(std::max(on_point, 1.0)), ellipses.size()) - 1;
+    const double on_point_of_these = on_point / static_cast<double>(stride);
+    const auto nth = std::min(static_cast<std::size_t>(std::max(on_point_of_these, 1.0)), ellipses.size()) - 1;
     std::vector<float> distances(ellipses.size());
     std::vector<float> smoothings;
     const std::size_t step = std::max<std::size_t>(points.size() / points_looked_at, 1);

@@ -42,7 +42,7 @@ struct FilmRecord {
     float32 direct_r, direct_g, direct_b;
     uint samples;
     float32 indirect_r, indirect_g, indirect_b;
-    uint asked;                 // finite samples that asked the photon map: of indirect and caustic light
+    uint pad3;
     float32 caustic_r, caustic_g, caustic_b;
     uint non_finite;            // samples left out because they were not finite
     float32 lost_direct_r, lost_direct_g, lost_direct_b, pad0;
@@ -57,9 +57,10 @@ struct EyeBatch {
     uint first_sample, samples;     // per pixel in this batch
     uint width, height;
     uint bounces;                   // the most scatterings between the light and the first estimated vertex
-    uint query_first, query_step;   // samples that ask the photon map: query_first, query_first + query_step, ...
+    uint shares_queries;            // whether Lambertian surfaces share the photon map's answers
+    uint query_step;                // of other surfaces, samples first_sample, first_sample + query_step, ... ask,
+    float32 query_weight;           // and each counts by so much
     uint first_film_pixel;          // of the part of the film
-    uint pad;
 };
 
 ARGAND_SHARED_END

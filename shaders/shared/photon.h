@@ -9,6 +9,9 @@ ARGAND_SHARED_BEGIN
 
 // A unit vector in 2×15 bits, the caustic bit, and on top the bit of area samples; all bits set stand for a slot
 // without a record.
+// In a photon's code, above its place on the curve: whether it is caustic.
+CONSTANT uint photon_kind_shift = 30u;
+
 CONSTANT uint no_photon = 0xffffffffu;
 CONSTANT uint photon_normal_mask = 0x3fffffffu;
 CONSTANT uint photon_caustic_bit = 0x40000000u;

@@ -60,6 +60,11 @@ struct FluxSumParams {
     uint pad0, pad1, pad2;
 };
 
+// Parts of the map: its tree divides caustic photons from all others, at the root.
+CONSTANT uint map_whole = 0u;
+CONSTANT uint map_indirect = 1u;    // and area samples
+CONSTANT uint map_caustic = 2u;
+
 struct PhotonGatherParams {
     uint budget;        // iterations of a dispatch
     uint first;         // whether this is the first dispatch of these queries
@@ -72,7 +77,7 @@ struct PhotonGatherParams {
     float32 samples_per_area;   // area samples
     uint first_query;           // of this dispatch
     uint places;                // for queries that are put aside; 0: they are not (nearest_gather only)
-    uint pad;
+    uint part;                  // map_*
 };
 
 // A query of the photon map between two dispatches: the node to go on with, and the sums so far.

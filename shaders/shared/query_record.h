@@ -9,13 +9,33 @@ ARGAND_SHARED_BEGIN
 struct QueryRecord {
     float32 x, y, z;
     uint material;
-    float32 throughput_r, throughput_g, throughput_b;   // of the path to the eye
+    float32 throughput_r, throughput_g, throughput_b;   // by which the answer counts for the path to the eye
     uint direction;         // towards the eye, packed (pack_unit)
     uint geometric_normal;  // towards the eye's side, packed
     uint shading_normal;    // packed
     uint lobes;             // LOBE_* to be estimated
-    uint front;             // 1: the surface is seen from its front
+    uint flags;             // query_*
 };
+
+CONSTANT uint query_front = 1u;     // the surface is seen from its front
+CONSTANT uint query_white = 2u;     // Lambertian, with its albedo in the throughput: asks for what albedo 1 scatters
+
+// What the photon map answers: radiance towards the eye.
+struct EstimateRecord {
+    float32 indirect_r, indirect_g, indirect_b, pad0;
+    float32 caustic_r, caustic_g, caustic_b, pad1;
+};
+
+// How white queries nearby share an answer (query_cells.comp).
+struct QueryShareParams {
+    float32 cell;               // edge of a cell at most [length]; 0: nothing is shared
+    float32 pixel, pixel_slope; // a cell is no larger than pixel + pixel_slope × distance from the eye
+    uint mask;                  // entries of the table - 1, a power of two - 1
+    float32 eye_x, eye_y, eye_z;
+    uint pad;
+};
+
+CONSTANT uint no_query = 0xffffffffu;
 
 ARGAND_SHARED_END
 

@@ -4,6 +4,8 @@
 #include "base/error.hpp"
 #include "shared/maths.h"
 
+#include <chrono>
+
 namespace argand::testing {
 namespace {
 
@@ -160,13 +162,36 @@ TEST_P(Edge, InterruptKeepsWhatIsFinished) {
     }
 }
 
+TEST_P(Edge, BudgetIsFilledWithPasses) {
+    const Scene scene = box_scene(emitter(glm::vec3(1)));
+    RenderSettings budgeted = settings(16, 2);
+    budgeted.photons = 2000;
+    budgeted.bounces = 2;
+    render(scene, budgeted);    // so that kernels are compiled
+    budgeted.budget = 2;
+    const auto start = std::chrono::steady_clock::now();
+    const RenderResult result = render(scene, budgeted);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_GT(result.statistics.passes, 1u);
+    EXPECT_EQ(result.statistics.samples, 2 * result.statistics.passes);
+    EXPECT_FALSE(result.statistics.interrupted);
+    // Passes differ in length where others use the machine.
+    EXPECT_LT(seconds, 4);
+    for (const glm::vec3& pixel : layer(result, "").pixels) {
+        ASSERT_EQ(pixel, glm::vec3(1));
+    }
+    // Less than a pass takes: there is one.
+    budgeted.budget = 1e-6;
+    EXPECT_EQ(render(scene, budgeted).statistics.passes, 1u);
+}
+
 TEST_P(Edge, InterruptLeavesNoPixelOut) {
     // More pixels than are traced together.
     const Scene scene = box_scene(emitter(glm::vec3(1)));
     const RenderResult result =
-        argand::render(device(), scene, settings(512, 4), [](double) { return false; });
+        argand::render(device(), scene, settings(512, 16), [](double) { return false; });
     EXPECT_TRUE(result.statistics.interrupted);
-    EXPECT_EQ(result.statistics.samples, 1u);
+    EXPECT_EQ(result.statistics.samples, GetParam() == std::string("path") ? 1u : 8u);
     for (const glm::vec3& pixel : layer(result, "").pixels) {
         ASSERT_EQ(pixel, glm::vec3(1));
     }

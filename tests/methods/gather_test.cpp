@@ -1,11 +1,8 @@
 // Density estimation over photons made by hand, against the sum in double precision.
 #include "rendering.hpp"
 
-#include "photon/gather.hpp"
-#include "shared/bsdf.h"
-#include "shared/path_records.h"
+#include "photon/map_queries.hpp"
 #include "shared/photon.h"
-#include "shared/query_record.h"
 
 #include <random>
 
@@ -13,17 +10,6 @@ namespace argand::testing {
 namespace {
 
 constexpr float albedo = 0.5f;
-
-struct Query {
-    glm::vec3 position{0};
-    glm::vec3 normal{0, 1, 0};
-};
-
-/// What a query adds to a path's layers.
-struct Gathered {
-    glm::dvec3 indirect{0}, caustic{0};
-    bool finished = true;
-};
 
 class GatherPhotons : public RenderTest {
 protected:
@@ -37,44 +23,19 @@ protected:
     }
 
     std::vector<Gathered> gather(const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, float radius,
-                                 std::uint32_t budget, bool careful = true,
-                                 std::uint64_t area_samples = 0) {
+                                 std::uint32_t budget, bool careful = true, std::uint64_t area_samples = 0,
+                                 std::uint32_t part = map_whole) {
         const DeviceScene scene = upload_scene(device(), floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
         PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
-        device().upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
-        std::vector<std::uint32_t> counters(counter_count, 0);
-        counters[counter_stored_slots] = static_cast<std::uint32_t>(photons.size());
-        device().upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
-        const PhotonMap map = build_photon_map(device(), scene, workspace, {photons.size(), photons.size()},
+        const PhotonMap map = build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
                                                {.area_samples = area_samples});
-
-        const std::size_t n = queries.size();
-        std::vector<std::uint32_t> active;
-        std::vector<QueryRecord> records;
-        for (const Query& q : queries) {
-            active.push_back(static_cast<std::uint32_t>(active.size()));
-            records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, pack_unit(q.normal),
-                               pack_unit(q.normal), pack_unit(q.normal), LOBE_DIFFUSE, 1});
-        }
-        const std::uint32_t count = static_cast<std::uint32_t>(n);
-        GatherTarget target{.slots = upload(device(), "slots", active),
-                            .counts = upload(device(), "counts", std::vector<std::uint32_t>{count, 0, 0, 0}),
-                            .queries = upload(device(), "queries", records),
-                            .layers = upload(device(), "layers", std::vector<LayersRecord>(n)),
-                            .partial = device().allocate("partial", n * sizeof(GatherRecord))};
-        Traversal traversal = make_traversal(device(), n);
-        traversal.careful = careful;
-        device().fill(traversal.unfinished, 0);
-        gather_photons(device(), scene, map, target, traversal, {radius, radius}, Count(target.counts, 0, n), budget);
-        const bool finished = download<std::uint32_t>(device(), traversal.unfinished, 1)[0] == 0;
-        std::vector<Gathered> result;
-        for (const LayersRecord& l : download<LayersRecord>(device(), target.layers, n)) {
-            EXPECT_EQ(l.direct_r, 0);
-            result.push_back({{l.indirect_r, l.indirect_g, l.indirect_b}, {l.caustic_r, l.caustic_g, l.caustic_b}, finished});
-        }
-        return result;
+        return answers(device(), queries, careful, part, finished_,
+                       [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
+                           gather_photons(device(), scene, map, target, traversal, {radius, radius}, asking, budget);
+                       });
     }
 
+    bool finished_ = true;
     std::mt19937 random_;
 };
 
@@ -115,9 +76,32 @@ TEST_F(GatherPhotons, IsTheKernelsSumOverThoseWithinTheRadius) {
     }
     for (const float radius : {0.05f, 0.4f, 5.0f}) {
         const std::vector<Gathered> sums = gather(photons, queries, radius, gather_budget, false);
+        ASSERT_TRUE(finished_);
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            ASSERT_TRUE(sums[i].finished);
             expect_near(sums[i], expected_sum(photons, queries[i], radius), 1e-4);
+        }
+    }
+}
+
+TEST_F(GatherPhotons, PartsOfTheMap) {
+    for (const int every : {0, 1, 2, 100}) {    // of how many photons one is caustic; 0: none
+        for (const int n : {0, 1, 2, 15, 16, 17, 1000}) {
+            SCOPED_TRACE(std::to_string(every) + ", " + std::to_string(n));
+            std::vector<PhotonRecord> photons;
+            std::vector<Query> queries{Query{}};
+            for (int i = 0; i < n; ++i) {
+                photons.push_back(photon({uniform(-1, 1), 0, uniform(-1, 1)}, every > 0 && i % every == 0));
+                queries.push_back({{photons.back().x, 0, photons.back().z}});
+            }
+            const auto whole = gather(photons, queries, 0.3f, gather_budget);
+            // Few steps at a time: put aside and gone on with.
+            const auto indirect = gather(photons, queries, 0.3f, 5, true, 0, map_indirect);
+            const auto caustic = gather(photons, queries, 0.3f, 5, true, 0, map_caustic);
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                ASSERT_EQ(indirect[i].caustic, glm::dvec3(0));
+                ASSERT_EQ(caustic[i].indirect, glm::dvec3(0));
+                expect_near({indirect[i].indirect, caustic[i].caustic}, whole[i], 1e-6);
+            }
         }
     }
 }
@@ -161,7 +145,7 @@ TEST_F(GatherPhotons, MillionInOnePointIsTheExactSum) {
     EXPECT_EQ(sums[2].indirect, glm::dvec3(0));
     // In one dispatch there is no end to it: that is said, and nothing is added.
     const Gathered hurried = gather(photons, {queries[0]}, 0.1f, gather_budget, false)[0];
-    EXPECT_FALSE(hurried.finished);
+    EXPECT_FALSE(finished_);
     EXPECT_EQ(hurried.indirect, glm::dvec3(0));
 }
 

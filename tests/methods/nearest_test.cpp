@@ -2,12 +2,10 @@
 // precision.
 #include "rendering.hpp"
 
+#include "photon/map_queries.hpp"
 #include "photon/nearest.hpp"
-#include "shared/bsdf.h"
 #include "shared/nearest_records.h"
-#include "shared/path_records.h"
 #include "shared/photon.h"
-#include "shared/query_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +18,6 @@ namespace {
 constexpr float albedo = 0.5f;
 constexpr std::uint32_t ks[] = {1, 2, 3, 150, 499, 500};
 
-struct Query {
-    glm::vec3 position{0};
-    glm::vec3 normal{0, 1, 0};
-};
-
 /// A photon's squared distance, by its bits, and its place in the map.
 struct Neighbour {
     std::uint32_t bits, index;
@@ -32,7 +25,7 @@ struct Neighbour {
 };
 
 struct Answer {
-    glm::dvec3 indirect{0}, caustic{0};
+    Gathered sums;
     NearestRecord state;
 };
 
@@ -130,43 +123,23 @@ protected:
                    float radius, std::uint32_t budget = gather_budget, bool careful = true, std::uint64_t area_samples = 0) {
         const DeviceScene scene = upload_scene(on, floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
         PhotonWorkspace workspace = make_photon_workspace(on, photons.size() + area_samples);
-        on.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
-        std::vector<std::uint32_t> counters(counter_count, 0);
-        counters[counter_stored_slots] = static_cast<std::uint32_t>(photons.size());
-        on.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
         const PhotonMap map =
-            build_photon_map(on, scene, workspace, {photons.size(), photons.size()}, {.area_samples = area_samples});
-
-        const std::size_t n = queries.size();
-        std::vector<std::uint32_t> active;
-        std::vector<QueryRecord> records;
-        for (const Query& q : queries) {
-            active.push_back(static_cast<std::uint32_t>(active.size()));
-            records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, pack_unit(q.normal),
-                               pack_unit(q.normal), pack_unit(q.normal), LOBE_DIFFUSE, 1});
-        }
-        GatherTarget target{.slots = upload(on, "slots", active),
-                            .counts = upload(on, "counts", std::vector<std::uint32_t>{static_cast<std::uint32_t>(n)}),
-                            .queries = upload(on, "queries", records),
-                            .layers = upload(on, "layers", std::vector<LayersRecord>(n)),
-                            .partial = Buffer()};
-        Traversal traversal = make_traversal(on, n);
-        traversal.careful = careful;
-        on.fill(traversal.unfinished, 0);
-        gather_nearest(on, scene, map, target, traversal,
-                       {.neighbours = k, .radius = radius, .samples_per_area = map.area_samples / scene.surface_area},
-                       Count(target.counts, 0, n), budget);
+            build_photon_map(on, scene, workspace, store(on, workspace, photons), {.area_samples = area_samples});
         Answers answers;
-        answers.finished = download<std::uint32_t>(on, traversal.unfinished, 1)[0] == 0;
-        const auto layers = download<LayersRecord>(on, target.layers, n);
-        std::vector<NearestRecord> states(n);
+        const std::vector<Gathered> sums = testing::answers(
+            on, queries, careful, map_whole, answers.finished,
+            [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
+                gather_nearest(on, scene, map, target, traversal,
+                               {.neighbours = k, .radius = radius,
+                                .samples_per_area = map.area_samples / scene.surface_area},
+                               asking, budget);
+            });
+        std::vector<NearestRecord> states(queries.size());
         if (careful) {
-            states = download<NearestRecord>(on, on.scratch(nearest_states, 0), n);
+            states = download<NearestRecord>(on, on.scratch(nearest_states, 0), queries.size());
         }
-        for (std::size_t i = 0; i < n; ++i) {
-            const LayersRecord& l = layers[i];
-            EXPECT_EQ(l.direct_r, 0);
-            answers.of.push_back({{l.indirect_r, l.indirect_g, l.indirect_b}, {l.caustic_r, l.caustic_g, l.caustic_b}, states[i]});
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            answers.of.push_back({sums[i], states[i]});
         }
         answers.photons = download<PhotonRecord>(on, map.photons, download<std::uint32_t>(on, map.counters, 1, counter_stored)[0]);
         return answers;
@@ -204,8 +177,8 @@ protected:
                 without_kernel += term;
             }
             for (int c = 0; c < 3; ++c) {
-                EXPECT_NEAR(answers.of[i].indirect[c], indirect[c], 2e-6 * without_kernel[c]) << i;
-                EXPECT_NEAR(answers.of[i].caustic[c], caustic[c], 2e-6 * without_kernel[c]) << i;
+                EXPECT_NEAR(answers.of[i].sums.indirect[c], indirect[c], 2e-6 * without_kernel[c]) << i;
+                EXPECT_NEAR(answers.of[i].sums.caustic[c], caustic[c], 2e-6 * without_kernel[c]) << i;
             }
         }
     }
@@ -270,12 +243,12 @@ TEST_F(GatherNearest, SlowMillionInOnePoint) {
         SCOPED_TRACE(k);
         const Answers answers = gather(device(), photons, queries, k, 0.1f);
         expect_nearest(answers, queries, k, 0.1f);
-        EXPECT_TRUE(std::isfinite(answers.of[0].indirect.g));
+        EXPECT_TRUE(std::isfinite(answers.of[0].sums.indirect.g));
     }
     // In one dispatch there is no end to it: that is said, and nothing is added.
     const Answers hurried = gather(device(), photons, {queries[0]}, 500, 0.1f, gather_budget, false);
     EXPECT_FALSE(hurried.finished);
-    EXPECT_EQ(hurried.of[0].indirect, glm::dvec3(0));
+    EXPECT_EQ(hurried.of[0].sums.indirect, glm::dvec3(0));
 }
 
 TEST_F(GatherNearest, DenseAndSparseTogether) {
@@ -300,8 +273,8 @@ TEST_F(GatherNearest, InterruptedQueriesAndVariantsGiveTheSameBits) {
     const auto expect_same = [&](const Answers& other) {
         EXPECT_TRUE(other.finished);
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            EXPECT_EQ(other.of[i].indirect, whole.of[i].indirect) << i;
-            EXPECT_EQ(other.of[i].caustic, whole.of[i].caustic) << i;
+            EXPECT_EQ(other.of[i].sums.indirect, whole.of[i].sums.indirect) << i;
+            EXPECT_EQ(other.of[i].sums.caustic, whole.of[i].sums.caustic) << i;
         }
     };
     for (const std::uint32_t budget : {100u, 1000u, 1001u, 60'000u}) {
@@ -325,7 +298,7 @@ TEST_F(GatherNearest, EvenlySpreadPhotonsGiveTheirDensity) {
     const auto mean_at = [&](const std::vector<Query>& queries, std::uint32_t k, std::uint64_t area_samples) {
         double sum = 0;
         for (const Answer& answer : gather(device(), photons, queries, k, 1, gather_budget, true, area_samples).of) {
-            sum += answer.indirect.g;
+            sum += answer.sums.indirect.g;
         }
         return sum / static_cast<double>(queries.size()) / (albedo / double(pi));
     };

@@ -1,6 +1,6 @@
 // Density estimation over footprints made by hand, against the sum in double precision over what the map
 // keeps.
-#include "footprint_queries.hpp"
+#include "photon/map_queries.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
 
@@ -58,21 +58,17 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
         offsets.emplace_back(u.x, u.y, v.x, v.y);
         stored += splat.photon.normal != no_photon ? 1 : 0;
     }
-    device.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
-    device.upload(workspace.offsets, 0, std::as_bytes(std::span(offsets)));
-    std::vector<std::uint32_t> counters(counter_count, 0);
-    counters[counter_stored_slots] = static_cast<std::uint32_t>(splats.size());
-    device.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
-    const PhotonMap map = build_photon_map(device, scene, workspace, {splats.size(), stored},
+    const PhotonMap map = build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),
                                            {.area_samples = settings.area_samples,
                                             .leaf_size = settings.leaf_size,
                                             .footprints = plain_scale()});
 
     Sums result;
-    result.sums = gather(
-        device, scene, map, queries,
-        {.budget = settings.budget, .uniform_kernel = settings.uniform_kernel, .careful = settings.careful},
-        result.finished);
+    result.sums = answers(device, queries, settings.careful, map_whole, result.finished,
+                          [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
+                              gather_footprints(device, scene, map, target, traversal, settings.uniform_kernel, asking,
+                                                settings.budget);
+                          });
     const std::size_t kept = stored + map.area_samples;
     result.photons = download<PhotonRecord>(device, map.photons, kept);
     result.footprints = download<glm::uvec4>(device, map.footprints, kept);

@@ -1,12 +1,8 @@
 // The voxel volume heuristic's trees, and that a map walked through them holds what the linear build's does.
-#include "device_fixture.hpp"
-#include "photon/gather.hpp"
+#include "photon/map_queries.hpp"
 #include "photon/vvh.hpp"
-#include "shared/bsdf.h"
 #include "shared/footprint.h"
 #include "shared/photon.h"
-#include "shared/path_records.h"
-#include "shared/query_record.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,6 +10,8 @@
 
 namespace argand {
 namespace {
+
+using testing::answers, testing::Gathered, testing::Query, testing::store;
 
 std::vector<BoxRecord> random_boxes(std::size_t count, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -55,7 +53,7 @@ bool holds(const LbvhNode& node, const BoxRecord& box) {
 TEST(VolumeTree, LeavesPartTheBoxesAndBoxesHoldTheirs) {
     for (const std::size_t count : {0u, 1u, 2u, 3u, 100u, 5000u}) {
         for (const std::uint32_t leaf_size : {1u, 4u, 512u}) {
-            SCOPED_TRACE(testing::Message() << count << " in leaves of " << leaf_size);
+            SCOPED_TRACE(::testing::Message() << count << " in leaves of " << leaf_size);
             const std::vector<BoxRecord> boxes = random_boxes(count, 1);
             const VolumeTree tree = build_volume_tree(boxes, leaf_size);
             std::vector<std::uint32_t> sorted = tree.order;
@@ -144,26 +142,11 @@ TEST(VolumeTree, BoxesInOnePlaceMakeNoDeepTree) {
 }
 
 /// The grey square |x|, |z| <= 1, facing up.
-Scene floor_scene() {
-    Scene scene;
-    scene.name = "floor";
-    Material grey;
-    grey.base_color = glm::vec3(0.5f);
-    grey.metallic = 0;
-    grey.specular = 0;
-    scene.materials.push_back(grey);
-    scene.positions = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
-    scene.normals.assign(4, glm::vec3(0));
-    scene.triangles = {{0, 1, 2}, {0, 2, 3}};
-    scene.triangle_material = {0, 0};
-    return scene;
-}
-
 using VolumeHeuristicMap = VariantTest;
 
 TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     Device& device = open_variant();
-    const DeviceScene scene = upload_scene(device, floor_scene(), 0.25f);
+    const DeviceScene scene = upload_scene(device, testing::floor_scene(testing::lambertian(glm::vec3(0.5f)), 1), 0.25f);
     std::mt19937 random(4);
     std::uniform_real_distribution<float> coordinate(-1, 1);
     constexpr std::size_t count = 20'000;
@@ -180,14 +163,9 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
         offsets.emplace_back(a.x, a.y, b.x, b.y);
     }
     PhotonWorkspace workspace = make_photon_workspace(device, count, true);
-    device.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
-    device.upload(workspace.offsets, 0, std::as_bytes(std::span(offsets)));
-    std::vector<std::uint32_t> counters(counter_count, 0);
-    counters[counter_stored_slots] = count;
-    device.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
     const FootprintScale scale = make_footprint_scale(count, count, 1, 10, 1, 0.1f, 0.3f, 0.5f);
     const PhotonMap linear =
-        build_photon_map(device, scene, workspace, {count, count}, {.area_samples = 1000, .leaf_size = 8, .footprints = scale});
+        build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets), {.area_samples = 1000, .leaf_size = 8, .footprints = scale});
 
     const std::vector<BoxRecord> boxes = footprint_boxes(device, linear);
     ASSERT_EQ(boxes.size(), count + 1000);
@@ -203,35 +181,30 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
         ASSERT_NEAR(nodes[2 * i + 1].low_x, low, 1e-5);
     }
 
-    std::vector<QueryRecord> queries;
-    std::vector<std::uint32_t> slots;
-    for (std::uint32_t i = 0; i < 500; ++i) {
-        slots.push_back(i);
-        const std::uint32_t up = pack_unit({0, 1, 0});
-        queries.push_back({coordinate(random), 0, coordinate(random), 0, 1, 1, 1, up, up, up, LOBE_DIFFUSE, 1});
+    std::vector<Query> queries;
+    for (int i = 0; i < 500; ++i) {
+        queries.push_back({{coordinate(random), 0, coordinate(random)}});
     }
     const auto gather = [&](const PhotonMap& map) {
-        const GatherTarget target{.slots = upload(device, "slots", slots),
-                                  .counts = upload(device, "counts", std::vector<std::uint32_t>{500, 0, 0, 0}),
-                                  .queries = upload(device, "queries", queries),
-                                  .layers = upload(device, "layers", std::vector<LayersRecord>(500)),
-                                  .partial = device.allocate("partial", 500 * sizeof(GatherRecord))};
-        Traversal traversal = make_traversal(device, 500);
-        device.fill(traversal.unfinished, 0);
-        gather_footprints(device, scene, map, target, traversal, false, Count(target.counts, 0, 500));
-        EXPECT_EQ(download<std::uint32_t>(device, traversal.unfinished, 1)[0], 0u);
-        return download<LayersRecord>(device, target.layers, 500);
+        bool finished = false;
+        const std::vector<Gathered> sums =
+            answers(device, queries, false, map_whole, finished,
+                    [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
+                        gather_footprints(device, scene, map, target, traversal, false, asking);
+                    });
+        EXPECT_TRUE(finished);
+        return sums;
     };
-    const std::vector<LayersRecord> expected = gather(linear);
+    const std::vector<Gathered> expected = gather(linear);
     const VolumeTree tree = build_volume_tree(boxes, 1);
     const PhotonMap sorted = reordered(device, linear, tree.order);
     for (const std::uint32_t leaf_size : {1u, 32u, most_photons_a_leaf}) {
         SCOPED_TRACE(leaf_size);
-        const std::vector<LayersRecord> found = gather(with_tree(device, sorted, tree, leaf_size));
+        const std::vector<Gathered> found = gather(with_tree(device, sorted, tree, leaf_size));
         for (std::size_t i = 0; i < found.size(); ++i) {
-            ASSERT_GT(expected[i].indirect_r, 0);
-            ASSERT_NEAR(found[i].indirect_r, expected[i].indirect_r, 1e-4 * expected[i].indirect_r);
-            ASSERT_NEAR(found[i].caustic_g, expected[i].caustic_g, 1e-4 * expected[i].caustic_g);
+            ASSERT_GT(expected[i].indirect.r, 0);
+            ASSERT_NEAR(found[i].indirect.r, expected[i].indirect.r, 1e-4 * expected[i].indirect.r);
+            ASSERT_NEAR(found[i].caustic.g, expected[i].caustic.g, 1e-4 * expected[i].caustic.g);
         }
     }
 }

@@ -174,6 +174,10 @@ void add_render_command(CLI::App& app) {
         ->capture_default_str()
         ->check(integer_between(0, 4'000'000'000));
     command
+        ->add_option("--budget", settings.budget,
+                     "Seconds: so many photons and eye paths again and again, as often as there is time for")
+        ->check(number_between(1e-3, 1e7));
+    command
         ->add_option("--bounces", settings.bounces,
                      "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
         ->check(integer_between(0, 0xffff));
@@ -184,6 +188,11 @@ void add_render_command(CLI::App& app) {
         ->add_option("--k", settings.neighbours,
                      "Photons that an estimate of method knn takes, the nearest (default: from the photons stored)")
         ->check(integer_between(1, 0xffffffff));
+    command
+        ->add_option("--query-cell", settings.query_cell,
+                     "Edge of the cells in which diffuse surfaces share one estimate, in radii of estimation; 0: none shared")
+        ->capture_default_str()
+        ->check(number_between(0, 10));
     command->add_option("--follow-roughness", settings.follow_roughness,
                         "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
         ->capture_default_str()

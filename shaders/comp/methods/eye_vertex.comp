@@ -132,13 +132,18 @@ void main() {
     if (scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
         sample_light(slot, path, throughput, surface, frame, m, wo, estimated, followed, estimated_probability);
     }
-    if (photon_map && estimated != 0u && batch.bounces > 0u &&
-        (path.sample_index - batch.query_first) % batch.query_step == 0u) {
-        asks[i] = 1u;
-        queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
-                                    triangles[hit.triangle].w, throughput.x, throughput.y, throughput.z,
-                                    pack_unit(-direction), pack_unit(surface.geometric_normal),
-                                    pack_unit(surface.shading_normal), estimated, surface.front ? 1u : 0u);
+    if (photon_map && estimated != 0u && batch.bounces > 0u) {
+        // Lambertian surfaces share answers; others ask for every few samples only, which count for all.
+        bool white = batch.shares_queries != 0u && bsdf_lobes(m) == LOBE_DIFFUSE;
+        if (white || (path.sample_index - batch.first_sample) % batch.query_step == 0u) {
+            vec3 counts_by = throughput * (white ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE) : vec3(batch.query_weight));
+            asks[i] = 1u;
+            queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
+                                        triangles[hit.triangle].w, counts_by.x, counts_by.y, counts_by.z,
+                                        pack_unit(-direction), pack_unit(surface.geometric_normal),
+                                        pack_unit(surface.shading_normal), estimated,
+                                        (surface.front ? query_front : 0u) | (white ? query_white : 0u));
+        }
     }
     if (!(albedo > 0.0)) {
         return;

@@ -41,12 +41,11 @@ void main() {
             f.non_finite += 1u;
             continue;
         }
-        f.asked += (batch.first_sample + s - batch.query_first) % batch.query_step == 0u ? 1u : 0u;
         add(direct, lost_direct, vec3(l.direct_r, l.direct_g, l.direct_b));
         add(indirect, lost_indirect, vec3(l.indirect_r, l.indirect_g, l.indirect_b));
         add(caustic, lost_caustic, vec3(l.caustic_r, l.caustic_g, l.caustic_b));
     }
-    film[pixel] = FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y, indirect.z, f.asked,
+    film[pixel] = FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y, indirect.z, 0u,
                              caustic.x, caustic.y, caustic.z, f.non_finite, lost_direct.x, lost_direct.y, lost_direct.z,
                              0.0, lost_indirect.x, lost_indirect.y, lost_indirect.z, 0.0, lost_caustic.x,
                              lost_caustic.y, lost_caustic.z, 0.0);

@@ -16,9 +16,28 @@ layout(set = 0, binding = 1) readonly buffer Photons { uvec4 photons[]; };
 #endif
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 
-uint first_node() {
+uint walk_end = lbvh_end;   // the node at which the walk is over
+
+// Where the walk through a part of the map begins; walk_end is set.
+uint first_node(uint part) {
     uint leaves = counters[counter_leaves];
-    return leaves == 0u ? lbvh_end : leaves == 1u ? 1u : 0u;
+    uint root = leaves == 0u ? lbvh_end : leaves == 1u ? 1u : 0u;
+    walk_end = lbvh_end;
+    if (part == map_whole || root == lbvh_end) {
+        return root;
+    }
+    bool first_caustic = photon_is_caustic(PHOTONS(0u).w);
+    bool last_caustic = photon_is_caustic(PHOTONS(2u * (counters[counter_stored] - 1u)).w);
+    if (first_caustic == last_caustic) {
+        return first_caustic == (part == map_caustic) ? root : lbvh_end;
+    }
+    uint others = NODES(0u).w;
+    uint caustic = NODES(2u * others + 1u).w;
+    if (part == map_caustic) {
+        return caustic;
+    }
+    walk_end = caustic;
+    return others;
 }
 
 // A leaf's photons: first <= i < end.
@@ -43,6 +62,7 @@ PhotonRange next_leaf(vec3 p, float radius2, uint limit, inout uint node, inout 
             range = PhotonRange(first, first + (low.w >> leaf_first_bits) + 1u);
         }
         node = near && !leaf ? low.w : high.w;
+        node = node == walk_end ? lbvh_end : node;
     }
     return range;
 }

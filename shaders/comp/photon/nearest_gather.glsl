@@ -43,7 +43,7 @@ uint bin_start(Search s, uint bin) {
 
 // The leaf that a descent towards the nearer box leads to.
 uint near_leaf(vec3 p, inout uint steps) {
-    uint node = first_node();
+    uint node = first_node(params.part);
     while (node != lbvh_end && (node & 1u) == 0u) {
         ++steps;
         uint left = NODES(2u * node).w;
@@ -95,7 +95,7 @@ void zoom(inout Query q, inout Search s, uint low, uint high) {
     s.total = 0u;
     s.start = nearest_none;
     s.stop = nearest_none;
-    q.node = first_node();
+    q.node = first_node(params.part);
     clear_bins();
 }
 
@@ -114,7 +114,7 @@ bool count_photons(inout Query q, inout Search s, inout uint steps) {
             }
             s.stop = s.start;
             s.start = nearest_none;
-            q.node = first_node();
+            q.node = first_node(params.part);
             continue;
         }
         steps += range.end - range.first;
@@ -159,7 +159,7 @@ void judge_count(inout Query q, inout Search s) {
     q.indirect = Sum(vec3(0.0), vec3(0.0));
     q.caustic = Sum(vec3(0.0), vec3(0.0));
     q.coverage = 0.0;
-    q.node = first_node();
+    q.node = first_node(params.part);
 }
 
 float least_r2() {
@@ -287,7 +287,7 @@ void finish(Query q, inout Search s) {
     float samples = params.samples_per_area * (2.0 / kernel_scale) * r2;
     float trust = clamp(samples * (2.0 / nearest_trusted_samples) - 1.0, 0.0, 1.0);
     float scale = params.boundary_correction != 0u ? mix(1.0, 1.0 / max(coverage * density, least_coverage), trust) : 1.0;
-    add_to_layers(q, scale * density * indirect, scale * density * caustic);
+    store_estimate(q, scale * density * indirect, scale * density * caustic);
     s.low = last_bits;
     s.phase = nearest_done;
 }

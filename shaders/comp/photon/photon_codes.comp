@@ -11,7 +11,7 @@ layout(set = 0, binding = 2) readonly buffer Photons { PhotonRecord photons[]; }
 layout(set = 0, binding = 3) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = 4) writeonly buffer Order { uint order[]; };
 
-// Empty slots get the largest code and end up behind all photons.
+// Along the space-filling curve, caustic photons behind the others. Empty slots get the largest code and end up behind all.
 void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored_slots]) {
@@ -21,6 +21,7 @@ void main() {
     vec3 center = vec3(scene[0].center_x, scene[0].center_y, scene[0].center_z);
     vec3 low = center - scene[0].radius;
     vec3 high = center + scene[0].radius;
-    codes[i] = p.normal == no_photon ? no_photon : morton30(vec3(p.x, p.y, p.z), low, high);
+    uint kind = photon_is_caustic(p.normal) ? 1u << photon_kind_shift : 0u;
+    codes[i] = p.normal == no_photon ? no_photon : morton30(vec3(p.x, p.y, p.z), low, high) | kind;
     order[i] = i;
 }

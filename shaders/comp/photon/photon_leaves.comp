@@ -30,7 +30,8 @@ void main() {
         uint before = first > 0u ? distance_after(first - 1u) : far;
         uint after = last + 1u < stored ? distance_after(last) : far;
         uint split = min(before, after);
-        if (split == far) {
+        // Caustic photons and others are parted at the root, and never in one leaf.
+        if (split >= 32u + photon_kind_shift) {
             break;
         }
         // The parent reaches as far as neighbours are no farther apart than its two children.

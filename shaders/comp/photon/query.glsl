@@ -2,7 +2,6 @@
 // a photon's flux, and adding the sums to the layers.
 #include "photon/map_walk.glsl"
 #include "shared/bsdf.h"
-#include "shared/path_records.h"
 #include "shared/query_record.h"
 
 layout(set = 0, binding = 3) readonly buffer Active { uint active_slots[]; };
@@ -10,13 +9,11 @@ layout(set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 5) readonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 8) buffer Unfinished { uint unfinished[]; };
-layout(set = 0, binding = 9) buffer Layers { LayersRecord layers[]; };
+layout(set = 0, binding = 9) writeonly buffer Estimates { EstimateRecord estimates[]; };
 layout(push_constant) uniform Push { PhotonGatherParams params; };
 
 // Whether any estimated lobe of the scene is not Lambertian.
 layout(constant_id = 0) const bool glossy = true;
-
-#include "layers.glsl"
 
 // Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
 struct Sum {
@@ -43,7 +40,6 @@ struct Query {
     vec3 reflectance;       // if lambertian, over pi
     Frame frame;            // of the shading normal
     vec3 wo;
-    vec3 throughput;
     Sum indirect, caustic;
     float coverage;         // sum of the weighted areas
     uint node;              // to go on with
@@ -57,19 +53,21 @@ Query make_query(uint slot) {
     q.indirect = Sum(vec3(0.0), vec3(0.0));
     q.caustic = Sum(vec3(0.0), vec3(0.0));
     q.coverage = 0.0;
-    q.node = first_node();
+    q.node = first_node(params.part);
     q.material = materials[record.material];
     q.lobes = record.lobes;
-    q.lambertian = !glossy || bsdf_lobes(q.material) == LOBE_DIFFUSE;
+    bool white = (record.flags & query_white) != 0u;
+    q.lambertian = !glossy || white || bsdf_lobes(q.material) == LOBE_DIFFUSE;
     q.p = vec3(record.x, record.y, record.z);
     q.normal = unpack_unit(record.geometric_normal);
-    q.front = record.front != 0u;
+    q.front = (record.flags & query_front) != 0u;
     q.own_normal = pack_photon_normal(q.normal, false);
     q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
     q.frame = make_frame(unpack_unit(record.shading_normal));
     q.wo = to_local(q.frame, unpack_unit(record.direction));
-    q.reflectance = q.lambertian ? bsdf_eval(q.material, q.wo, vec3(0.0, 0.0, 1.0), q.lobes) : vec3(0.0);
-    q.throughput = vec3(record.throughput_r, record.throughput_g, record.throughput_b);
+    q.reflectance = white          ? vec3(INV_PI)
+                    : q.lambertian ? bsdf_eval(q.material, q.wo, vec3(0.0, 0.0, 1.0), q.lobes)
+                                   : vec3(0.0);
     return q;
 }
 
@@ -94,8 +92,6 @@ vec3 scattered(Query q, uvec4 carried) {
     return flux * (wi.z > 0.0 ? bsdf_eval(q.material, q.wo, wi, q.lobes) : vec3(0.0));
 }
 
-// Adds sums to the query's layers.
-void add_to_layers(Query q, vec3 indirect, vec3 caustic) {
-    add_to_layer(q.slot, layer_indirect, q.throughput * indirect);
-    add_to_layer(q.slot, layer_caustic, q.throughput * caustic);
+void store_estimate(Query q, vec3 indirect, vec3 caustic) {
+    estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, 0.0, caustic.x, caustic.y, caustic.z, 0.0);
 }

@@ -23,8 +23,8 @@ bool load_query(out Query q) {
     return params.first != 0u || q.node != lbvh_end;
 }
 
-// Puts the query aside if its walk has not come to its end. Else adds the sums to the layers; the scales are for what
-// the kernels lost off the surfaces.
+// Puts the query aside if its walk has not come to its end. Else stores the estimate; the scales are for what the
+// kernels lost off the surfaces.
 void store_query(Query q, float indirect_scale, float caustic_scale) {
     if (q.node != lbvh_end) {
         vec3 a = q.indirect.compensation;
@@ -36,5 +36,5 @@ void store_query(Query q, float indirect_scale, float caustic_scale) {
         return;
     }
     gathers[q.slot].node = lbvh_end;
-    add_to_layers(q, indirect_scale * q.indirect.value, caustic_scale * q.caustic.value);
+    store_estimate(q, indirect_scale * q.indirect.value, caustic_scale * q.caustic.value);
 }

@@ -34,9 +34,8 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene, Ph
     const GatherTarget target{.slots = upload(device, "bench slots", slots),
                               .counts = upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)}),
                               .queries = upload(device, "bench queries", records),
-                              .layers = device.allocate("bench layers", n * sizeof(LayersRecord)),
+                              .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
                               .partial = Buffer()};
-    device.fill(target.layers, 0);
     Traversal traversal = make_traversal(device, n);
     device.fill(traversal.unfinished, 0);
     const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);

@@ -33,7 +33,6 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
                       .footprints = paper.statistics.footprint_scale};
     paper.eye = make_eye_workspace(
         device, paper.render, camera_record(scene.cameras[render.camera], render.width, render.height), true);
-    paper.partial = device.allocate("unfinished query sums", paper.eye.slots * sizeof(GatherRecord));
     return paper;
 }
 

@@ -17,7 +17,6 @@ struct PaperMap {
     StoredPhotons stored;
     PhotonMapSettings settings;
     EyeWorkspace eye;
-    Buffer partial;                 ///< GatherRecord per slot of `eye`
 };
 
 /// Renders the picture once, which says how large footprints are, and traces its photons again, all in one pass.

@@ -29,11 +29,8 @@ void measure_shares(Device& device, const Scene& scene, const RenderSettings& re
         const PhotonPass pass{.seed = render.seed, .first = 0, .count = paper.render.photons, .bounces = render.bounces};
         paper.stored = trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f).value_or(paper.stored);
         const PhotonMap map = build_photon_map(device, paper.scene, paper.workspace, paper.stored, paper.settings);
-        const auto gather = [&](const Count& asking) {
-            gather_footprints(device, paper.scene, map,
-                              {.slots = eye.asking, .counts = eye.counts, .queries = eye.queries, .layers = eye.layers,
-                               .partial = paper.partial},
-                              eye.traversal, false, asking);
+        const auto gather = [&](const Count& asking, std::uint32_t part) {
+            gather_footprints(device, paper.scene, map, query_target(eye, part), eye.traversal, false, asking);
         };
         trace_eye_paths(device, paper.scene, eye, paper.render, 0, paper.render.samples, gather,
                         [](double) { return true; });

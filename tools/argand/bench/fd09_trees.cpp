@@ -25,9 +25,8 @@ void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& c
     EyeWorkspace& eye = paper.eye;
     // Queries go on until they are done, also where some take more steps than one dispatch allows.
     eye.traversal.careful = true;
-    const auto gather = [&](const Count& asking) {
-        const GatherTarget target{.slots = eye.asking, .counts = eye.counts, .queries = eye.queries,
-                                  .layers = eye.layers, .partial = paper.partial};
+    const auto gather = [&](const Count& asking, std::uint32_t part) {
+        const GatherTarget target = query_target(eye, part);
         const std::uint32_t count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
         queries += count;
         if (count == 0) {

@@ -1,0 +1,31 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/path_records.h"
+#include "shared/query_record.h"
+
+layout(set = 0, binding = 0) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 2) readonly buffer Sources { uint sources[]; };
+layout(set = 0, binding = 3) readonly buffer Queries { QueryRecord queries[]; };
+layout(set = 0, binding = 4) readonly buffer Estimates { EstimateRecord estimates[]; };
+layout(set = 0, binding = 5) buffer Layers { LayersRecord layers[]; };
+
+#include "layers.glsl"
+
+// Adds the photon map's answers to the layers of the paths that asked.
+void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counts[0]) {
+        return;
+    }
+    uint slot = active_slots[i];
+    uint source = sources[slot];
+    if (source == no_query) {
+        return;
+    }
+    vec3 throughput = vec3(queries[slot].throughput_r, queries[slot].throughput_g, queries[slot].throughput_b);
+    EstimateRecord e = estimates[source];
+    add_to_layer(slot, layer_indirect, throughput * vec3(e.indirect_r, e.indirect_g, e.indirect_b));
+    add_to_layer(slot, layer_caustic, throughput * vec3(e.caustic_r, e.caustic_g, e.caustic_b));
+}

@@ -1,0 +1,52 @@
+// Diffuse surfaces share the photon map's answers among nearby eye paths.
+#include "rendering.hpp"
+
+namespace argand::testing {
+namespace {
+
+class Sharing : public RenderTest {
+protected:
+    RenderResult with_cells(const Scene& scene, const std::string& method, double cell, std::uint32_t samples = 8) {
+        RenderSettings settings = settings_of(method, 64, samples);
+        settings.photons = 50'000;
+        settings.query_cell = cell;
+        return render(scene, settings);
+    }
+};
+
+double error(const RenderResult& result, const RenderResult& truth, const char* of = "indirect") {
+    return compare(layer(result, of), layer(truth, of)).rel_mse;
+}
+
+TEST_F(Sharing, IsAsNearToWhatTheMapHolds) {
+    for (const char* name : {"cornell_point.glb", "cornell_glass.glb", "glossy.glb"}) {
+        const Scene scene = load_asset(name);
+        for (const char* method : {"photons", "footprints"}) {
+            SCOPED_TRACE(std::string(name) + ", " + method);
+            const RenderResult truth = with_cells(scene, method, 0, 64);
+            const RenderResult own = with_cells(scene, method, 0);
+            const RenderResult shared = with_cells(scene, method, RenderSettings().query_cell);
+            EXPECT_TRUE(same_bits(layer(own, "direct"), layer(shared, "direct")));
+            EXPECT_FALSE(same_bits(layer(own, "indirect"), layer(shared, "indirect")));
+            EXPECT_LT(error(shared, truth), 1.2 * error(own, truth));
+            EXPECT_LT(error(shared, truth, ""), 1.2 * error(own, truth, ""));
+            // Mostly of the caustics' rims. Sharp ones shared would be off by 1.
+            EXPECT_LE(error(shared, truth, "caustic"), 1.2 * error(own, truth, "caustic") + 0.1);
+            for (const char* of : {"indirect", "caustic"}) {
+                EXPECT_RELATIVE(mean(layer(shared, of)).g, mean(layer(truth, of)).g, 0.02) << of;
+            }
+        }
+    }
+}
+
+TEST_F(Sharing, LargeCellsBlurButLoseNothing) {
+    const Scene scene = load_asset("cornell_area.glb");
+    const RenderResult own = with_cells(scene, "photons", 0);
+    const RenderResult small = with_cells(scene, "photons", 0.1);
+    const RenderResult large = with_cells(scene, "photons", 2);
+    EXPECT_LT(4 * error(small, own), error(large, own));
+    EXPECT_RELATIVE(mean(layer(large, "indirect")).g, mean(layer(own, "indirect")).g, 0.03);
+}
+
+} // namespace
+} // namespace argand::testing
