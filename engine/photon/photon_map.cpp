@@ -1,6 +1,7 @@
 #include "photon/photon_map.hpp"
 
 #include "kernels/flux_sum.hpp"
+#include "kernels/area_footprints.hpp"
 #include "kernels/area_samples.hpp"
 #include "kernels/photon_advance.hpp"
 #include "kernels/photon_boxes.hpp"
@@ -26,7 +27,7 @@ namespace argand {
 
 namespace {
 
-constexpr std::uint64_t slots_on_cpu = 1u << 17;
+constexpr std::uint64_t slots_on_cpu = 1u << 18;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
 // Room for photons stored per photon emitted, before more is asked for.
 constexpr std::uint64_t stored_per_emitted = 3;
@@ -250,11 +251,20 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
         FootprintParams params{.scale = *settings.footprints};
         params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
         // `heads` is free until leaves are looked for.
+        const std::uint32_t none = 0;
+        device.upload(w.counters, counter_area_places * 4, std::as_bytes(std::span(&none, 1)));
+        const Buffer area_places =
+            device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
         dispatch_indirect(device,
                           kernels::photon_footprints{.photons = w.photons, .order = w.order, .counters = w.counters,
                                                      .offsets = w.offsets, .footprints = map.footprints,
-                                                     .shares = w.heads, .params = params},
+                                                     .shares = w.heads, .area_places = area_places, .params = params},
                           w.counters, counter_stored);
+        dispatch_indirect(device,
+                          kernels::area_footprints{.photons = w.sorted, .area_places = area_places,
+                                                   .counters = w.counters, .footprints = map.footprints,
+                                                   .params = params},
+                          w.counters, counter_area_places);
         reduce_sum(device, w.heads, w.counters, counter_footprints, photons);
         map.mean_footprints =
             double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) / area_shares;

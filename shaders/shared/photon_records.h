@@ -118,6 +118,7 @@ CONSTANT uint counter_next_active = 4u;
 CONSTANT uint counter_leaves = 5u;          // of the map
 CONSTANT uint counter_photons = 6u;         // photons among them
 CONSTANT uint counter_footprints = 7u;      // sum of the footprints' areas, in shares of the scene's
+CONSTANT uint counter_area_places = 8u;     // area samples among the records
 CONSTANT uint counter_count = 16u;
 
 ARGAND_SHARED_END
