@@ -130,6 +130,10 @@ void add_bench_command(CLI::App& app) {
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
+    command->add_option("--budget", fd09.budgets, "With --paper: seconds in which errors are compared")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(number_between(1e-3, 1e5));
     command->add_option("--photons", fd09.photons, "With --paper: photons emitted (default: as in the paper)")
         ->needs(paper)
         ->check(integer_between(1, 4'000'000));

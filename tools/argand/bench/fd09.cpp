@@ -43,7 +43,7 @@ std::string cell(const nlohmann::ordered_json& value) {
 } // namespace
 
 std::vector<std::string> fd09_parts() {
-    return {"table1", "table2", "table3", "figure4", "figure5"};
+    return {"table1", "table2", "table3", "figure4", "figure5", "budgets"};
 }
 
 std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings) {
@@ -58,6 +58,7 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
     PaperTable radii{"Table 3: footprints by radius, r_max = 0.7"};
     PaperTable kernels{"Figure 4: kernels"};
     PaperTable shares{"Figure 5: where the time goes"};
+    PaperTable budgets{"Error at equal time"};
     for (const std::string& file : files(settings)) {
         Scene scene = load_gltf(file);
         scene.name = std::filesystem::path(file).stem().string();
@@ -75,14 +76,20 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
         if (wanted("figure5")) {
             measure_shares(device, scene, render, settings.runs, shares);
         }
+        if (wanted("budgets")) {
+            RenderSettings whole;
+            whole.width = whole.height = settings.size;
+            measure_budgets(device, scene, whole, settings.budgets, settings.reference_samples, budgets);
+        }
         if (wanted("table2") || wanted("figure4")) {
             render.width = render.height = settings.error_size;
             render.samples = 8;
+            render.query_cell = 0;      // estimators are compared, so everybody asks
             measure_errors(device, scene, render, settings.reference_samples, estimators, kernels);
         }
     }
     std::vector<PaperTable> tables;
-    for (PaperTable* table : {&linear, &heuristic, &builds, &estimators, &radii, &kernels, &shares}) {
+    for (PaperTable* table : {&linear, &heuristic, &builds, &estimators, &radii, &kernels, &shares, &budgets}) {
         if (!table->rows.empty()) {
             tables.push_back(std::move(*table));
         }

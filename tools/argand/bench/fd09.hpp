@@ -18,6 +18,7 @@ struct Fd09Settings {
     int error_size = 96;                    ///< of those whose error is
     std::uint64_t photons = 0;              ///< emitted; 0: as many as in the paper
     std::uint32_t reference_samples = 256;  ///< a pixel, of each of two references
+    std::vector<double> budgets{3.5, 11, 40};   ///< seconds in which the methods' errors are compared
     int runs = 7;
 };
 
@@ -44,6 +45,10 @@ void measure_trees(Device& device, const Scene& scene, const RenderSettings& ren
 /// Table 2 and figure 4: time at equal error of the estimators and of the kernels.
 void measure_errors(Device& device, const Scene& scene, const RenderSettings& render, std::uint32_t reference_samples,
                     PaperTable& estimators, PaperTable& kernels);
+
+/// The error that each method reaches in so many seconds of the clock.
+void measure_budgets(Device& device, const Scene& scene, RenderSettings render, const std::vector<double>& budgets,
+                     std::uint32_t reference_samples, PaperTable& table);
 
 /// Table 3: footprints by radius.
 void measure_radii(Device& device, const Scene& scene, const RenderSettings& render, PaperTable& radii);

@@ -1,8 +1,7 @@
 #include "fd09.hpp"
 #include "fd09_map.hpp"
-#include "image/files.hpp"
+#include "fd09_reference.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -19,38 +18,6 @@ struct Point {
     RenderStatistics statistics;
 };
 
-struct References {
-    Image a, b;
-};
-
-const Image& indirect(const RenderResult& result) {
-    return *find_layer(result.layers, "indirect");
-}
-
-RenderResult run(Device& device, const Scene& scene, const RenderSettings& settings) {
-    return render(device, scene, settings, [](double) { return true; });
-}
-
-/// relMSE as in image/metrics.hpp, less the references' own noise: theirs is independent, so its product is 0 on average.
-double rel_mse(const Image& image, const References& references) {
-    glm::dvec3 mean(0);
-    const std::size_t pixels = image.pixels.size();
-    for (std::size_t i = 0; i < pixels; ++i) {
-        mean += 0.5 * (glm::dvec3(references.a.pixels[i]) + glm::dvec3(references.b.pixels[i])) / double(pixels);
-    }
-    const double floor = 0.01 * std::pow((mean.r + mean.g + mean.b) / 3, 2);
-    double sum = 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const double a = references.a.pixels[i][c];
-            const double b = references.b.pixels[i][c];
-            const double x = image.pixels[i][c];
-            sum += (x - a) * (x - b) / (0.25 * (a + b) * (a + b) + floor);
-        }
-    }
-    return sum / (3 * double(pixels));
-}
-
 /// One more measurement of a point: medians are taken at the end, so that runs of several can be interleaved.
 struct Series {
     RenderSettings settings;
@@ -60,8 +27,8 @@ struct Series {
     void add_run(Device& device, const Scene& scene, const References& references, std::uint32_t seed) {
         settings.seed = seed;
         RenderResult result;
-        seconds.push_back(seconds_of(device, [&] { result = run(device, scene, settings); }));
-        errors.push_back(rel_mse(indirect(result), references));
+        seconds.push_back(seconds_of(device, [&] { result = render_all(device, scene, settings); }));
+        errors.push_back(rel_mse(result, references, "indirect"));
         statistics = result.statistics;
     }
 
@@ -103,15 +70,7 @@ std::vector<std::string> peers() {
 
 void measure_errors(Device& device, const Scene& scene, const RenderSettings& settings, std::uint32_t reference_samples,
                     PaperTable& estimators, PaperTable& kernels) {
-    RenderSettings path = settings;
-    path.method = "path";
-    path.samples = reference_samples;
-    path.seed = 1001;
-    References references;
-    references.a = indirect(run(device, scene, path));
-    path.seed = 1002;
-    references.b = indirect(run(device, scene, path));
-
+    const References references = trace_references(device, scene, settings, reference_samples);
     Series footprints{.settings = settings};
     footprints.settings.method = "footprints";
     Series uniform = footprints;
