@@ -41,8 +41,8 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::size_t camera = 0;                     ///< index into Scene::cameras
     float follow_roughness = 0.25f;             ///< glossy lobes at most this rough are followed from the eye
-    double query_cell = 0.3;                    ///< edge of the cells in which diffuse surfaces share one density
-                                                ///< estimate, in radii of estimation; 0: none are shared
+    double query_cell = 0.25;                   ///< edge of the cells in which one density estimate is shared, in radii
+                                                ///< of estimation; 0: none are shared
     FootprintSettings footprints;
 };
 

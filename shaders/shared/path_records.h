@@ -57,8 +57,8 @@ struct EyeBatch {
     uint first_sample, samples;     // per pixel in this batch
     uint width, height;
     uint bounces;                   // the most scatterings between the light and the first estimated vertex
-    uint shares_queries;            // whether Lambertian surfaces share the photon map's answers
-    uint query_step;                // of other surfaces, samples first_sample, first_sample + query_step, ... ask,
+    uint shares_queries;            // whether paths share the photon map's answers
+    uint query_step;                // if not, samples first_sample, first_sample + query_step, ... ask,
     float32 query_weight;           // and each counts by so much
     uint first_film_pixel;          // of the part of the film
 };

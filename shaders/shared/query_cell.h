@@ -39,6 +39,19 @@ FN uvec4 query_cell(vec3 p, vec3 normal, real largest, real size) {
                  (exponent << 8u) | (nx << 4u) | ny);
 }
 
+// Steps in which directions are rounded where lobes are as wide as GGX of this alpha, positive: half of its width, so
+// that what a step changes is little.
+FN uint direction_steps(real alpha) { return uint(clamp(PI / alpha, real(3.0), real(60.0))); }
+
+// Of a unit vector, its cell of so many steps on either side of 0 on the octahedron, moved at random like positions.
+FN uint direction_cell(vec3 v, uint steps, uint random) {
+    uint packed = pack_unit(v);
+    real scale = real(steps) / real(32767.0);
+    real x = (real(packed & 0xffffu) - real(32768.0)) * scale + to_unit(random);
+    real y = (real(packed >> 16u) - real(32768.0)) * scale + to_unit(random << 12u);
+    return (uint(int(floor(x)) + 64) << 8u) | uint(int(floor(y)) + 64);
+}
+
 // A number by which slots are ordered at random, and the slot of a number: the first of a cell's slots would be one at
 // the same side of every cell. The constants are each other's inverse modulo 2^32.
 FN uint shuffled_slot(uint slot) {

@@ -19,6 +19,7 @@ struct QueryRecord {
 
 CONSTANT uint query_front = 1u;     // the surface is seen from its front
 CONSTANT uint query_white = 2u;     // Lambertian, with its albedo in the throughput: asks for what albedo 1 scatters
+CONSTANT uint query_steps_shift = 8u;   // above: steps of directions in which an answer may be shared; 0 where white
 
 // What the photon map answers: radiance towards the eye.
 struct EstimateRecord {
@@ -26,7 +27,7 @@ struct EstimateRecord {
     float32 caustic_r, caustic_g, caustic_b, pad1;
 };
 
-// How white queries nearby share an answer (query_cells.comp).
+// How queries nearby share an answer (query_cells.comp).
 struct QueryShareParams {
     float32 cell;               // edge of a cell at most [length]; 0: nothing is shared
     float32 pixel, pixel_slope; // a cell is no larger than pixel + pixel_slope × distance from the eye

@@ -83,6 +83,24 @@ TEST(QueryCell, ScalesWithTheScene) {
     cell(vec3(3e38f), {1, 0, 0}, 1e-30f, 1e-30f);
 }
 
+TEST(QueryCell, DirectionsInOneAreNear) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    for (const float alpha : {1e-3f, 0.0625f, 0.25f, 1.0f}) {
+        const uint steps = direction_steps(alpha);
+        EXPECT_GE(steps, 3u);
+        EXPECT_LE(steps, 60u);      // which fit into a byte on either side of 0
+        std::map<uint, vec3> first;
+        for (int i = 0; i < 50'000; ++i) {
+            const vec3 v = normalize(vec3(normal(random), normal(random), normal(random)));
+            const auto [found, is_new] = first.emplace(direction_cell(v, steps, uint(random())), v);
+            // Twice a step a side, which is at most half a turn over twice the steps, and half as much again in corners.
+            ASSERT_LT(std::acos(glm::dot(found->second, v) * 0.999999f), 1.5 * std::sqrt(2.0) * 3.1416 / steps) << alpha;
+        }
+        EXPECT_GT(first.size(), 2 * steps * steps);
+    }
+}
+
 TEST(QueryCell, SlotsAreShuffledAndFoundAgain) {
     int above = 0;
     for (uint slot = 0; slot < 1u << 20; ++slot) {

@@ -190,7 +190,7 @@ void add_render_command(CLI::App& app) {
         ->check(integer_between(1, 0xffffffff));
     command
         ->add_option("--query-cell", settings.query_cell,
-                     "Edge of the cells in which diffuse surfaces share one estimate, in radii of estimation; 0: none shared")
+                     "Edge of the cells in which eye paths share one estimate, in radii of estimation; 0: none shared")
         ->capture_default_str()
         ->check(number_between(0, 10));
     command->add_option("--follow-roughness", settings.follow_roughness,

@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "shared/follow.h"
 #include "shared/lights.h"
+#include "shared/query_cell.h"
 #include "shared/query_record.h"
 #include "shared/sampling.h"
 
@@ -133,16 +134,20 @@ void main() {
         sample_light(slot, path, throughput, surface, frame, m, wo, estimated, followed, estimated_probability);
     }
     if (photon_map && estimated != 0u && batch.bounces > 0u) {
-        // Lambertian surfaces share answers; others ask for every few samples only, which count for all.
-        bool white = batch.shares_queries != 0u && bsdf_lobes(m) == LOBE_DIFFUSE;
-        if (white || (path.sample_index - batch.first_sample) % batch.query_step == 0u) {
-            vec3 counts_by = throughput * (white ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE) : vec3(batch.query_weight));
+        // If answers are shared, all ask; else every few samples, which count for all.
+        bool shares = batch.shares_queries != 0u;
+        bool white = shares && bsdf_lobes(m) == LOBE_DIFFUSE;
+        if (shares || (path.sample_index - batch.first_sample) % batch.query_step == 0u) {
+            vec3 counts_by = throughput * (white    ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE)
+                                           : shares ? vec3(1.0)
+                                                    : vec3(batch.query_weight));
+            uint flags = (surface.front ? query_front : 0u) |
+                         (white ? query_white : direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA)) << query_steps_shift);
             asks[i] = 1u;
             queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
                                         triangles[hit.triangle].w, counts_by.x, counts_by.y, counts_by.z,
                                         pack_unit(-direction), pack_unit(surface.geometric_normal),
-                                        pack_unit(surface.shading_normal), estimated,
-                                        (surface.front ? query_front : 0u) | (white ? query_white : 0u));
+                                        pack_unit(surface.shading_normal), estimated, flags);
         }
     }
     if (!(albedo > 0.0)) {

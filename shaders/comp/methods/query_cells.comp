@@ -13,13 +13,25 @@ layout(set = 0, binding = 5) coherent buffer Owners { uint owners[]; };
 layout(set = 0, binding = 6) writeonly buffer Sources { uint sources[]; };
 layout(push_constant) uniform Push { QueryShareParams params; };
 
-bool shares(QueryRecord q) { return params.cell > 0.0 && (q.flags & query_white) != 0u; }
+// Where queries share an answer, and for which directions, normals and material if that matters.
+struct Cell {
+    uvec4 place;
+    uvec3 lobes;
+};
 
-uvec4 cell_of(QueryRecord q) {
+Cell cell_of(QueryRecord q) {
     vec3 p = vec3(q.x, q.y, q.z);
     vec3 from_eye = p - vec3(params.eye_x, params.eye_y, params.eye_z);
     float pixel = params.pixel + params.pixel_slope * sqrt(dot3(from_eye, from_eye));
-    return query_cell(p, unpack_unit(q.geometric_normal), params.cell, pixel);
+    Cell cell = Cell(query_cell(p, unpack_unit(q.geometric_normal), params.cell, pixel), uvec3(0u));
+    uint steps = q.flags >> query_steps_shift;
+    if (steps > 0u) {
+        uvec4 random = pcg4d(uvec4(floatBitsToUint(p), 0x85ebca6bu));
+        bool flat_shaded = q.shading_normal == q.geometric_normal;
+        cell.lobes = uvec3(q.material + 1u, direction_cell(unpack_unit(q.direction), steps, random.x),
+                           flat_shaded ? 0u : direction_cell(unpack_unit(q.shading_normal), steps, random.y));
+    }
+    return cell;
 }
 
 // Finds each query's entry of a hash table of cells; the least of a cell's shuffled slots is its owner, whatever the order
@@ -33,9 +45,9 @@ void main() {
     uint source = no_query;
     if (asks[i] != 0u) {
         QueryRecord q = queries[slot];
-        if (shares(q)) {
-            uvec4 cell = cell_of(q);
-            uint entry = pcg4d(cell).x & params.mask;
+        if (params.cell > 0.0) {
+            Cell cell = cell_of(q);
+            uint entry = pcg4d(cell.place ^ cell.lobes.xyzx).x & params.mask;
             for (;;) {
                 uint other = atomicCompSwap(table[entry], no_query, slot);
                 if (other == no_query || other == slot || cell_of(queries[other]) == cell) {
