@@ -64,6 +64,22 @@ double decibels(double peak, double rmse) {
 
 } // namespace
 
+double rel_mse(const Image& image, const Image& reference_a, const Image& reference_b) {
+    check_pair(image, reference_a, "the picture", "its reference");
+    check_pair(reference_b, reference_a, "the second reference", "the first");
+    const double mean = mean_of_channels(0.5 * (mean_of(reference_a) + mean_of(reference_b)));
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double a = reference_a.pixels[i][c];
+            const double b = reference_b.pixels[i][c];
+            const double squares = (image.pixels[i][c] - a) * (image.pixels[i][c] - b);
+            sum += relative(squares, 0.25 * (a + b) * (a + b) + dark_share * mean * mean);
+        }
+    }
+    return sum / (3 * static_cast<double>(image.pixels.size()));
+}
+
 Metrics compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
     check_pair(a, b, name_a, name_b);
     Metrics metrics;

@@ -22,6 +22,10 @@ struct Metrics {
 /// pixel, if the sizes differ, a picture is empty or a pixel is not finite; the names are the files'.
 Metrics compare(const Image& a, const Image& b, std::string_view name_a = "A", std::string_view name_b = "B");
 
+/// relMSE as in Metrics, of an image whose reference is known from two pictures of independent noise: theirs does not count,
+/// as its product is 0 on average. (What is divided by is their mean, whose noise should be small.) Errors as in `compare`.
+double rel_mse(const Image& image, const Image& reference_a, const Image& reference_b);
+
 /// Mean structural similarity (Wang et al. 2004, "Image Quality Assessment: From Error Visibility to
 /// Structural Similarity") of the sRGB-encoded luminance, clamped to [0, 1]: Gaussian window of 11 × 11, σ
 /// = 1.5, K1 = 0.01, K2 = 0.03, averaged over all places where the window lies within the picture. Along a

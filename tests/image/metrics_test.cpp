@@ -4,6 +4,7 @@
 #include "support/expect_error.hpp"
 #include <cmath>
 #include <limits>
+#include <random>
 
 using namespace argand;
 using namespace argand::testing;
@@ -181,6 +182,26 @@ TEST(Ssim, FallsWithNoise) {
         EXPECT_LT(value, last);
         last = value;
     }
+}
+
+TEST(Metrics, ErrorWithoutTheReferencesNoise) {
+    // A picture that is off by 0.1 everywhere, of which there are two noisy references.
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(0, 0.04f);
+    Image truth{64, 64, {}};
+    Image a = truth;
+    Image b = truth;
+    Image off = truth;
+    for (int i = 0; i < 64 * 64; ++i) {
+        const glm::vec3 value(1, 2, 0.5f);
+        off.pixels.push_back(value * 1.1f);
+        a.pixels.push_back(value + value * noise(random));
+        b.pixels.push_back(value + value * noise(random));
+    }
+    EXPECT_NEAR(rel_mse(off, a, b), 0.01, 0.001);
+    EXPECT_GT(compare(off, a).rel_mse, 0.0111);
+    EXPECT_EQ(rel_mse(a, a, b), 0);
+    EXPECT_THROW(rel_mse(truth, a, b), Error);
 }
 
 } // namespace

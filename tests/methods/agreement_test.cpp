@@ -4,21 +4,6 @@
 namespace argand::testing {
 namespace {
 
-/// relMSE of a picture whose reference is known only through two independent noisy ones: the product of the two
-/// differences has the squared error of the picture as its mean, whatever the references' own noise.
-double rel_mse(const Image& image, const Image& reference, const Image& other) {
-    glm::dvec3 square_of_mean = (mean(reference) + mean(other)) / 2.0;
-    square_of_mean *= square_of_mean;
-    const double floor = 0.01 * (square_of_mean.r + square_of_mean.g + square_of_mean.b) / 3;
-    double sum = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const glm::dvec3 p(image.pixels[i]), a(reference.pixels[i]), b(other.pixels[i]);
-        const glm::dvec3 error = (p - a) * (p - b) / ((a + b) * (a + b) / 4.0 + floor);
-        sum += (error.r + error.g + error.b) / 3;
-    }
-    return sum / static_cast<double>(image.pixels.size());
-}
-
 struct Reference {
     RenderResult a, b;
 };
@@ -86,6 +71,24 @@ TEST_F(Agreement, SlowErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
     const double many = error(photons(scene, 24, 1'000'000, 0.07), truth, "indirect");
     EXPECT_LT(more, 0.6 * few);
     EXPECT_LT(many, 0.6 * more);
+}
+
+TEST_F(Agreement, SlowErrorFallsWithPhotonsAtDefaultSettings) {
+    for (const char* name : {"cornell_area.glb", "glossy.glb", "courtyard.glb"}) {
+        const Scene scene = load_asset(name);
+        const Reference truth = reference(scene, 48, 2048);
+        double before[2] = {1e9, 1e9};
+        for (const std::uint64_t count : {10'000u, 100'000u, 1'000'000u}) {
+            RenderSettings settings = settings_of("footprints", 48, 64);
+            settings.photons = count;
+            const RenderResult found = render(scene, settings);
+            const double now[2] = {error(found, truth), error(found, truth, "indirect")};
+            EXPECT_LT(now[0], before[0]) << name << ", " << count;
+            EXPECT_LT(now[1], 0.6 * before[1]) << name << ", " << count;
+            before[0] = now[0];
+            before[1] = now[1];
+        }
+    }
 }
 
 TEST_F(Agreement, SlowCornellBoxesAtFullSize) {

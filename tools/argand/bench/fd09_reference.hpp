@@ -11,7 +11,7 @@ struct References {
 
 References trace_references(Device& device, const Scene& scene, RenderSettings settings, std::uint32_t samples);
 
-/// relMSE of a layer as in image/metrics.hpp, less the references' own noise, whose product is 0 on average.
+/// relMSE of a layer, without the references' noise (image/metrics.hpp).
 double rel_mse(const RenderResult& result, const References& references, const std::string& layer);
 
 /// To the end.
