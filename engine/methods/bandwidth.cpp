@@ -24,7 +24,7 @@ constexpr double reach_of_nearest = 2.5;
 constexpr float least_caustic = 0.2f;
 constexpr float most_caustic = 8;
 // A few large footprints cost more than they are worth, for their boxes are everywhere.
-constexpr double largest_footprint = 1.25;
+constexpr double largest_footprint = 1.4;
 // Photons at which a given smoothing holds.
 constexpr double reference_photons = 200'000;
 
@@ -57,16 +57,24 @@ std::vector<PhotonRecord> in_curve_order(std::span<const PhotonRecord> photons, 
     return ordered;
 }
 
+// Footprints on a point over photons in a disc: those of different sizes do not count the same.
+constexpr double footprints_for_disc = 1.7;
+// Caustics are at most so sharp beside the radius of all other light; up to twice as wide, they are treated as that.
+constexpr double sharpest_caustic = 0.17;
+
 /// Photons that one pass should find in a disc, or k, so that all passes together find as many as is best.
-double in_disc_of_pass(double photons, double passes) { return photons_in_disc(photons * passes) / passes; }
+double in_disc_of_pass(double photons, double passes, bool caustic = false) {
+    return photons_in_disc(photons * passes, caustic) / passes;
+}
 
 /// The radius of caustics follows from where their photons are, which is where the caustics are.
 GatherRadii radii_from(const std::vector<PhotonRecord>& photons, const std::vector<PhotonRecord>& caustic,
                        std::span<const glm::vec3> queries, const SceneRecord& scene, double passes,
                        std::optional<std::uint32_t> neighbours) {
     const Cube bounds = bounds_of(scene);
-    const auto radius_of = [&](const std::vector<PhotonRecord>& some, std::span<const glm::vec3> points) {
-        const double in_disc = neighbours ? *neighbours : in_disc_of_pass(static_cast<double>(some.size()), passes);
+    const auto radius_of = [&](const std::vector<PhotonRecord>& some, std::span<const glm::vec3> points, bool is_caustic) {
+        const double in_disc =
+            neighbours ? *neighbours : in_disc_of_pass(static_cast<double>(some.size()), passes, is_caustic);
         return median_radius(some, points, bounds.low, bounds.high, in_disc);
     };
     std::vector<glm::vec3> in_caustics;
@@ -75,13 +83,13 @@ GatherRadii radii_from(const std::vector<PhotonRecord>& photons, const std::vect
     }
     GatherRadii radii;
     // Without photons, or with all of them in one point, nothing is to be learnt.
-    const double learnt = radius_of(photons, queries);
+    const double learnt = radius_of(photons, queries, false);
     radii.indirect = learnt > 0 ? learnt : 0.01 * scene.radius;
-    const double of_caustics = radius_of(caustic, in_caustics);
+    const double of_caustics = radius_of(caustic, in_caustics, true);
     // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by one. And a radius
     // that is little smaller gains nothing, and loses the boundary correction.
-    const bool sharp = of_caustics > 0 && of_caustics < 0.5 * radii.indirect;
-    radii.caustic = sharp ? std::max(of_caustics, 0.25 * radii.indirect) : radii.indirect;
+    const bool sharp = of_caustics > 0 && of_caustics < 2 * sharpest_caustic * radii.indirect;
+    radii.caustic = sharp ? std::max(of_caustics, sharpest_caustic * radii.indirect) : radii.indirect;
     return radii;
 }
 
@@ -126,11 +134,10 @@ Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const Photon
         b.smoothing = *settings.footprints.smoothing * (settings.footprints.fixed_smoothing ? 1 : shrinking(passes));
     } else if (estimator == Estimator::footprints) {
         const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
-        // For as little noise as discs of one size: footprints of different sizes do not count the same.
         const double learnt = median_smoothing(
             unordered, offsets, queries,
             scale_of(settings.footprints, static_cast<double>(stored.emitted), 1, 1e6, scene.record),
-            4.0 / 3 * in_disc_of_pass(count, passes));
+            footprints_for_disc * in_disc_of_pass(count, passes));
         b.smoothing = learnt > 0 ? learnt : 1;
     }
     return b;
@@ -156,7 +163,7 @@ FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettin
                                const SceneRecord& scene) {
     const double largest = settings.largest.value_or(largest_footprint * bandwidth.radii.indirect / scene.radius);
     FootprintScale scale = scale_of(settings, photons, bandwidth.smoothing, largest, scene);
-    const auto caustic = static_cast<float>(bandwidth.radii.caustic);
+    const auto caustic = static_cast<float>(std::min(bandwidth.radii.caustic, 4 * sharpest_caustic * bandwidth.radii.indirect));
     scale.caustic_min = std::max(scale.radius_min, least_caustic * caustic);
     scale.caustic_max = std::max(scale.caustic_min, most_caustic * caustic);
     return scale;

@@ -51,8 +51,8 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
 std::uint32_t automatic_leaf_size(double mean_footprints) {
     constexpr double photons_per_footprint = 0.135;
     constexpr double least = 8;
-    return static_cast<std::uint32_t>(
-        std::clamp(photons_per_footprint * mean_footprints, least, double(most_photons_a_leaf)));
+    constexpr double most = 16;     // beyond, gathering is as fast, and building slower
+    return static_cast<std::uint32_t>(std::clamp(photons_per_footprint * mean_footprints, least, most));
 }
 
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
@@ -207,9 +207,9 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     // Of a map that was built before, its samples are left out.
     const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
     device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
-    // A quarter of what is asked for will do. The step between two samples has 32 bits, so one alone cannot be.
+    // A ninth of what is asked for will do. The step between two samples has 32 bits, so one alone cannot be.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
-    if (fitting > 1 && 4 * fitting >= settings.area_samples) {
+    if (fitting > 1 && 9 * fitting >= settings.area_samples) {
         map.area_samples = static_cast<std::uint32_t>(fitting);
         const StageScope stage(device, "sample areas");
         const auto step = static_cast<std::uint32_t>((1ull << 32) / map.area_samples);

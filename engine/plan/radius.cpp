@@ -9,10 +9,10 @@
 
 namespace argand {
 
-double photons_in_disc(double photons_stored) {
-    // Measured on the Cornell boxes.
+double photons_in_disc(double photons_stored, bool caustic) {
+    // docs/results/bandwidth.md
     constexpr double reference_photons = 200'000;
-    constexpr double in_disc = 150;
+    const double in_disc = caustic ? 150 : 340;
     return std::max(in_disc * std::pow(photons_stored / reference_photons, 2.0 / 3.0), 4.0);
 }
 
@@ -51,7 +51,7 @@ double median_radius(std::span<const PhotonRecord> photons, std::span<const glm:
 }
 
 std::uint64_t area_samples(double surface_area, double radius) {
-    constexpr double samples_in_disc = 40;
+    constexpr double samples_in_disc = 90;
     constexpr double most = 1 << 20;
     // Where discs are so small that it would take more, edges hardly matter.
     const double wanted = samples_in_disc * surface_area / (std::numbers::pi * radius * radius);

@@ -9,8 +9,9 @@
 namespace argand {
 
 /// Photons that a disc of density estimation should hold where so many are stored in all. Bias grows as r², variance
-/// falls as 1 / (n r²): the balance lies at r ∝ n^(−1/6) (Silverman 1986, §4.3, in two dimensions).
-double photons_in_disc(double photons_stored);
+/// falls as 1 / (n r²): the balance lies at r ∝ n^(−1/6) (Silverman 1986, §4.3, in two dimensions). Caustics, which have
+/// edges, want fewer.
+double photons_in_disc(double photons_stored, bool caustic = false);
 
 /// Radius within which half of the points have `in_disc` or more photons, in the scene's units: the median of the
 /// distance to the last of the nearest, looked for among the photons that are near in the order of the Morton codes,
