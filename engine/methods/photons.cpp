@@ -186,8 +186,8 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
         add_flux_sums(statistics.flux, download<std::int64_t>(device, p.photons.flux_sums, 12),
                       p.flux_unit / static_cast<double>(statistics.passes));
         more = budget.another(pass + 1, passes) && !statistics.interrupted;
-        if (settings.budget && pass == 0) {
-            bandwidth = for_passes(learnt, expected_at_first, budget.expected(1, passes), settings);
+        if (settings.budget) {
+            bandwidth = for_passes(learnt, expected_at_first, budget.expected(pass + 1, passes), settings);
         }
     }
     result.layers = resolve_film(device, p.eye, settings, statistics);
