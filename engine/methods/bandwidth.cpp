@@ -165,7 +165,8 @@ FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettin
     FootprintScale scale = scale_of(settings, photons, bandwidth.smoothing, largest, scene);
     const auto caustic = static_cast<float>(std::min(bandwidth.radii.caustic, 4 * sharpest_caustic * bandwidth.radii.indirect));
     scale.caustic_min = std::max(scale.radius_min, least_caustic * caustic);
-    scale.caustic_max = std::max(scale.caustic_min, most_caustic * caustic);
+    // Beyond the largest of diffuse light there is as little noise, and much more to gather.
+    scale.caustic_max = std::max(scale.caustic_min, std::min(most_caustic * caustic, scale.radius_max));
     return scale;
 }
 

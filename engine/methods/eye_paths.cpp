@@ -130,7 +130,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
             const QuerySharing& sharing = w.sharing;
             if (sharing.caustics_apart) {
                 ask(device, w, active, map_indirect, sharing.cell, sharing.pixel_sized, gather);
-                ask(device, w, active, map_caustic, 0, false, gather);
+                ask(device, w, active, map_caustic, sharing.sharp_caustics ? 0 : sharing.cell, true, gather);
             } else {
                 ask(device, w, active, map_whole, sharing.cell, sharing.pixel_sized, gather);
             }

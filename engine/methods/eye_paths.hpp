@@ -11,7 +11,8 @@ namespace argand {
 struct QuerySharing {
     double cell = 0;            ///< edge of a cell at most, in the scene's units; 0: none
     bool pixel_sized = false;   ///< no cell is larger than a pixel: the answer may change from one to the next
-    bool caustics_apart = false;    ///< the map's caustic part is asked apart, and answers are not shared
+    bool caustics_apart = false;    ///< the map's caustic part is asked apart, in cells no larger than a pixel,
+    bool sharp_caustics = false;    ///< or, as here, by every path
 };
 
 /// Device memory for eye paths that are traced together.

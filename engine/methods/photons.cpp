@@ -118,8 +118,9 @@ bool render_pass(Picture& p, const StoredPhotons& stored, std::uint64_t pass, co
     statistics.smoothing = bandwidth.smoothing;
     // The nearest photons may be caustic ones, and then very near.
     p.eye.sharing = {.cell = p.settings.query_cell * sampled, .pixel_sized = bandwidth.caustics && nearest};
-    const bool sharp = p.estimator == Estimator::footprints || bandwidth.radii.caustic < bandwidth.radii.indirect;
-    p.eye.sharing.caustics_apart = p.eye.sharing.cell > 0 && bandwidth.caustics && !nearest && sharp;
+    p.eye.sharing.sharp_caustics = bandwidth.radii.caustic < bandwidth.radii.indirect;
+    p.eye.sharing.caustics_apart = p.eye.sharing.cell > 0 && bandwidth.caustics && !nearest &&
+                                   (p.eye.sharing.sharp_caustics || p.estimator == Estimator::footprints);
     const Gather gather = [&](const Count& asking, std::uint32_t part) {
         const GatherTarget target = query_target(p.eye, part);
         if (p.estimator == Estimator::footprints) {

@@ -39,16 +39,19 @@ FN uvec4 query_cell(vec3 p, vec3 normal, real largest, real size) {
                  (exponent << 8u) | (nx << 4u) | ny);
 }
 
-// Steps in which directions are rounded where lobes are as wide as GGX of this alpha, positive: half of its width, so
-// that what a step changes is little.
-FN uint direction_steps(real alpha) { return uint(clamp(PI / alpha, real(3.0), real(60.0))); }
+// Steps in which directions are rounded where lobes are as wide as GGX of this alpha, positive, and scatter this share of
+// the light: half of the lobe's width, wider where it counts for less, so that what a step changes is little.
+FN uint direction_steps(real alpha, real share) {
+    return uint(ceil(clamp(PI / alpha * sqrt(share), real(1.0), real(60.0))));
+}
 
-// Of a unit vector, its cell of so many steps on either side of 0 on the octahedron, moved at random like positions.
+// Of a unit vector, its cell of so many steps on either side of 0 on the octahedron; borders are moved at random, by a
+// quarter of a step.
 FN uint direction_cell(vec3 v, uint steps, uint random) {
     uint packed = pack_unit(v);
     real scale = real(steps) / real(32767.0);
-    real x = (real(packed & 0xffffu) - real(32768.0)) * scale + to_unit(random);
-    real y = (real(packed >> 16u) - real(32768.0)) * scale + to_unit(random << 12u);
+    real x = (real(packed & 0xffffu) - real(32768.0)) * scale + real(0.25) * to_unit(random) + real(0.375);
+    real y = (real(packed >> 16u) - real(32768.0)) * scale + real(0.25) * to_unit(random << 12u) + real(0.375);
     return (uint(int(floor(x)) + 64) << 8u) | uint(int(floor(y)) + 64);
 }
 

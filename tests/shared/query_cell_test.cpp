@@ -87,8 +87,9 @@ TEST(QueryCell, DirectionsInOneAreNear) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
     for (const float alpha : {1e-3f, 0.0625f, 0.25f, 1.0f}) {
-        const uint steps = direction_steps(alpha);
-        EXPECT_GE(steps, 3u);
+        const uint steps = direction_steps(alpha, 1);
+        EXPECT_GE(steps, 4u);
+        EXPECT_EQ(direction_steps(alpha, 0), 1u);
         EXPECT_LE(steps, 60u);      // which fit into a byte on either side of 0
         std::map<uint, vec3> first;
         for (int i = 0; i < 50'000; ++i) {

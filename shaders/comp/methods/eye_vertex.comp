@@ -141,8 +141,15 @@ void main() {
             vec3 counts_by = throughput * (white    ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE)
                                            : shares ? vec3(1.0)
                                                     : vec3(batch.query_weight));
-            uint flags = (surface.front ? query_front : 0u) |
-                         (white ? query_white : direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA)) << query_steps_shift);
+            uint flags = surface.front ? query_front : 0u;
+            if (white) {
+                flags |= query_white;
+            } else if (shares) {
+                float all = max_component(bsdf_albedo(m, wo, surface.front, estimated));
+                float glossy = max_component(bsdf_albedo(m, wo, surface.front, estimated & LOBE_GLOSSY));
+                float share = clamp(glossy / max(all, 1e-9), 0.0, 1.0);
+                flags |= direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share) << query_steps_shift;
+            }
             asks[i] = 1u;
             queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
                                         triangles[hit.triangle].w, counts_by.x, counts_by.y, counts_by.z,
