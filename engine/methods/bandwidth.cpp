@@ -93,11 +93,11 @@ GatherRadii radii_from(const std::vector<PhotonRecord>& photons, const std::vect
     return radii;
 }
 
-FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing, double largest,
-                        const SceneRecord& scene) {
+FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing, double caustic_smoothing,
+                        double largest, const SceneRecord& scene) {
     FootprintScale scale =
         make_footprint_scale(static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
-                             static_cast<float>(smoothing), static_cast<float>(settings.caustic_smoothing),
+                             static_cast<float>(smoothing), static_cast<float>(caustic_smoothing),
                              static_cast<float>(largest), static_cast<float>(settings.flatness),
                              settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
     scale.principal_axes = settings.paper_axes ? 0 : 1;
@@ -130,13 +130,15 @@ Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const Photon
         b.radii.indirect *= settings.radius ? 1 : reach_of_nearest;
         b.radii.caustic = b.radii.indirect;
     }
+    const double by = settings.footprints.fixed_smoothing ? 1 : shrinking(passes);
+    b.caustic_smoothing = settings.footprints.caustic_smoothing * by;
     if (estimator == Estimator::footprints && settings.footprints.smoothing) {
-        b.smoothing = *settings.footprints.smoothing * (settings.footprints.fixed_smoothing ? 1 : shrinking(passes));
+        b.smoothing = *settings.footprints.smoothing * by;
     } else if (estimator == Estimator::footprints) {
         const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
         const double learnt = median_smoothing(
             unordered, offsets, queries,
-            scale_of(settings.footprints, static_cast<double>(stored.emitted), 1, 1e6, scene.record),
+            scale_of(settings.footprints, static_cast<double>(stored.emitted), 1, 1, 1e6, scene.record),
             footprints_for_disc * in_disc_of_pass(count, passes));
         b.smoothing = learnt > 0 ? learnt : 1;
     }
@@ -155,6 +157,7 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes, 
     }
     if (!settings.footprints.fixed_smoothing) {
         b.smoothing *= by;
+        b.caustic_smoothing *= by;
     }
     return b;
 }
@@ -162,7 +165,7 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes, 
 FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings, double photons,
                                const SceneRecord& scene) {
     const double largest = settings.largest.value_or(largest_footprint * bandwidth.radii.indirect / scene.radius);
-    FootprintScale scale = scale_of(settings, photons, bandwidth.smoothing, largest, scene);
+    FootprintScale scale = scale_of(settings, photons, bandwidth.smoothing, bandwidth.caustic_smoothing, largest, scene);
     const auto caustic = static_cast<float>(std::min(bandwidth.radii.caustic, 4 * sharpest_caustic * bandwidth.radii.indirect));
     scale.caustic_min = std::max(scale.radius_min, least_caustic * caustic);
     // Beyond the largest of diffuse light there is as little noise, and much more to gather.

@@ -15,6 +15,7 @@ struct Bandwidth {
     GatherRadii radii;              ///< of `nearest`: r_max
     std::uint32_t neighbours = 0;   ///< k; only of `nearest`
     double smoothing = 0;           ///< only of `footprints`
+    double caustic_smoothing = 0;   ///< only of `footprints`
     bool caustics = false;          ///< whether there are caustic photons
 };
 

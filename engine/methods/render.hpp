@@ -17,7 +17,7 @@ namespace argand {
 /// Of the method `footprints` (docs/methods/footprints.md).
 struct FootprintSettings {
     std::optional<double> smoothing;            ///< s of Fabianowski and Dingliana 2009; none: from the scene
-    double caustic_smoothing = 5;               ///< the same of photons that only mirrors and glass have scattered
+    double caustic_smoothing = 4;               ///< the same of photons that only mirrors and glass have scattered
     std::optional<double> largest;              ///< semi-axis at most, in the scene's radii; none: from the scene
     double flatness = 0.3;                      ///< half-axis along the normal over the mean of the others
     bool uniform_kernel = false;                ///< instead of Epanechnikov's

@@ -22,6 +22,8 @@
 #include "shared/geometry_records.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace argand {
 
@@ -250,6 +252,9 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
         map.flatness = settings.footprints->flatness;
         FootprintParams params{.scale = *settings.footprints};
         params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
+        constexpr double least_overlap = 4;
+        params.least_area_radius = static_cast<float>(
+            std::sqrt(least_overlap * scene.surface_area / (std::numbers::pi * std::max(map.area_samples, 1u))));
         // `heads` is free until leaves are looked for.
         const std::uint32_t none = 0;
         device.upload(w.counters, counter_area_places * 4, std::as_bytes(std::span(&none, 1)));

@@ -20,7 +20,8 @@ struct FootprintScale {
 struct FootprintParams {
     FootprintScale scale;
     float32 inverse_surface_area;   // of the scene
-    uint pad0, pad1, pad2;
+    float32 least_area_radius;      // of area samples' footprints, so that some overlap everywhere
+    uint pad0, pad1;
 };
 
 // Of the summed areas of footprints over the scene's surface area, which is the mean number of footprints on a point.

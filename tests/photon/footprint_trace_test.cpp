@@ -231,6 +231,37 @@ TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
     }
 }
 
+// Figure 4 of Fabianowski and Dingliana 2009: from one map, a caustic that is sharp and other light that is smooth.
+TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
+    const Scene ring = load_asset("ring.glb");
+    RenderSettings settings = settings_of("photons", 64, 8);
+    settings.photons = 4'000'000;
+    settings.radius = 0.02;     // an eightieth of the ring's
+    const RenderResult truth = render(ring, settings);
+    settings.radius.reset();
+    settings.photons = 400'000;
+    const RenderResult discs = render(ring, settings);
+    settings.method = "footprints";
+    const RenderResult footprints = render(ring, settings);
+    // The largest errors are at the caustic's edge.
+    EXPECT_LT(compare(layer(footprints, "caustic"), layer(truth, "caustic")).rmse,
+              0.8 * compare(layer(discs, "caustic"), layer(truth, "caustic")).rmse);
+    EXPECT_RELATIVE(mean(layer(footprints, "caustic")).g, mean(layer(truth, "caustic")).g, 0.05);
+    // A few thousand photons, blurred over the rim.
+    EXPECT_RELATIVE(mean(layer(footprints, "indirect")).g, mean(layer(truth, "indirect")).g, 0.4);
+    const auto roughness = [](const Image& image) {
+        double sum = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 1; x < image.width; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y * image.width + x);
+                sum += std::abs(double(image.pixels[i].g) - image.pixels[i - 1].g);
+            }
+        }
+        return sum / static_cast<double>(image.pixels.size()) / mean(image).g;
+    };
+    EXPECT_LT(roughness(layer(footprints, "indirect")), 0.7 * roughness(layer(footprints, "caustic")));
+}
+
 // Each is another estimate of the same light.
 TEST_F(FootprintTrace, OptionsOfThePaperChangeTheNoiseNotTheLight) {
     RenderSettings settings = settings_of("footprints", 32, 16);

@@ -25,7 +25,8 @@ float radius_nearby(uint i) {
             count += 1.0;
         }
     }
-    return count > 0.0 ? sum / count : 0.0;
+    // With no photon near, none misses anything there.
+    return count > 0.0 ? sum / count : params.scale.radius_max;
 }
 
 // The footprints of area samples, in the order of the map.
@@ -37,7 +38,7 @@ void main() {
     uint i = area_places[k];
     vec3 normal = unpack_photon_normal(photons[i].normal);
     Frame frame = make_frame(normal);
-    float radius = max(radius_nearby(i), params.scale.radius_min);
+    float radius = max(radius_nearby(i), params.least_area_radius);
     FootprintDuals duals = footprint_duals(Footprint(frame.x * radius, frame.y * radius, normal * radius), normal);
     footprints[i] = uvec4(pack_dual(duals.a), pack_dual(duals.b));
 }
