@@ -15,7 +15,8 @@ MaterialRecord record_of(const Material& m) {
     return {m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
             m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
             m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
-            m.roughness,        m.transmission,     m.ior,              m.thickness};
+            m.roughness,        m.transmission,     m.ior,              m.thickness,
+            m.coverage,         0,                  0,                  0};
 }
 
 LightRecord record_of(const Light& light) {
@@ -114,8 +115,9 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
         materials.push_back(record_of(material));
         const MaterialRecord& record = materials.back();
         result.lobes |= bsdf_lobes(record);
+        result.has_blended = result.has_blended || (bsdf_lobes(record) & LOBE_PASS) != 0;
         const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
-        result.has_glossy = result.has_glossy || (estimated != 0 && bsdf_lobes(record) != LOBE_DIFFUSE);
+        result.has_glossy = result.has_glossy || (estimated != 0 && !is_lambertian(record));
     }
 
     const Bounds box = bounds(scene);

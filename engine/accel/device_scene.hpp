@@ -23,6 +23,7 @@ struct DeviceScene {
     glm::dvec3 power{0};        ///< of all lights, per channel [lm-like: candela × steradian]
     double emitter_probability = 0; ///< that a choice of light gives an emissive triangle
     std::uint32_t lobes = 0;    ///< LOBE_* of all materials
+    bool has_blended = false;   ///< light passes some surface by alpha
     bool has_glossy = false;    ///< some material has a glossy lobe beside or instead of the Lambertian one
 };
 

@@ -112,7 +112,8 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                                                   .paths = w.paths, .layers = w.layers,
                                                   .shadow_rays = w.shadow_rays, .shadows = w.shadows,
                                                   .queries = w.queries, .alive = w.alive, .asks = w.asks, .batch = batch,
-                                                  .constants = {.photon_map = gather != nullptr}},
+                                                  .constants = {.photon_map = gather != nullptr,
+                                                                .blended = scene.has_blended}},
                               w.counts);
         }
         if (scene.record.light_count > 0) {

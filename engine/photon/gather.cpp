@@ -28,7 +28,7 @@ template <class Kernel> void run_radius(const Work& work, const Buffer& unfinish
                              .active_slots = work.target.slots, .counts = work.target.counts,
                              .queries = work.target.queries, .materials = work.scene.materials,
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
-                             .params = work.params, .constants = {.glossy = work.scene.has_glossy}},
+                             .params = work.params, .constants = {.glossy = work.scene.has_glossy, .blended = work.scene.has_blended}},
                       work.asking.buffer, work.asking.index);
 }
 
@@ -39,7 +39,8 @@ template <class Kernel> void run_footprints(const Work& work, const Buffer& unfi
                              .queries = work.target.queries, .materials = work.scene.materials,
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .footprints = work.map.footprints, .params = work.params,
-                             .constants = {.glossy = work.scene.has_glossy, .uniform_kernel = work.uniform_kernel}},
+                             .constants = {.glossy = work.scene.has_glossy, .uniform_kernel = work.uniform_kernel,
+                                           .blended = work.scene.has_blended}},
                       work.asking.buffer, work.asking.index);
 }
 

@@ -48,6 +48,22 @@ bool uses_texture(const json& value) {
     return false;
 }
 
+/// Alpha, as the material's mode has it.
+float coverage_of(const FactorReader& read, const tinygltf::Material& from) {
+    if (from.alphaMode == "OPAQUE") {
+        return 1;
+    }
+    const float alpha = read.in_range(from.pbrMetallicRoughness.baseColorFactor[3], 0, 1, "alpha");
+    if (from.alphaMode == "BLEND") {
+        return alpha;
+    }
+    if (from.alphaMode == "MASK") {
+        return alpha >= read.in_range(from.alphaCutoff, 0, unlimited, "alphaCutoff") ? 1.0f : 0.0f;
+    }
+    read.source.fail("{} has the alphaMode \"{}\"; it must be OPAQUE, MASK or BLEND", read.what,
+                     one_line(from.alphaMode, 60));
+}
+
 void read_core(const FactorReader& read, const tinygltf::Material& from, Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     const std::vector<double>& color = pbr.baseColorFactor; // tinygltf sees to its length, 4
@@ -55,9 +71,7 @@ void read_core(const FactorReader& read, const tinygltf::Material& from, Materia
     material.metallic = read.in_range(pbr.metallicFactor, 0, 1, "metallicFactor");
     material.roughness = read.in_range(pbr.roughnessFactor, 0, 1, "roughnessFactor");
     material.double_sided = from.doubleSided;
-    if (from.alphaMode != "OPAQUE") {
-        add_note(read.scene, "alpha modes are not understood yet: every surface is opaque");
-    }
+    material.coverage = coverage_of(read, from);
 }
 
 void read_emission(const FactorReader& read, const tinygltf::Material& from, const json* object,
@@ -67,6 +81,7 @@ void read_emission(const FactorReader& read, const tinygltf::Material& from, con
     const glm::dvec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
     material.emission = read.in_range(
         glm::dvec3(read.in_range(factor, unlimited, "emissiveFactor")) * strength, unlimited, "emission");
+    material.emission *= material.coverage;
     if (from.emissiveTexture.index >= 0 && emits(material)) {
         // Such textures are black nearly everywhere: with the factor alone whole objects would glow.
         add_note(read.scene, "emissive textures are not read yet: surfaces that have one do not emit");

@@ -208,6 +208,7 @@ struct MeshAdder {
     std::vector<StagedVertex> staged;
     std::vector<std::uint32_t> staged_as; ///< by vertex of the primitive: its place in `staged`, or none
     std::size_t without_area = 0;
+    std::size_t invisible = 0; ///< primitives whose alpha is 0, or below their cutoff
 
     StagedVertex read_vertex(const Surface& surface, const Transform& transform, std::size_t vertex,
                              const std::string& name) const {
@@ -288,7 +289,7 @@ struct MeshAdder {
 
 void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
     refuse_too_many(source, nodes);
-    MeshAdder adder{source, scene, {}, {}, 0};
+    MeshAdder adder{source, scene, {}, {}, 0, 0};
     for (const GltfNode& node : nodes) {
         const tinygltf::Node& shown = source.model.nodes[std::size_t(node.index)];
         if (shown.mesh < 0) {
@@ -308,9 +309,19 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
             Surface surface;
             if (open_surface(source, primitive, name, surface, scene)) {
                 note_what_is_ignored(primitive, scene);
-                adder.add(surface, transform, material_of(source, primitive, name, scene), name);
+                const std::uint32_t material = material_of(source, primitive, name, scene);
+                if (scene.materials[material].coverage > 0) {
+                    adder.add(surface, transform, material, name);
+                } else {
+                    ++adder.invisible;
+                }
             }
         }
+    }
+    if (adder.invisible > 0) {
+        scene.notes.push_back(fmt::format("{} primitive{} left out, for alpha makes {} invisible", adder.invisible,
+                                          adder.invisible == 1 ? " is" : "s are",
+                                          adder.invisible == 1 ? "it" : "them"));
     }
     if (adder.without_area > 0) {
         scene.notes.push_back(fmt::format("{} triangle{} without area {} left out", adder.without_area,

@@ -18,7 +18,8 @@ struct Material {
     float roughness = 1;
     float specular = 1;                 ///< KHR_materials_specular; 0 makes a dielectric purely Lambertian
     glm::vec3 specular_color{1};        ///< KHR_materials_specular
-    glm::vec3 emission{0};              ///< radiance [cd/m²], KHR_materials_emissive_strength included
+    glm::vec3 emission{0};              ///< radiance [cd/m²], KHR_materials_emissive_strength and alpha included
+    float coverage = 1;                 ///< alpha: the share of the surface that is there; the rest lets light pass
     float transmission = 0;             ///< KHR_materials_transmission
     float ior = 1.5f;                   ///< KHR_materials_ior
     float thickness = 0;                ///< KHR_materials_volume; 0: thin-walled, else a solid that refracts

@@ -34,6 +34,7 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"transmission", material.transmission},
             {"ior", material.ior},
             {"thickness", material.thickness},
+            {"alpha", material.coverage},
             {"emission", numbers(material.emission)},
             {"double_sided", material.double_sided}};
 }
@@ -136,6 +137,9 @@ std::string material_line(const json& material) {
     if (material["transmission"].get<double>() > 0) {
         line += fmt::format(", transmission {:.4g}, index of refraction {:.4g}",
                             material["transmission"].get<double>(), material["ior"].get<double>());
+    }
+    if (material["alpha"].get<double>() < 1) {
+        line += fmt::format(", alpha {:.4g}", material["alpha"].get<double>());
     }
     if (material["emission"] != json::array({0.0f, 0.0f, 0.0f})) {
         line += fmt::format(", emits {} cd/m2{}", short_text(material["emission"]),

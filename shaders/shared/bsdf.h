@@ -1,11 +1,12 @@
 // The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume (of which only whether
 // there is a thickness), in the shading frame: wo and wi point away from the surface, and the frame is turned so that
-// wo.z > 0 whichever side wo is on. A sum of lobes:
+// wo.z > 0 whichever side wo is on. A sum of lobes, which all but the last are scaled by the surface's alpha (coverage):
 //   diffuse    Lambertian, under the dielectric's specular layer
 //   glossy     GGX reflection by metal and by the layer
 //   mirror     the same where the surface is smooth; reflection by the border of a solid dielectric
 //   transmit   straight on through a thin wall, refracted at the border of a solid dielectric; tinted by the base
 //              colour; always smooth
+//   pass       straight on and untinted, past the share of the surface that is not there (1 - alpha)
 // All of it is reciprocal, but for refraction's factor eta_scale. As in glTF, layer and base are mixed by Fresnel's
 // factor at the half vector: where wo grazes, a bright dielectric may reflect more than it receives.
 #ifndef ARGAND_SHARED_BSDF_H
@@ -21,8 +22,9 @@ CONSTANT uint LOBE_DIFFUSE = 1u;
 CONSTANT uint LOBE_GLOSSY = 2u;
 CONSTANT uint LOBE_MIRROR = 4u;
 CONSTANT uint LOBE_TRANSMIT = 8u;
-CONSTANT uint LOBES_DELTA = 12u;    // mirror and transmit
-CONSTANT uint LOBES_ALL = 15u;
+CONSTANT uint LOBE_PASS = 16u;
+CONSTANT uint LOBES_DELTA = 28u;    // mirror, transmit and pass
+CONSTANT uint LOBES_ALL = 31u;
 
 // Below, single precision cannot tell GGX from a mirror.
 CONSTANT real SMALLEST_ALPHA = real(1e-3);
@@ -30,7 +32,7 @@ CONSTANT real SMALLEST_ALPHA = real(1e-3);
 struct BsdfSample {
     vec3 wi;
     vec3 weight;        // f |cos| / density, as flux scatters; radiance is to be multiplied by eta_scale as well
-    real pdf;           // solid-angle density; 0 for mirror and transmit
+    real pdf;           // solid-angle density; 0 for mirror, transmit and pass
     uint lobe;
     real probability;   // with which this lobe was chosen
     real eta_scale;     // by which refraction scales radiance: (index on wo's side / index on wi's side)²
@@ -40,9 +42,12 @@ FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.bas
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
 FN bool roughness_is_delta(IN(MaterialRecord) m) { return ggx_alpha(m) < SMALLEST_ALPHA; }
 
-// Shares of the surface: what is not metal, split by the transmission factor.
-FN real opaque_share(IN(MaterialRecord) m) { return (real(1.0) - real(m.metallic)) * (real(1.0) - real(m.transmission)); }
-FN real clear_share(IN(MaterialRecord) m) { return (real(1.0) - real(m.metallic)) * real(m.transmission); }
+// Shares of the surface: what is not there; metal; what is not metal, split by the transmission factor.
+FN real pass_share(IN(MaterialRecord) m) { return real(1.0) - real(m.coverage); }
+FN real metal_share(IN(MaterialRecord) m) { return real(m.coverage) * real(m.metallic); }
+FN real dielectric_share(IN(MaterialRecord) m) { return real(m.coverage) * (real(1.0) - real(m.metallic)); }
+FN real opaque_share(IN(MaterialRecord) m) { return dielectric_share(m) * (real(1.0) - real(m.transmission)); }
+FN real clear_share(IN(MaterialRecord) m) { return dielectric_share(m) * real(m.transmission); }
 FN bool is_solid(IN(MaterialRecord) m) { return clear_share(m) > real(0.0) && m.thickness > float32(0.0); }
 
 // Reflectance of the dielectric's layer, by Schlick. An index of 0 gives an f0 of 1, as KHR_materials_ior wants.
@@ -58,8 +63,8 @@ FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
 
 // Reflectance of metal and layer together, without the border of a solid.
 FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
-    real layer_share = is_solid(m) ? opaque_share(m) : real(1.0) - real(m.metallic);
-    return fresnel_schlick(base_color(m), real(1.0), cosine) * real(m.metallic) +
+    real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
+    return fresnel_schlick(base_color(m), real(1.0), cosine) * metal_share(m) +
            dielectric_fresnel(m, cosine) * layer_share;
 }
 
@@ -106,7 +111,8 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
     if (colored && opaque_share(m) > real(0.0)) {
         lobes |= LOBE_DIFFUSE;
     }
-    if (m.metallic > float32(0.0) || (m.specular > float32(0.0) && (opaque_share(m) > real(0.0) || !is_solid(m)))) {
+    real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
+    if (metal_share(m) > real(0.0) || (m.specular > float32(0.0) && layer_share > real(0.0))) {
         lobes |= roughness_is_delta(m) ? LOBE_MIRROR : LOBE_GLOSSY;
     }
     if (colored && clear_share(m) > real(0.0)) {
@@ -115,10 +121,16 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
     if (is_solid(m)) {
         lobes |= LOBE_MIRROR;
     }
+    if (pass_share(m) > real(0.0)) {
+        lobes |= LOBE_PASS;
+    }
     return lobes;
 }
 
-// About what the lobes of the mask scatter of light from wo, exactly for mirror and transmit. front: wo is on the side
+// Whether nothing but the diffuse lobe reflects.
+FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS) == LOBE_DIFFUSE; }
+
+// About what the lobes of the mask scatter of light from wo, exactly for the smooth ones. front: wo is on the side
 // from which the triangle's vertices run counter-clockwise, the outside of a solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
@@ -133,11 +145,12 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
         Border border = bsdf_border(m, wo.z, front);
         albedo += (lobes & LOBE_MIRROR) != 0u ? border.reflected : vec3(real(0.0));
         albedo += (lobes & LOBE_TRANSMIT) != 0u ? border.transmitted : vec3(real(0.0));
+        albedo += vec3((lobes & LOBE_PASS) != 0u ? pass_share(m) : real(0.0));
     }
     return albedo;
 }
 
-// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy one, and either of the smooth ones; all 0 if
+// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy one, and any of the smooth ones; all 0 if
 // the mask has no lobe. They must not depend on the side of wo, which bsdf_pdf does not know: a solid's border counts
 // with its whole share.
 FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
@@ -153,8 +166,11 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     if ((present & LOBE_MIRROR) != 0u && roughness_is_delta(m)) {
         p.z = mean_component(layer);
     }
-    if ((present & LOBES_DELTA) != 0u && (is_solid(m) || (present & LOBE_TRANSMIT) != 0u)) {
+    if ((present & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0u && (is_solid(m) || (present & LOBE_TRANSMIT) != 0u)) {
         p.z += clear_share(m) * max(mean_component(base_color(m)), real(0.04));
+    }
+    if ((present & LOBE_PASS) != 0u) {
+        p.z += pass_share(m);
     }
     real sum = p.x + p.y + p.z;
     return sum > real(0.0) ? p / sum : p;
@@ -195,15 +211,23 @@ FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     return pdf;
 }
 
-// Chooses mirror or transmit by u in [0, 1); probability: that either is asked for.
-FN bool sample_border(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u, real probability,
+// Chooses mirror, transmit or pass by u in [0, 1); probability: that any is asked for.
+FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u, real probability,
                       INOUT(BsdfSample) s) {
     Border border = bsdf_border(m, wo.z, front);
     real reflected = (lobes & LOBE_MIRROR) != 0u ? mean_component(border.reflected) : real(0.0);
     real transmitted = (lobes & LOBE_TRANSMIT) != 0u ? mean_component(border.transmitted) : real(0.0);
-    real sum = reflected + transmitted;
+    real passed = (lobes & LOBE_PASS) != 0u ? pass_share(m) : real(0.0);
+    real sum = reflected + transmitted + passed;
     if (!(sum > real(0.0))) {
         return false;
+    }
+    if (passed > real(0.0) && u * sum >= reflected + transmitted) {
+        s.lobe = LOBE_PASS;
+        s.wi = -wo;
+        s.probability = passed * probability / sum;
+        s.weight = vec3(sum / probability);
+        return true;
     }
     if (u * sum < reflected) {
         s.lobe = LOBE_MIRROR;
@@ -240,7 +264,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (p.z > real(0.0) && u.x >= rough) {
         // What is left of u.x is uniform again.
         real left = min((u.x - rough) / p.z, real(0.99999994));
-        return sample_border(m, wo, front, lobes, left, p.z, s);
+        return sample_smooth(m, wo, front, lobes, left, p.z, s);
     }
     if (u.x < p.x || !(p.y > real(0.0))) {
         s.lobe = LOBE_DIFFUSE;

@@ -12,6 +12,8 @@ struct MaterialRecord {
     float32 emission_r, emission_g, emission_b;     // radiance [cd/m²]
     uint double_sided;
     float32 roughness, transmission, ior, thickness;
+    float32 coverage;       // glTF's alpha: the share of the surface that is there
+    uint pad0, pad1, pad2;
 };
 
 ARGAND_SHARED_END

@@ -16,6 +16,7 @@ struct Landed {
     glm::vec3 position{0};
     double area = 0;
     bool caustic = false;
+    double flux = 0; ///< green
 };
 
 class FootprintTrace : public RenderTest {
@@ -39,7 +40,8 @@ protected:
                 const glm::dvec3 v(unpack_dual(offsets[i].z, offsets[i].w));
                 landed.push_back({{p.x, p.y, p.z},
                                   double(pi) * glm::length(glm::cross(u, v)),
-                                  photon_is_caustic(p.normal)});
+                                  photon_is_caustic(p.normal),
+                                  double(p.flux_g)});
             }
         }
         return landed;
@@ -76,6 +78,38 @@ TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
             }
             EXPECT_GT(count, 1000);
             EXPECT_NEAR(sum / 4, double(pi), 0.05 * double(pi));
+        }
+    }
+}
+
+// What passes a surface by alpha keeps its way, and is thinned out as by roulette.
+TEST_F(FootprintTrace, AreaTimesDensityIsPiBehindAlpha) {
+    for (const float albedo : {0.0f, 0.8f}) {
+        for (const Light& light : {point_light({0.1f, 1, 0.2f}, glm::vec3(1)),
+                                   directional_light({0.3f, -1, 0}, glm::vec3(1))}) {
+            Scene scene;
+            add_floor(scene, 6, 0, add_material(scene, lambertian(glm::vec3(0.5f))));
+            Material veil = lambertian({albedo, 0, 0});
+            veil.coverage = 0.6f;
+            add_quad(scene, {-6, 0.5f, -6}, {12, 0, 0}, {0, 0.2f, 12}, add_material(scene, veil));
+            scene.lights = {light};
+            double sum = 0;
+            double flux = 0;
+            int count = 0;
+            for (const Landed& photon : trace(scene, 1, 600'000)) {
+                if (std::abs(photon.position.x) < 1 && std::abs(photon.position.z) < 1 &&
+                    photon.position.y < 0.1f) {
+                    EXPECT_TRUE(photon.caustic);
+                    sum += photon.area;
+                    flux += photon.flux;
+                    ++count;
+                }
+            }
+            EXPECT_GT(count, 1000);
+            EXPECT_NEAR(sum / 4, double(pi), 0.05 * double(pi));
+            if (light.kind == LightKind::directional) {
+                EXPECT_NEAR(flux / 4, 0.4 / std::sqrt(1.09), 0.02 * 0.4);
+            }
         }
     }
 }

@@ -34,6 +34,7 @@ TEST(GltfMaterial, HasTheDefaultsOfGltf) {
     EXPECT_EQ(material.transmission, 0);
     EXPECT_EQ(material.ior, 1.5f);
     EXPECT_EQ(material.thickness, 0);
+    EXPECT_EQ(material.coverage, 1);
     EXPECT_FALSE(material.double_sided);
 }
 
@@ -75,6 +76,60 @@ TEST(GltfMaterial, ReadsTransmissionVolumeAndIor) {
     EXPECT_EQ(material.transmission, 0.75f);
     EXPECT_EQ(material.thickness, 2);
     EXPECT_EQ(material.ior, 1.25f);
+}
+
+json with_alpha(double alpha, const char* mode) {
+    return {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, alpha}}}}, {"alphaMode", mode}};
+}
+
+TEST(GltfMaterial, BlendsByAlphaAndScalesEmissionByIt) {
+    json material = with_alpha(0.25, "BLEND");
+    material["emissiveFactor"] = {1, 0.5, 0};
+    const Material blended = load_material(material);
+    EXPECT_EQ(blended.coverage, 0.25f);
+    EXPECT_EQ(blended.emission, glm::vec3(0.25f, 0.125f, 0));
+    material["alphaMode"] = "OPAQUE";
+    EXPECT_EQ(load_material(material).coverage, 1);
+    EXPECT_EQ(load_material(material).emission, glm::vec3(1, 0.5f, 0));
+}
+
+TEST(GltfMaterial, MaskedSurfacesAreThereOrNot) {
+    EXPECT_EQ(load_material(with_alpha(0.5, "MASK")).coverage, 1); // the cutoff is 0.5 unless given
+    json material = with_alpha(0.75, "MASK");
+    material["alphaCutoff"] = 0.75;
+    EXPECT_EQ(load_material(material).coverage, 1);
+
+    GltfBuilder builder = with_material(with_alpha(0.49, "MASK"));
+    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("no triangle that has an area and can be seen"));
+    builder.add_triangles({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_TRUE(has_note(scene, "1 primitive is left out, for alpha makes it invisible"));
+}
+
+TEST(GltfMaterial, BlendedSurfacesOfAlphaZeroAreNotThere) {
+    json material = with_alpha(0, "BLEND");
+    material["emissiveFactor"] = {1, 1, 1};
+    GltfBuilder builder = with_material(material);
+    builder.add_triangles({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_TRUE(scene.sky.has_value());
+}
+
+TEST(GltfMaterial, RefusesUnknownAlphaModesAndKeepsAlphaInRange) {
+    using ::testing::HasSubstr;
+    EXPECT_THAT(with_material(with_alpha(0.5, "blend")).problem(),
+                HasSubstr("material 0 has the alphaMode \"blend\"; it must be OPAQUE, MASK or BLEND"));
+    json cutoff = with_alpha(0.5, "MASK");
+    cutoff["alphaCutoff"] = "half";
+    EXPECT_THAT(with_material(cutoff).problem(), HasSubstr("\"alphaCutoff\" must be made of numbers"));
+    cutoff["alphaCutoff"] = -1;
+    EXPECT_TRUE(has_note(with_material(cutoff).load(), "alphaCutoff of -1, which is out of range; 0 is used"));
+    const Scene over = with_material(with_alpha(1.5, "BLEND")).load();
+    EXPECT_EQ(over.materials[0].coverage, 1);
+    EXPECT_TRUE(has_note(over, "alpha of 1.5, which is out of range; 1 is used"));
+    EXPECT_FALSE(has_note(with_material(with_alpha(1.5, "OPAQUE")).load(), "alpha"));
 }
 
 TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
@@ -124,8 +179,6 @@ TEST(GltfMaterial, NotesAColourOfWrongLength) {
 }
 
 TEST(GltfMaterial, NamesWhatItDoesNotUnderstand) {
-    EXPECT_TRUE(has_note(with_material({{"alphaMode", "BLEND"}}).load(), "alpha modes"));
-    EXPECT_FALSE(has_note(with_material({{"alphaMode", "OPAQUE"}}).load(), "alpha modes"));
     const json rough{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
                      {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
     EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));

@@ -108,6 +108,15 @@ TEST(Summary, SaysTheSameInText) {
     EXPECT_EQ(text.back(), '\n');
 }
 
+TEST(Summary, TellsOfAlpha) {
+    GltfBuilder builder = one_triangle();
+    builder.root["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}}, {"alphaMode", "BLEND"}}};
+    builder.root["meshes"][0]["primitives"][0]["material"] = 0;
+    EXPECT_EQ(summary_json(builder.load())["materials"][0]["alpha"], 0.25);
+    EXPECT_THAT(summary_text(builder.load()), HasSubstr("roughness 1, alpha 0.25"));
+}
+
 TEST(Summary, TellsOfWhatWasMadeUp) {
     const std::string text = summary_text(one_triangle().load());
     EXPECT_THAT(text, HasSubstr("sky         uniform, radiance 1"));

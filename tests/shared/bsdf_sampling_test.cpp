@@ -140,15 +140,16 @@ TEST(BsdfSampling, MixedMaterialsFollowTheirDensity) {
         }
     }
     expect_sampling_to_match(glossy_dielectric(0.0f), at_angle(40), LOBES_ALL, 60'000);
+    expect_sampling_to_match(with_alpha(glossy_dielectric(0.6f), 0.4f), at_angle(40), LOBES_ALL, 60'000);
 }
 
 /// Mean weight of each lobe's samples, by its bit's place.
-std::array<Mean, 4> mean_weights(const MaterialRecord& m, vec3 wo, bool front, uint lobes, int samples) {
-    std::array<Mean, 4> means;
+std::array<Mean, 5> mean_weights(const MaterialRecord& m, vec3 wo, bool front, uint lobes, int samples) {
+    std::array<Mean, 5> means;
     for (int i = 0; i < samples; ++i) {
         BsdfSample s;
         const bool scattered = bsdf_sample(m, wo, front, lobes, random4(12, uint(i), 0, 0), s);
-        for (uint lobe = 0; lobe < 4; ++lobe) {
+        for (uint lobe = 0; lobe < 5; ++lobe) {
             means[lobe].add(scattered && s.lobe == (1u << lobe) ? double(s.weight.y) : 0);
         }
     }
@@ -170,6 +171,7 @@ TEST(BsdfSampling, SmoothLobesKeepTheirAlbedo) {
         EXPECT_NEAR(means[3].value(), bsdf_albedo(m, wo, front, LOBE_TRANSMIT).y,
                     5 * means[3].deviation() + 2e-3)
             << i;
+        EXPECT_NEAR(means[4].value(), 1 - m.coverage, 5 * means[4].deviation() + 2e-3) << i;
     }
 }
 
@@ -196,7 +198,9 @@ TEST(Furnace, WhiteLambertianMirrorAndGlassReturnAll) {
     for (const double angle : {0.0, 30.0, 60.0, 89.0, 89.99}) {
         for (const bool front : {true, false}) {
             for (const MaterialRecord& m : {lambertian(vec3(1)), metal(vec3(1), 0), glass(1.5f, 0),
-                                            glass(1.5f, 1), glass(2.4f, 1), glass(1.0f, 1)}) {
+                                            glass(1.5f, 1), glass(2.4f, 1), glass(1.0f, 1),
+                                            with_alpha(lambertian(vec3(1)), 0.3f),
+                                            with_alpha(glass(1.5f, 1), 0.6f)}) {
                 for (int i = 0; i < 500; ++i) {
                     BsdfSample s;
                     ASSERT_TRUE(

@@ -68,6 +68,7 @@ MaterialRecord metal(float roughness) {
     m.metallic = 1;
     m.roughness = roughness;
     m.ior = 1.5f;
+    m.coverage = 1;
     return m;
 }
 

@@ -20,7 +20,7 @@ TEST(Follow, EachLobeIsEitherFollowedOrEstimated) {
         ASSERT_EQ(followed & estimated, 0u);
         ASSERT_EQ(followed | estimated, bsdf_lobes(m));
         ASSERT_EQ(followed & LOBE_DIFFUSE, 0u);
-        ASSERT_EQ(estimated & (LOBE_MIRROR | LOBE_TRANSMIT), 0u);
+        ASSERT_EQ(estimated & LOBES_DELTA, 0u);
         // A higher limit follows at least as much.
         const float higher = limit + (1 - limit) * to_unit_float(bits);
         ASSERT_EQ(followed & ~followed_lobes(m, higher), 0u);

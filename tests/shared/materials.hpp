@@ -16,6 +16,12 @@ inline MaterialRecord white_dielectric() {
     m.specular = 1;
     m.roughness = 1;
     m.ior = 1.5f;
+    m.coverage = 1;
+    return m;
+}
+
+inline MaterialRecord with_alpha(MaterialRecord m, float alpha) {
+    m.coverage = alpha;
     return m;
 }
 
@@ -66,6 +72,7 @@ inline MaterialRecord any_material(std::mt19937& bits) {
     m.transmission = end_or_between();
     m.ior = 1 + uniform(bits);
     m.thickness = float(bits() % 2);
+    m.coverage = bits() % 2 == 0 ? 1 : uniform(bits);
     return m;
 }
 
@@ -91,8 +98,8 @@ inline vec3 any_upper(std::mt19937& bits) {
     return rounded(glm::normalize(v));
 }
 
-inline truth::Record record_bytes(const MaterialRecord& m) {
-    return std::bit_cast<truth::Record>(m);
+inline truth::MaterialBytes record_bytes(const MaterialRecord& m) {
+    return std::bit_cast<truth::MaterialBytes>(m);
 }
 
 } // namespace argand::testing

@@ -17,21 +17,21 @@ using namespace argand::oracle;
 namespace {
 
 template <class T>
-T as(const Record& record) {
+T as(const std::array<std::byte, sizeof(T)>& record) {
     return std::bit_cast<T>(record);
 }
 
 } // namespace
 
-glm::dvec3 bsdf_eval(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes) {
+glm::dvec3 bsdf_eval(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes) {
     return oracle::bsdf_eval(as<MaterialRecord>(material), wo, wi, lobes);
 }
 
-double bsdf_pdf(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes) {
+double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes) {
     return oracle::bsdf_pdf(as<MaterialRecord>(material), wo, wi, lobes);
 }
 
-BsdfSample bsdf_sample(const Record& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u) {
+BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u) {
     oracle::BsdfSample s;
     const bool scattered = oracle::bsdf_sample(as<MaterialRecord>(material), wo, front, lobes, u, s);
     return {scattered, s.wi, s.weight, s.pdf, s.eta_scale, s.lobe};

@@ -8,11 +8,13 @@
 /// The shared maths compiled as double, behind plain types: no source file sees both builds.
 namespace argand::truth {
 
-/// The bytes of a MaterialRecord or LightRecord.
+/// The bytes of a LightRecord or CameraRecord.
 using Record = std::array<std::byte, 64>;
+/// The bytes of a MaterialRecord.
+using MaterialBytes = std::array<std::byte, 80>;
 
-glm::dvec3 bsdf_eval(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
-double bsdf_pdf(const Record& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
+glm::dvec3 bsdf_eval(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
+double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
 
 struct BsdfSample {
     bool scattered;
@@ -20,7 +22,7 @@ struct BsdfSample {
     double pdf, eta_scale;
     unsigned lobe;
 };
-BsdfSample bsdf_sample(const Record& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u);
+BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u);
 
 struct LightSample {
     bool lit;

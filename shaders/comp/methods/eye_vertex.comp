@@ -23,6 +23,8 @@ layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: light that estimated lobes scatter more than once is left to the photon map.
 layout(constant_id = 0) const bool photon_map = false;
+// Whether some surface lets light pass (alpha below 1).
+layout(constant_id = 1) const bool blended = true;
 
 #include "layers.glsl"
 
@@ -106,6 +108,7 @@ void main() {
 
     Surface surface = load_surface(hit, direction);
     MaterialRecord m = materials[triangles[hit.triangle].w];
+    m.coverage = blended ? m.coverage : 1.0;
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
     if (max_component(emission) > 0.0 && (surface.front || m.double_sided != 0u)) {
         float weight = 1.0;
@@ -136,7 +139,7 @@ void main() {
     if (photon_map && estimated != 0u && batch.bounces > 0u) {
         // If answers are shared, all ask; else every few samples, which count for all.
         bool shares = batch.shares_queries != 0u;
-        bool white = shares && bsdf_lobes(m) == LOBE_DIFFUSE;
+        bool white = shares && is_lambertian(m);
         if (shares || (path.sample_index - batch.first_sample) % batch.query_step == 0u) {
             vec3 counts_by = throughput * (white    ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE)
                                            : shares ? vec3(1.0)
@@ -168,7 +171,7 @@ void main() {
     if (!bsdf_sample(m, wo, surface.front, lobes, u, s)) {
         return;
     }
-    vec3 wi = to_world(frame, s.wi);
+    vec3 wi = blended && s.lobe == LOBE_PASS ? direction : to_world(frame, s.wi);
     // The sampled side and the geometric side must be the same, or light would pass through the surface.
     if ((s.wi.z > 0.0) != (dot(wi, surface.geometric_normal) > 0.0)) {
         return;

@@ -25,6 +25,8 @@ layout(constant_id = 0) const bool footprints = false;
 layout(constant_id = 1) const bool specular = true;
 layout(constant_id = 2) const bool glossy = true;
 layout(constant_id = 3) const uint reemission = REEMIT_COSINE;
+// Whether some surface lets light pass (alpha below 1).
+layout(constant_id = 4) const bool blended = true;
 
 // How the shading normal changes along one of a photon's differentials.
 vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
@@ -40,7 +42,7 @@ void scatter_differential(inout PhotonDifferential d, HitRecord hit, Surface sur
     float photons = 1.0 / batch.inverse_total;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, frame, outgoing, photons, reemission);
-    } else if (specular || glossy) {
+    } else if ((specular || glossy) && s.lobe != LOBE_PASS) {
         vec3 n = surface.shading_normal;
         vec3 dn_du = normal_change(hit, surface, d.dp_du);
         vec3 dn_dv = normal_change(hit, surface, d.dp_dv);
@@ -90,6 +92,7 @@ void main() {
     }
     Surface surface = load_surface(hit, direction);
     MaterialRecord m = materials[triangles[hit.triangle].w];
+    m.coverage = blended ? m.coverage : 1.0;
     Frame frame = make_frame(surface.shading_normal);
     vec3 wo = to_local(frame, -direction);
     // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that with the shading normal
@@ -125,7 +128,10 @@ void main() {
     BsdfSample s;
     vec3 scattered = vec3(0.0);
     vec3 outgoing = direction;
-    if (bsdf_sample(m, wo, surface.front, followed | estimated, u, s)) {
+    bool scatters = bsdf_sample(m, wo, surface.front, followed | estimated, u, s);
+    if (blended && scatters && s.lobe == LOBE_PASS) {
+        scattered = flux * s.weight;
+    } else if (scatters) {
         vec3 wi = to_world(frame, s.wi);
         float geometric_out = dot(wi, surface.geometric_normal);
         if ((s.wi.z > 0.0) == (geometric_out > 0.0) && s.wi.z != 0.0) {

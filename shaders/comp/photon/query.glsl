@@ -14,6 +14,8 @@ layout(push_constant) uniform Push { PhotonGatherParams params; };
 
 // Whether any estimated lobe of the scene is not Lambertian.
 layout(constant_id = 0) const bool glossy = true;
+// Whether some surface lets light pass (alpha below 1).
+layout(constant_id = 2) const bool blended = true;
 
 // Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
 struct Sum {
@@ -55,9 +57,10 @@ Query make_query(uint slot) {
     q.coverage = 0.0;
     q.node = first_node(params.part);
     q.material = materials[record.material];
+    q.material.coverage = blended ? q.material.coverage : 1.0;
     q.lobes = record.lobes;
     bool white = (record.flags & query_white) != 0u;
-    q.lambertian = !glossy || white || bsdf_lobes(q.material) == LOBE_DIFFUSE;
+    q.lambertian = !glossy || white || is_lambertian(q.material);
     q.p = vec3(record.x, record.y, record.z);
     q.normal = unpack_unit(record.geometric_normal);
     q.front = (record.flags & query_front) != 0u;
