@@ -143,6 +143,18 @@ def glass(thickness):
                            "KHR_materials_ior": {"ior": 1.5}}}
 
 
+def phong(diffuse, specular, exponent):
+    """The modified Phong BRDF of Lafortune and Willems (docs/materials.md)."""
+    return {**lambertian(diffuse), "extras": {"phong": {"specular": [*specular], "exponent": exponent}}}
+
+
+def blended(material, alpha):
+    """The same, of which a share of alpha is there."""
+    color = material["pbrMetallicRoughness"]["baseColorFactor"][:3] + [alpha]
+    return {**material, "alphaMode": "BLEND",
+            "pbrMetallicRoughness": {**material["pbrMetallicRoughness"], "baseColorFactor": color}}
+
+
 def emitter(radiance, albedo=(0, 0, 0)):
     """Emits `radiance` from its front; the factor has to be at most 1, the strength makes up for it."""
     strength = max(radiance)

@@ -10,7 +10,7 @@ import math
 import pathlib
 import sys
 
-from gltf_writer import (Mesh, Scene, box, emitter, glass, lambertian, metal, quad, revolved, sphere)
+from gltf_writer import (Mesh, Scene, blended, box, emitter, glass, lambertian, metal, phong, quad, revolved, sphere)
 
 WHITE, RED, GREEN = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
 SUNK = 0.01  # bodies reach this far into the floor: closed, and no face in the floor's plane
@@ -136,6 +136,16 @@ def glossy():
     return scene
 
 
+def veil():
+    """Modified Phong, and a pane that is only partly there before it."""
+    scene = cornell(light=True)
+    scene.add("plastic box", tall_box(40), phong((0.3, 0.35, 0.4), (0.55, 0.5, 0.45), 60))
+    scene.add("short box", short_box(), lambertian(WHITE))
+    pane = quad((-0.9, 0.02, 0.75), (0.5, 0.02, 0.75), (0.5, 1.3, 0.75), (-0.9, 1.3, 0.75))
+    scene.add("pane", pane, blended(lambertian((0.2, 0.5, 0.7)), 0.4))
+    return scene
+
+
 def smooth_sphere():
     """So coarse, 80 triangles, that its interpolated normals are far from those of its faces."""
     scene = cornell(light=True)
@@ -193,7 +203,7 @@ def courtyard():
 
 
 BINARY = (cornell_point, cornell_area, cornell_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
-          inside_glass, sky_room, spot, courtyard)
+          inside_glass, sky_room, spot, courtyard, veil)
 READABLE = (plane_point, closed_box)
 
 

@@ -12,11 +12,24 @@ namespace argand {
 namespace {
 
 MaterialRecord record_of(const Material& m) {
-    return {m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
-            m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
-            m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
-            m.roughness,        m.transmission,     m.ior,              m.thickness,
-            m.coverage,         0,                  0,                  0};
+    MaterialRecord record{m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
+                          m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
+                          m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
+                          m.roughness,        m.transmission,     m.ior,              m.thickness,
+                          m.coverage,         -1,                 0,                  0};
+    if (m.phong) {
+        const glm::vec3& specular = m.phong->specular;
+        record.metallic = 0;
+        record.transmission = 0;
+        record.thickness = 0;
+        record.specular_r = specular.r;
+        record.specular_g = specular.g;
+        record.specular_b = specular.b;
+        record.specular = specular == glm::vec3(0) ? 0.0f : 1.0f;
+        record.exponent = m.phong->exponent;
+        record.roughness = roughness_of_phong(record.exponent);
+    }
+    return record;
 }
 
 LightRecord record_of(const Light& light) {
@@ -116,6 +129,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
         const MaterialRecord& record = materials.back();
         result.lobes |= bsdf_lobes(record);
         result.has_blended = result.has_blended || (bsdf_lobes(record) & LOBE_PASS) != 0;
+        result.has_phong = result.has_phong || is_phong(record);
         const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
         result.has_glossy = result.has_glossy || (estimated != 0 && !is_lambertian(record));
     }

@@ -24,6 +24,7 @@ struct DeviceScene {
     double emitter_probability = 0; ///< that a choice of light gives an emissive triangle
     std::uint32_t lobes = 0;    ///< LOBE_* of all materials
     bool has_blended = false;   ///< light passes some surface by alpha
+    bool has_phong = false;     ///< some material is modified Phong
     bool has_glossy = false;    ///< some material has a glossy lobe beside or instead of the Lambertian one
 };
 

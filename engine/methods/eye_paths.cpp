@@ -113,7 +113,8 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                                                   .shadow_rays = w.shadow_rays, .shadows = w.shadows,
                                                   .queries = w.queries, .alive = w.alive, .asks = w.asks, .batch = batch,
                                                   .constants = {.photon_map = gather != nullptr,
-                                                                .blended = scene.has_blended}},
+                                                                .blended = scene.has_blended,
+                                                                .phong = scene.has_phong}},
                               w.counts);
         }
         if (scene.record.light_count > 0) {

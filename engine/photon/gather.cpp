@@ -28,7 +28,9 @@ template <class Kernel> void run_radius(const Work& work, const Buffer& unfinish
                              .active_slots = work.target.slots, .counts = work.target.counts,
                              .queries = work.target.queries, .materials = work.scene.materials,
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
-                             .params = work.params, .constants = {.glossy = work.scene.has_glossy, .blended = work.scene.has_blended}},
+                             .params = work.params,
+                             .constants = {.glossy = work.scene.has_glossy, .blended = work.scene.has_blended,
+                                           .phong = work.scene.has_phong}},
                       work.asking.buffer, work.asking.index);
 }
 
@@ -40,7 +42,7 @@ template <class Kernel> void run_footprints(const Work& work, const Buffer& unfi
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .footprints = work.map.footprints, .params = work.params,
                              .constants = {.glossy = work.scene.has_glossy, .uniform_kernel = work.uniform_kernel,
-                                           .blended = work.scene.has_blended}},
+                                           .blended = work.scene.has_blended, .phong = work.scene.has_phong}},
                       work.asking.buffer, work.asking.index);
 }
 

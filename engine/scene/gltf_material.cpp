@@ -116,6 +116,37 @@ void read_extensions(const FactorReader& read, const json* object, Material& mat
     material.ior = static_cast<float>(ior);
 }
 
+/// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}, all of it required.
+void read_phong(const FactorReader& read, const json* object, Material& material) {
+    const json* phong = find_member(find_member(object, "extras"), "phong");
+    if (!phong) {
+        return;
+    }
+    const std::string what = read.what + "'s \"phong\"";
+    for (const char* key : {"specular", "exponent"}) {
+        if (!find_member(phong, key)) {
+            read.source.fail("{} is no object with a \"specular\" and an \"exponent\"", what);
+        }
+    }
+    const glm::dvec3 specular = vector_of(read.source, phong, "specular", glm::dvec3(0), what);
+    const double exponent = number_of(read.source, phong, "exponent", 0, what);
+    if (!(exponent >= 0 && exponent <= unlimited)) {
+        read.source.fail("{} has an exponent of {}; it must be at least 0", what, exponent);
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+        const double sum = specular[channel] + double(material.base_color[channel]);
+        if (!(specular[channel] >= 0 && sum <= 1 + 1e-6)) {
+            read.source.fail("{} has a specular colour of {} beside a base colour of {:.6g}; it must be at least 0, "
+                             "and their sum at most 1",
+                             what, specular[channel], material.base_color[channel]);
+        }
+    }
+    if (material.transmission > 0) {
+        add_note(read.scene, fmt::format("{} is Phong: its transmission is ignored", read.what));
+    }
+    material.phong = Phong{glm::vec3(specular), static_cast<float>(exponent)};
+}
+
 } // namespace
 
 void add_materials(const GltfSource& source, Scene& scene) {
@@ -129,6 +160,7 @@ void add_materials(const GltfSource& source, Scene& scene) {
         read_core(read, from, material);
         read_emission(read, from, object, material);
         read_extensions(read, object, material);
+        read_phong(read, object, material);
         scene.materials.push_back(material);
         textured = textured || (object && uses_texture(*object));
     }

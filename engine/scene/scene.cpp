@@ -1,5 +1,7 @@
 #include "scene/scene.hpp"
 
+#include <cmath>
+
 namespace argand {
 
 Bounds bounds(const Scene& scene) {
@@ -27,6 +29,10 @@ double surface_area(const Scene& scene) {
         sum += area(scene, triangle);
     }
     return sum;
+}
+
+float roughness_of_phong(float exponent) {
+    return static_cast<float>(std::pow(2 / (double(exponent) + 2), 0.25));
 }
 
 bool emits(const Material& material) {

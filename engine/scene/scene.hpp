@@ -10,6 +10,12 @@
 
 namespace argand {
 
+/// Modified Phong BRDF (Lafortune and Willems 1994): base_color/π + specular (n + 2)/(2π) cosⁿ.
+struct Phong {
+    glm::vec3 specular{0};              ///< with base_color at most 1 in each channel
+    float exponent = 0;                 ///< n >= 0
+};
+
 /// Surface description in glTF's terms (metallic-roughness with the extensions named beside the fields).
 struct Material {
     std::string name;
@@ -24,6 +30,7 @@ struct Material {
     float ior = 1.5f;                   ///< KHR_materials_ior
     float thickness = 0;                ///< KHR_materials_volume; 0: thin-walled, else a solid that refracts
     bool double_sided = false;
+    std::optional<Phong> phong;         ///< instead of metal, dielectric and transmission, if present
 };
 
 enum class LightKind : std::uint32_t { point, spot, directional };
@@ -81,6 +88,9 @@ double area(const Scene& scene, std::size_t triangle);
 
 /// Sum of the areas of all triangles, in double precision.
 double surface_area(const Scene& scene);
+
+/// Roughness in glTF's terms of about the same width as Phong's lobe: GGX's alpha² = 2/(n + 2).
+float roughness_of_phong(float exponent);
 
 /// True if the material's triangle emits light.
 bool emits(const Material& material);

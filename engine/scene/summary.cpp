@@ -35,6 +35,9 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"ior", material.ior},
             {"thickness", material.thickness},
             {"alpha", material.coverage},
+            {"phong", material.phong ? json{{"specular", numbers(material.phong->specular)},
+                                            {"exponent", material.phong->exponent}}
+                                     : json(nullptr)},
             {"emission", numbers(material.emission)},
             {"double_sided", material.double_sided}};
 }
@@ -131,10 +134,17 @@ std::string quoted_name(const json& object) {
 
 std::string material_line(const json& material) {
     std::string line =
-        fmt::format("{}: {}, base colour {}, metallic {:.4g}, roughness {:.4g}", quoted_name(material),
-                    material["kind"].get<std::string>(), short_text(material["base_color"]),
-                    material["metallic"].get<double>(), material["roughness"].get<double>());
-    if (material["transmission"].get<double>() > 0) {
+        fmt::format("{}: {}, base colour {}", quoted_name(material), material["kind"].get<std::string>(),
+                    short_text(material["base_color"]));
+    const json& phong = material["phong"];
+    if (phong.is_null()) {
+        line += fmt::format(", metallic {:.4g}, roughness {:.4g}", material["metallic"].get<double>(),
+                            material["roughness"].get<double>());
+    } else {
+        line += fmt::format(", specular colour {}, exponent {:.4g}", short_text(phong["specular"]),
+                            phong["exponent"].get<double>());
+    }
+    if (phong.is_null() && material["transmission"].get<double>() > 0) {
         line += fmt::format(", transmission {:.4g}, index of refraction {:.4g}",
                             material["transmission"].get<double>(), material["ior"].get<double>());
     }
@@ -191,6 +201,9 @@ void append_list(std::string& text, const char* title, const json& list, Line li
 } // namespace
 
 std::string describe(const Material& material) {
+    if (material.phong) {
+        return "Phong";
+    }
     // KHR_materials_transmission is for the dielectric part: metal does not transmit.
     if (material.metallic >= 1) {
         return material.roughness <= 0 ? "mirror" : "metal";

@@ -1,8 +1,8 @@
 // The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume (of which only whether
 // there is a thickness), in the shading frame: wo and wi point away from the surface, and the frame is turned so that
 // wo.z > 0 whichever side wo is on. A sum of lobes, which all but the last are scaled by the surface's alpha (coverage):
-//   diffuse    Lambertian, under the dielectric's specular layer
-//   glossy     GGX reflection by metal and by the layer
+//   diffuse    Lambertian, under the dielectric's specular layer, or beside the specular lobe of modified Phong
+//   glossy     GGX reflection by metal and by the layer; or that of modified Phong
 //   mirror     the same where the surface is smooth; reflection by the border of a solid dielectric
 //   transmit   straight on through a thin wall, refracted at the border of a solid dielectric; tinted by the base
 //              colour; always smooth
@@ -15,6 +15,7 @@
 #include "shared/fresnel.h"
 #include "shared/ggx.h"
 #include "shared/material_record.h"
+#include "shared/phong.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -40,6 +41,9 @@ struct BsdfSample {
 
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
+// Modified Phong: no metal, nothing transparent, and a roughness as wide as the lobe.
+FN bool is_phong(IN(MaterialRecord) m) { return m.exponent >= float32(0.0); }
+FN vec3 phong_specular(IN(MaterialRecord) m) { return vec3(m.specular_r, m.specular_g, m.specular_b) * real(m.coverage); }
 FN bool roughness_is_delta(IN(MaterialRecord) m) { return ggx_alpha(m) < SMALLEST_ALPHA; }
 
 // Shares of the surface: what is not there; metal; what is not metal, split by the transmission factor.
@@ -61,8 +65,11 @@ FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
     return fresnel_schlick(dielectric_f0(m), real(m.specular), cosine);
 }
 
-// Reflectance of metal and layer together, without the border of a solid.
+// Reflectance of metal and layer together, without the border of a solid; or of the specular lobe, cosine being wo's.
 FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
+    if (is_phong(m)) {
+        return phong_specular(m) * phong_albedo(real(m.exponent), cosine);
+    }
     real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
     return fresnel_schlick(base_color(m), real(1.0), cosine) * metal_share(m) +
            dielectric_fresnel(m, cosine) * layer_share;
@@ -70,6 +77,9 @@ FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
 
 // What the diffuse lobe reflects of light that it gets through the layer at this cosine with the half vector.
 FN vec3 diffuse_reflectance(IN(MaterialRecord) m, real cosine) {
+    if (is_phong(m)) {
+        return base_color(m) * opaque_share(m);
+    }
     return base_color(m) * (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
 }
 
@@ -191,6 +201,11 @@ FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, ve
         pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
     }
     if ((lobes & LOBE_GLOSSY) != 0u && !roughness_is_delta(m)) {
+        if (is_phong(m)) {
+            real power = phong_power(real(m.exponent), wo, wi);
+            pdf += probabilities.y * phong_pdf(real(m.exponent), power);
+            return f + phong_specular(m) * phong_lobe(real(m.exponent), power);
+        }
         real alpha = ggx_alpha(m);
         real distribution = ggx_distribution(alpha, h, h2);
         f += layer_reflectance(m, cosine) * (distribution * ggx_visibility(alpha, wo.z, wi.z));
@@ -273,8 +288,12 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     } else {
         s.lobe = LOBE_GLOSSY;
         s.probability = p.y;
-        vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));
-        s.wi = h * (real(2.0) * dot3(wo, h)) - wo;
+        if (is_phong(m)) {
+            s.wi = phong_sample(real(m.exponent), wo, vec2(u.y, u.z));
+        } else {
+            vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));
+            s.wi = h * (real(2.0) * dot3(wo, h)) - wo;
+        }
     }
     if (!(s.wi.z > real(0.0))) {
         return false;   // reflected into the surface: what a single scattering loses

@@ -84,6 +84,12 @@ FN void add_without_loss(INOUT(real) high, INOUT(real) low, real x) {
     high = sum;
 }
 
+// 2 atanh(s), for |s| up to 0.172.
+FN real twice_atanh(real s) {
+    real z = s * s;
+    return real(2.0) * (s + s * z * (real(0.3333333333333333) + z * atanh_tail(z)));
+}
+
 #endif
 
 // On the bits, for compilers may assume that a number is never NaN.
@@ -111,6 +117,44 @@ FN void sincos_2pi(real u, OUT(real) s, OUT(real) c) {
     c = (q & 1u) != 0u ? sine : cosine;
     s = (q & 2u) != 0u ? -s : s;
     c = (q == 1u || q == 2u) ? -c : c;
+}
+
+// log(1 - x) for x in [0, 1): for small x of the same relative error, not of that of 1 - x.
+FN real log_complement(real x) {
+#ifdef ARGAND_REAL_DOUBLE
+    return std::log1p(-x);
+#else
+    if (x < real(0.29)) {
+        return twice_atanh(-x / (real(2.0) - x));
+    }
+    int exponent;
+    real f = split_mantissa(real(1.0) - x, exponent) - real(1.0);
+    real k = real(exponent);
+    return k * LN2_HIGH + (k * LN2_LOW + twice_atanh(f / (real(2.0) + f)));
+#endif
+}
+
+// exp(x) for x <= 0.
+FN real exp_negative(real x) {
+#ifdef ARGAND_REAL_DOUBLE
+    return std::exp(x);
+#else
+    if (!(x > real(-104.0))) {
+        return real(0.0);   // less than half the smallest number
+    }
+    real power = floor(x * LOG2_E + real(0.5));
+    real r = (x - power * LN2_HIGH) - power * LN2_LOW;
+    return scale_by_power(real(1.0) + (r + exp_remainder(r)), int(power));
+#endif
+}
+
+// 1 - exp(x) for x <= 0: for small x of the same relative error.
+FN real exp_complement(real x) {
+#ifdef ARGAND_REAL_DOUBLE
+    return -std::expm1(x);
+#else
+    return x > real(-0.34) ? -(x + exp_remainder(x)) : real(1.0) - exp_negative(x);
+#endif
 }
 
 // x to the power of y, for finite x >= 0 and y. The logarithm is carried in two numbers, for a result near the largest

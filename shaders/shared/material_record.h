@@ -13,7 +13,8 @@ struct MaterialRecord {
     uint double_sided;
     float32 roughness, transmission, ior, thickness;
     float32 coverage;       // glTF's alpha: the share of the surface that is there
-    uint pad0, pad1, pad2;
+    float32 exponent;       // of modified Phong, whose specular colour is in specular_r, _g, _b; below 0: not Phong
+    uint pad0, pad1;
 };
 
 ARGAND_SHARED_END

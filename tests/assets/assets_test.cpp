@@ -30,6 +30,7 @@ const std::vector<Expected> scenes = {
     {"cornell_mirror.glb", 42, 11, 1, 0},
     {"ring.glb", 3842, 2, 0, 1},
     {"glossy.glb", 2910, 11, 1, 0},
+    {"veil.glb", 44, 12, 1, 0},
     {"spot.glb", 34, 7, 0, 1},
     {"sky_room.glb", 34, 7, 0, 0},
     {"courtyard.glb", 92, 6, 0, 1},
@@ -150,6 +151,11 @@ TEST(Assets, MaterialsAreWhatTheirNamesSay) {
     EXPECT_GT(material_of(glass, "glass sphere").thickness, 0);
     EXPECT_EQ(material_of(glass, "floor").specular, 0);
     EXPECT_EQ(material_of(glass, "floor").metallic, 0);
+
+    const Scene veil = load_gltf(folder / "veil.glb");
+    EXPECT_EQ(material_of(veil, "pane").coverage, 0.4f);
+    ASSERT_TRUE(material_of(veil, "plastic box").phong.has_value());
+    EXPECT_EQ(material_of(veil, "plastic box").phong->exponent, 60);
 
     const Scene mirror = load_gltf(folder / "cornell_mirror.glb");
     EXPECT_EQ(material_of(mirror, "mirror").metallic, 1);

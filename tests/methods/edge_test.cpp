@@ -35,7 +35,7 @@ void expect_sum_of_layers(const RenderResult& result) {
 
 TEST_P(Edge, LayersSumUpToTheWholeAndAllAreFinite) {
     for (const char* name : {"cornell_glass.glb", "cornell_mirror.glb", "glossy.glb", "courtyard.glb", "ring.glb",
-                             "smooth_sphere.glb", "inside_glass.glb", "sky_room.glb", "spot.glb"}) {
+                             "smooth_sphere.glb", "inside_glass.glb", "sky_room.glb", "spot.glb", "veil.glb"}) {
         const RenderResult result = render(load_asset(name), settings());
         expect_sum_of_layers(result);
         EXPECT_GT(mean(layer(result, "")).g, 0) << name;

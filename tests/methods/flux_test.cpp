@@ -75,7 +75,7 @@ void expect_near(const glm::dvec3& actual, const glm::dvec3& expected, double re
 TEST_F(Flux, EmittedIsAbsorbedEscapedOrCutToTheUnit) {
     const Scene scenes[] = {room_scene(), load_asset("cornell_glass.glb"), load_asset("cornell_mirror.glb"),
                             load_asset("courtyard.glb"), load_asset("sky_room.glb"), load_asset("closed_box.gltf"),
-                            load_asset("glossy.glb")};
+                            load_asset("glossy.glb"), load_asset("veil.glb")};
     for (const Scene& scene : scenes) {
         for (const std::uint32_t bounces : {0u, 1u, 2u, unlimited}) {
             SCOPED_TRACE(scene.name + ", " + std::to_string(bounces));

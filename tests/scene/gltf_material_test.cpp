@@ -132,6 +132,42 @@ TEST(GltfMaterial, RefusesUnknownAlphaModesAndKeepsAlphaInRange) {
     EXPECT_FALSE(has_note(with_material(with_alpha(1.5, "OPAQUE")).load(), "alpha"));
 }
 
+json with_phong(const json& phong) {
+    return {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0, 1}}}}, {"extras", {{"phong", phong}}}};
+}
+
+TEST(GltfMaterial, ReadsPhongFromExtras) {
+    const Material material = load_material(with_phong({{"specular", {0.5, 0.25, 1}}, {"exponent", 40}}));
+    ASSERT_TRUE(material.phong.has_value());
+    EXPECT_EQ(material.base_color, glm::vec3(0.5f, 0.25f, 0));
+    EXPECT_EQ(material.phong->specular, glm::vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(material.phong->exponent, 40);
+    EXPECT_TRUE(load_material(with_phong({{"specular", {0, 0, 0}}, {"exponent", 0}})).phong.has_value());
+    EXPECT_FALSE(load_material({{"extras", {{"note", "phong"}}}}).phong.has_value());
+    EXPECT_FALSE(load_material({{"extras", "phong"}}).phong.has_value());
+}
+
+TEST(GltfMaterial, RefusesBadPhong) {
+    const auto problem = [](const json& specular, const json& exponent) {
+        return with_material(with_phong({{"specular", specular}, {"exponent", exponent}})).problem();
+    };
+    using ::testing::HasSubstr;
+    const json good = {0.5, 0.25, 1};
+    EXPECT_THAT(problem(good, -1), HasSubstr("material 0's \"phong\" has an exponent of -1; it must be at least 0"));
+    EXPECT_THAT(problem(good, 1e300), HasSubstr("exponent of 1e+300"));
+    EXPECT_THAT(problem(good, "sharp"), HasSubstr("\"exponent\" that is not a number"));
+    EXPECT_THAT(problem(good, nullptr), HasSubstr("\"exponent\" that is not a number"));
+    EXPECT_THAT(problem({0.5, 0.875, 1}, 1), HasSubstr("a specular colour of 0.875 beside a base colour of 0.25; it must"));
+    EXPECT_THAT(problem({-0.5, 0, 0}, 1), HasSubstr("a specular colour of -0.5 beside"));
+    EXPECT_THAT(problem({0.1, 0.1}, 1), HasSubstr("\"specular\" that is not three numbers"));
+    EXPECT_THAT(problem(0.5, 1), HasSubstr("\"specular\" that is not three numbers"));
+    for (const json& phong : {json(5), json::array({1, 2}), json("shiny"), json(nullptr), json::object(),
+                              json{{"specular", good}}, json{{"exponent", 5}}}) {
+        EXPECT_THAT(with_material(with_phong(phong)).problem(),
+                    HasSubstr("is no object with a \"specular\" and an \"exponent\""));
+    }
+}
+
 TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0);
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1}})).ior, 1);

@@ -117,6 +117,19 @@ TEST(Summary, TellsOfAlpha) {
     EXPECT_THAT(summary_text(builder.load()), HasSubstr("roughness 1, alpha 0.25"));
 }
 
+TEST(Summary, TellsOfPhong) {
+    GltfBuilder builder = one_triangle();
+    builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
+                                  {"extras", {{"phong", {{"specular", {0.5, 0.25, 0}}, {"exponent", 20}}}}}}};
+    builder.root["meshes"][0]["primitives"][0]["material"] = 0;
+    const json material = summary_json(builder.load())["materials"][0];
+    EXPECT_EQ(material["kind"], "Phong");
+    EXPECT_EQ(material["phong"], json({{"specular", {0.5, 0.25, 0}}, {"exponent", 20}}));
+    EXPECT_TRUE(summary_json(one_triangle().load())["materials"][0]["phong"].is_null());
+    EXPECT_THAT(summary_text(builder.load()),
+                HasSubstr("Phong, base colour 0.5, specular colour 0.5 0.25 0, exponent 20 (1 tri"));
+}
+
 TEST(Summary, TellsOfWhatWasMadeUp) {
     const std::string text = summary_text(one_triangle().load());
     EXPECT_THAT(text, HasSubstr("sky         uniform, radiance 1"));

@@ -82,7 +82,7 @@ TEST_F(SharedMaths, TransportAgreesWithTheHost) {
     std::normal_distribution<float> normal;
     const auto any_point = [&] { return glm::vec3(normal(bits), normal(bits), normal(bits)); };
     for (std::size_t i = 0; i < count; ++i) {
-        materials.push_back(testing::any_material(bits));
+        materials.push_back(i % 4 == 0 ? testing::any_phong(bits) : testing::any_material(bits));
         LightRecord l = testing::triangle_light(any_point(), glm::normalize(any_point()), any_point(),
                                                 glm::vec3(2), i % 2);
         l.kind = static_cast<std::uint32_t>(i % 5);

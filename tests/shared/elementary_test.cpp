@@ -87,6 +87,29 @@ TEST(Elementary, PowerHasAFewUlps) {
     EXPECT_EQ(pow_real(2.0f, 10.0f), 1024.0f);
 }
 
+TEST(Elementary, LogarithmAndExponentialKeepTheDigitsOfSmallNumbers) {
+    std::mt19937 bits(9);
+    Worst log;
+    Worst exp;
+    Worst complement;
+    for (int i = 0; i < tries; ++i) {
+        const float x = i % 2 == 0 ? any_magnitude(bits, -100, -1) : static_cast<float>(bits() >> 8) * 0x1p-24f;
+        log.take(ulps(log_complement(x), std::log1p(-double(x))), x);
+        const float y = i % 2 == 0 ? -any_magnitude(bits, -100, 0) : -static_cast<float>(bits() >> 8) * 0x1p-18f;
+        complement.take(ulps(exp_complement(y), -std::expm1(double(y))), y);
+        exp.take(ulps(exp_negative(y), std::exp(double(y))), y);
+    }
+    EXPECT_LE(log.error, 3) << log;
+    EXPECT_LE(exp.error, 2) << exp;
+    EXPECT_LE(complement.error, 2) << complement;
+    EXPECT_EQ(log_complement(0.0f), 0.0f);
+    EXPECT_EQ(exp_negative(0.0f), 1.0f);
+    EXPECT_EQ(exp_complement(0.0f), 0.0f);
+    EXPECT_EQ(exp_negative(-1e30f), 0.0f);
+    EXPECT_EQ(exp_negative(-std::numeric_limits<float>::infinity()), 0.0f);
+    EXPECT_EQ(exp_complement(-1e30f), 1.0f);
+}
+
 TEST(Elementary, FiniteIsToldByTheBits) {
     EXPECT_TRUE(is_finite(0.0f));
     EXPECT_TRUE(is_finite(-std::numeric_limits<float>::max()));

@@ -2,6 +2,7 @@
 
 #include "numbers.hpp"
 #include "oracle.hpp"
+#include "scene/scene.hpp"
 #include "shared/bsdf.h"
 
 #include <random>
@@ -17,6 +18,7 @@ inline MaterialRecord white_dielectric() {
     m.roughness = 1;
     m.ior = 1.5f;
     m.coverage = 1;
+    m.exponent = -1;
     return m;
 }
 
@@ -58,6 +60,27 @@ inline MaterialRecord glass(float ior, float thickness) {
     m.transmission = 1;
     m.ior = ior;
     m.thickness = thickness;
+    return m;
+}
+
+inline MaterialRecord phong(vec3 diffuse, vec3 specular, float exponent) {
+    MaterialRecord m = with_color(white_dielectric(), diffuse);
+    m.specular_r = specular.x;
+    m.specular_g = specular.y;
+    m.specular_b = specular.z;
+    m.specular = specular == vec3(0) ? 0 : 1;
+    m.exponent = exponent;
+    m.roughness = roughness_of_phong(exponent);
+    return m;
+}
+
+inline MaterialRecord any_phong(std::mt19937& bits) {
+    std::uniform_real_distribution<float> uniform;
+    const vec3 sum(uniform(bits), uniform(bits), uniform(bits));
+    const float split = bits() % 3 == 0 ? float(bits() % 2) : uniform(bits);
+    const float exponent = bits() % 8 == 0 ? 0 : std::exp(uniform(bits) * 16);
+    MaterialRecord m = phong(sum * split, sum * (1 - split), exponent);
+    m.coverage = bits() % 2 == 0 ? 1 : uniform(bits);
     return m;
 }
 

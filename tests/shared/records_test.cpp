@@ -22,6 +22,7 @@ TEST(Records, MaterialLiesInLanesOf16Bytes) {
     EXPECT_EQ(offsetof(MaterialRecord, double_sided), 44u);
     EXPECT_EQ(offsetof(MaterialRecord, roughness), 48u);
     EXPECT_EQ(offsetof(MaterialRecord, coverage), 64u);
+    EXPECT_EQ(offsetof(MaterialRecord, exponent), 68u);
 }
 
 TEST(Records, LightLiesInLanesOf16Bytes) {

@@ -25,6 +25,8 @@ layout(push_constant) uniform Push { EyeBatch batch; };
 layout(constant_id = 0) const bool photon_map = false;
 // Whether some surface lets light pass (alpha below 1).
 layout(constant_id = 1) const bool blended = true;
+// Whether some surface is modified Phong.
+layout(constant_id = 2) const bool phong = true;
 
 #include "layers.glsl"
 
@@ -109,6 +111,7 @@ void main() {
     Surface surface = load_surface(hit, direction);
     MaterialRecord m = materials[triangles[hit.triangle].w];
     m.coverage = blended ? m.coverage : 1.0;
+    m.exponent = phong ? m.exponent : -1.0;
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
     if (max_component(emission) > 0.0 && (surface.front || m.double_sided != 0u)) {
         float weight = 1.0;

@@ -27,6 +27,8 @@ layout(constant_id = 2) const bool glossy = true;
 layout(constant_id = 3) const uint reemission = REEMIT_COSINE;
 // Whether some surface lets light pass (alpha below 1).
 layout(constant_id = 4) const bool blended = true;
+// Whether some surface is modified Phong.
+layout(constant_id = 5) const bool phong = true;
 
 // How the shading normal changes along one of a photon's differentials.
 vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
@@ -93,6 +95,7 @@ void main() {
     Surface surface = load_surface(hit, direction);
     MaterialRecord m = materials[triangles[hit.triangle].w];
     m.coverage = blended ? m.coverage : 1.0;
+    m.exponent = phong ? m.exponent : -1.0;
     Frame frame = make_frame(surface.shading_normal);
     vec3 wo = to_local(frame, -direction);
     // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that with the shading normal

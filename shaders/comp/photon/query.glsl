@@ -16,6 +16,8 @@ layout(push_constant) uniform Push { PhotonGatherParams params; };
 layout(constant_id = 0) const bool glossy = true;
 // Whether some surface lets light pass (alpha below 1).
 layout(constant_id = 2) const bool blended = true;
+// Whether some surface is modified Phong.
+layout(constant_id = 3) const bool phong = true;
 
 // Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
 struct Sum {
@@ -58,6 +60,7 @@ Query make_query(uint slot) {
     q.node = first_node(params.part);
     q.material = materials[record.material];
     q.material.coverage = blended ? q.material.coverage : 1.0;
+    q.material.exponent = phong ? q.material.exponent : -1.0;
     q.lobes = record.lobes;
     bool white = (record.flags & query_white) != 0u;
     q.lambertian = !glossy || white || is_lambertian(q.material);
