@@ -109,7 +109,9 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                                   .constants = {.footprints = w.footprints,
                                                                 .specular = (scene.lobes & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0,
                                                                 .glossy = (scene.lobes & LOBE_GLOSSY) != 0,
-                                                                .reemission = w.reemission}},
+                                                                .reemission = w.reemission,
+                                                                .blended = scene.has_blended,
+                                                                .phong = scene.has_phong}},
                           w.counters, counter_active);
         compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
         std::swap(w.active, w.next_active);
