@@ -1,5 +1,6 @@
 #include "accel/lbvh.hpp"
 
+#include "kernels/code_distances.hpp"
 #include "kernels/lbvh_codes.hpp"
 #include "kernels/lbvh_fit.hpp"
 #include "parallel/parts.hpp"
@@ -29,15 +30,15 @@ void dispatch_count(Device& device, const Kernel& kernel, const Count& count) {
     }
 }
 
-void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& codes, const Count& count, bool for_rays,
+void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& distances, const Count& count, bool for_rays,
          bool in_order) {
     const Buffer ends = device.scratch("lbvh: ends", std::max<std::uint64_t>(count.bound, 1) * sizeof(std::uint32_t));
     device.fill(ends, lbvh_end);
     dispatch_count(device,
                    kernels::lbvh_fit{.boxes = boxes,
-                                     .codes = codes,
+                                     .distances = distances,
                                      .order = bvh.order,
-                                     .counts = counts_or(count, codes),
+                                     .counts = counts_or(count, distances),
                                      .ends = ends,
                                      .nodes = bvh.nodes,
                                      .costs = for_rays ? bvh.costs : ends,
@@ -76,16 +77,28 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
                                        .params = params},
                    count);
     radix_sort_pairs(device, codes, bvh.order, count, code_bits);
-    fit(device, bvh, boxes, codes, count, for_rays, false);
+    fit(device, bvh, boxes, code_distances(device, codes, count, false), count, for_rays, false);
     return bvh;
 }
 
-Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& codes, const Buffer& order,
+Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide) {
+    Buffer distances = device.scratch("code distances", std::max<std::uint64_t>(count.bound, 1) * sizeof(std::uint32_t));
+    dispatch_count(device,
+                   kernels::code_distances{.codes = codes,
+                                           .counts = counts_or(count, codes),
+                                           .distances = distances,
+                                           .params = {count_record(count)},
+                                           .constants = {.wide = wide}},
+                   count);
+    return distances;
+}
+
+Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& distances, const Buffer& order,
                          const Count& count) {
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
     const Lbvh bvh{.order = order, .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
     if (count.bound > 0) {
-        fit(device, bvh, boxes, codes, count, false, true);
+        fit(device, bvh, boxes, distances, count, false, true);
     }
     return bvh;
 }

@@ -19,9 +19,13 @@ struct Lbvh {
 /// box.
 Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays = false);
 
-/// As build_lbvh, over boxes in the order of their codes. `order` holds what the leaves' nodes shall refer to; it becomes
-/// Lbvh::order.
-Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& codes, const Buffer& order,
+/// How far each of some sorted codes is from the next one, a uint each in scratch memory (code_distance of
+/// shared/morton.h). wide: codes of 64 bits, low word first.
+Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide);
+
+/// As build_lbvh, over boxes in the order of some codes, so far from each other. `order` holds what the leaves' nodes shall
+/// refer to; it becomes Lbvh::order.
+Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& distances, const Buffer& order,
                          const Count& count);
 
 } // namespace argand

@@ -109,6 +109,7 @@ bool render_pass(Picture& p, const StoredPhotons& stored, std::uint64_t pass, co
                                            {.area_samples = area_samples(p.on_device.surface_area, sampled),
                                             .seed = p.settings.seed + static_cast<std::uint32_t>(pass),
                                             .leaf_size = p.settings.footprints.leaf_size,
+                                            .wide_codes = p.settings.wide_codes,
                                             .footprints = statistics.footprint_scale});
     statistics.mean_footprints = map.mean_footprints;
     statistics.leaf_size = map.leaf_size;

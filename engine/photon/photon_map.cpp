@@ -208,6 +208,10 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                            const PhotonMapSettings& settings) {
     PhotonMap map;
     make_room(device, w, stored.slots, stored.slots + settings.area_samples);
+    const std::uint64_t bytes_of_codes = w.capacity * (settings.wide_codes ? 8 : 4);
+    if (w.codes.size() < bytes_of_codes) {
+        w.codes = device.allocate("photon codes", bytes_of_codes);
+    }
     // Of a map that was built before, its samples are left out.
     const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
     device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
@@ -236,11 +240,18 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
         const StageScope stage(device, "sort photons");
         dispatch_indirect(device,
                           kernels::photon_codes{.scene = scene.scene, .counters = w.counters, .photons = w.photons,
-                                                .codes = w.codes, .order = w.order},
+                                                .codes = w.codes, .order = w.order,
+                                                .constants = {.wide = settings.wide_codes}},
                           w.counters, counter_stored_slots);
-        radix_sort_pairs(device, w.codes, w.order, slots);
-        dispatch_indirect(device, kernels::photon_count{.codes = w.codes, .counters = w.counters}, w.counters,
-                          counter_stored_slots);
+        if (settings.wide_codes) {
+            radix_sort_pairs64(device, w.codes, w.order, slots);
+        } else {
+            radix_sort_pairs(device, w.codes, w.order, slots);
+        }
+        dispatch_indirect(device,
+                          kernels::photon_count{.codes = w.codes, .counters = w.counters,
+                                                .constants = {.wide = settings.wide_codes}},
+                          w.counters, counter_stored_slots);
     }
     const StageScope stage(device, "build photon map");
     dispatch_indirect(device,
@@ -279,26 +290,28 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
             map.leaf_size = automatic_leaf_size(map.mean_footprints);
         }
     }
+    const Buffer distances = code_distances(device, w.codes, photons, settings.wide_codes);
     // The order is not needed any more.
     dispatch_indirect(device,
-                      kernels::photon_leaves{.codes = w.codes, .counters = w.counters, .leaves = w.order,
+                      kernels::photon_leaves{.distances = distances, .counters = w.counters, .leaves = w.order,
                                              .heads = w.heads, .params = {.leaf_size = map.leaf_size}},
                       w.counters, counter_stored);
     const Buffer leaves = device.scratch("photon map leaves", w.capacity * 4);
     compact(device, w.heads, w.order, leaves, w.counters, counter_leaves, photons);
     const std::uint64_t leaf_count = download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
     const Buffer boxes = device.scratch("photon map boxes", std::max<std::uint64_t>(leaf_count, 1) * sizeof(BoxRecord));
-    const Buffer leaf_codes = device.scratch("photon map leaf codes", std::max<std::uint64_t>(leaf_count, 1) * 4);
+    const Buffer leaf_distances =
+        device.scratch("photon map leaf distances", std::max<std::uint64_t>(leaf_count, 1) * 4);
     dispatch(device,
-             kernels::photon_boxes{.photons = w.sorted, .codes = w.codes, .leaves = leaves, .counters = w.counters,
-                                   .boxes = boxes, .leaf_codes = leaf_codes,
+             kernels::photon_boxes{.photons = w.sorted, .distances = distances, .leaves = leaves,
+                                   .counters = w.counters, .boxes = boxes, .leaf_distances = leaf_distances,
                                    .footprints = map.footprints ? map.footprints : w.sorted,
                                    .params = {.flatness = map.flatness},
                                    .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
              leaf_count);
     map.counters = w.counters;
     map.photons = w.sorted;
-    map.lbvh = build_lbvh_in_order(device, boxes, leaf_codes, leaves, Count(leaf_count));
+    map.lbvh = build_lbvh_in_order(device, boxes, leaf_distances, leaves, Count(leaf_count));
     return map;
 }
 

@@ -69,6 +69,7 @@ struct PhotonMapSettings {
     std::uint64_t area_samples = 0; ///< wanted; none if there is no room for them
     std::uint32_t seed = 0;         ///< of the area samples
     std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, of 1 to most_photons_a_leaf; 0: what suits
+    bool wide_codes = false;        ///< Morton codes of 63 bits: for scenes much larger than what is seen of them
     std::optional<FootprintScale> footprints;   ///< boxes are around footprints of this scale; none: around points
 };
 

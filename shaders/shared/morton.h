@@ -39,14 +39,31 @@ FN uint morton30(vec3 p, vec3 low, vec3 high) {
     return (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
 }
 
+// 63 bits, 21 for each axis, low and high word.
+FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
+    uint x = morton_cell(p.x, low.x, high.x, real(2097152.0));
+    uint y = morton_cell(p.y, low.y, high.y, real(2097152.0));
+    uint z = morton_cell(p.z, low.z, high.z, real(2097152.0));
+    uint lowest = (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
+    uint middle = (spread_bits(x >> 10u) << 2u) | (spread_bits(y >> 10u) << 1u) | spread_bits(z >> 10u);
+    uint highest = ((x >> 20u) << 2u) | ((y >> 20u) << 1u) | (z >> 20u);
+    return uvec2(lowest | (middle << 30u), (middle >> 2u) | (highest << 28u));
+}
+
 // Zero bits above the highest one; 32 for 0.
 FN uint leading_zeros(uint v) { return uint(31 - findMSB(v)); }
 
-// Length of the common prefix of two codes as if each were followed by its index, which makes equal codes differ (Karras
-// 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees").
-FN uint common_prefix(uint code_a, uint index_a, uint code_b, uint index_b) {
-    return code_a != code_b ? leading_zeros(code_a ^ code_b) : 32u + leading_zeros(index_a ^ index_b);
+// How far two leaves are apart whose codes are neighbours in their order: the highest bit in which the codes differ as if
+// each were followed by its place, which makes equal ones differ (Karras 2012, "Maximizing Parallelism in the Construction
+// of BVHs, Octrees, and k-d Trees"). Codes of 32 bits are the high word.
+FN uint code_distance(uvec2 code_a, uint place_a, uvec2 code_b, uint place_b) {
+    return code_a.y != code_b.y   ? 95u - leading_zeros(code_a.y ^ code_b.y)
+           : code_a.x != code_b.x ? 63u - leading_zeros(code_a.x ^ code_b.x)
+                                  : 31u - leading_zeros(place_a ^ place_b);
 }
+
+// To where there is no leaf.
+CONSTANT uint no_neighbour = 96u;
 
 ARGAND_SHARED_END
 

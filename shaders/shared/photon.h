@@ -9,8 +9,9 @@ ARGAND_SHARED_BEGIN
 
 // A unit vector in 2×15 bits, the caustic bit, and on top the bit of area samples; all bits set stand for a slot
 // without a record.
-// In a photon's code, above its place on the curve: whether it is caustic.
-CONSTANT uint photon_kind_shift = 30u;
+// The highest bit of a photon's code is whether it is caustic; so far apart are those that differ in it.
+CONSTANT uint photon_kind_bit = 0x80000000u;
+CONSTANT uint kind_distance = 95u;
 
 CONSTANT uint no_photon = 0xffffffffu;
 CONSTANT uint photon_normal_mask = 0x3fffffffu;

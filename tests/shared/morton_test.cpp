@@ -82,12 +82,28 @@ TEST(Morton, LeadingZerosAreCounted) {
     }
 }
 
-TEST(Morton, EqualCodesAreToldApartByTheirIndex) {
-    EXPECT_EQ(common_prefix(0x80000000u, 3, 0x80000001u, 3), 31u);
-    EXPECT_EQ(common_prefix(0x80000000u, 3, 0u, 4), 0u);
-    EXPECT_EQ(common_prefix(5u, 0, 5u, 1), 63u);
-    EXPECT_EQ(common_prefix(5u, 0, 5u, 0x80000000u), 32u);
-    EXPECT_EQ(common_prefix(5u, 7, 5u, 7), 64u);
+TEST(Morton, DistancesAreTheHighestBitThatDiffers) {
+    // Codes of 32 bits are the high word; equal codes are told apart by their places.
+    EXPECT_EQ(code_distance({0, 0x80000000u}, 3, {0, 0x80000001u}, 3), 64u);
+    EXPECT_EQ(code_distance({0, 0x80000000u}, 3, {0, 0}, 4), 95u);
+    EXPECT_EQ(code_distance({7, 5}, 3, {6, 5}, 4), 32u);
+    EXPECT_EQ(code_distance({0x80000000u, 5}, 3, {6, 5}, 4), 63u);
+    EXPECT_EQ(code_distance({7, 5}, 0, {7, 5}, 1), 0u);
+    EXPECT_EQ(code_distance({7, 5}, 0, {7, 5}, 0x80000000u), 31u);
+    EXPECT_LT(code_distance({0, 0x80000000u}, 3, {0, 0}, 4), no_neighbour);
+}
+
+TEST(Morton, WideCodesHave21BitsAnAxis) {
+    std::mt19937 bits(5);
+    for (int i = 0; i < 10'000; ++i) {
+        const uint x = uint(bits()) & 0x1fffffu;
+        const uint y = uint(bits()) & 0x1fffffu;
+        const uint z = uint(bits()) & 0x1fffffu;
+        const uvec2 code = morton63(vec3(x, y, z) + 0.25f, vec3(0), vec3(2097152));
+        EXPECT_EQ(std::uint64_t(code.y) << 32 | code.x, interleaved(x, y, z, 21));
+    }
+    EXPECT_EQ(morton63(vec3(5), vec3(-1), vec3(1)), uvec2(0xffffffffu, 0x7fffffffu));
+    EXPECT_EQ(morton63(vec3(std::numeric_limits<float>::quiet_NaN()), vec3(-1), vec3(1)), uvec2(0));
 }
 
 } // namespace

@@ -193,6 +193,8 @@ void add_render_command(CLI::App& app) {
                      "Edge of the cells in which eye paths share one estimate, in radii of estimation; 0: none shared")
         ->capture_default_str()
         ->check(number_between(0, 10));
+    command->add_flag("--wide-codes", settings.wide_codes,
+                      "Morton codes of 63 bits for photons, not of 30: for scenes much larger than what is seen");
     command->add_option("--follow-roughness", settings.follow_roughness,
                         "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
         ->capture_default_str()

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 #include "shared/morton.h"
 
 layout(set = 0, binding = 0) readonly buffer Boxes { vec4 boxes[]; };
-layout(set = 0, binding = 1) readonly buffer Codes { uint codes[]; };
+layout(set = 0, binding = 1) readonly buffer Distances { uint distances[]; };    // see code_distances.comp
 layout(set = 0, binding = 2) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 3) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 4) coherent buffer Ends { uint ends[]; };
@@ -28,9 +28,6 @@ void acquire_writes() {
         memoryBarrierBuffer();
     }
 }
-
-// How far leaves i and i + 1 are apart: the highest bit in which their codes differ, or if none does, their places.
-uint distance_after(uint i) { return 63u - common_prefix(codes[i], i, codes[i + 1u], i + 1u); }
 
 // For trees that rays will traverse: also writes ForestCost per inner node, and as its parent 2 p if it is the left child
 // of inner node p, 2 p + 1 if it is the right one (lbvh_end: it is the root).
@@ -75,11 +72,11 @@ void main() {
     if (leaf >= count) {
         return;
     }
-    const uint far = 64u;
+    const uint far = no_neighbour;
     uint first = leaf;
     uint last = leaf;
-    uint before = leaf > 0u ? distance_after(leaf - 1u) : far;
-    uint after = leaf + 1u < count ? distance_after(leaf) : far;
+    uint before = leaf > 0u ? distances[leaf - 1u] : far;
+    uint after = leaf + 1u < count ? distances[leaf] : far;
     uint child = order[leaf];
     uint box = in_order ? leaf : child;
     vec3 low = boxes[2u * box].xyz;
@@ -101,7 +98,7 @@ void main() {
         uint escape = lbvh_end;
         if (after != far) {
             uint next = last + 1u;
-            uint beyond = next + 1u < count ? distance_after(next) : far;
+            uint beyond = next + 1u < count ? distances[next] : far;
             escape = 2u * next + (after < beyond ? 1u : 0u);
         }
         nodes[2u * place] = uvec4(floatBitsToUint(low), child);
@@ -151,10 +148,10 @@ void main() {
             right_child = is_left ? sibling : place;
             if (is_left) {
                 last = other;
-                after = last + 1u < count ? distance_after(last) : far;
+                after = last + 1u < count ? distances[last] : far;
             } else {
                 first = other;
-                before = first > 0u ? distance_after(first - 1u) : far;
+                before = first > 0u ? distances[first - 1u] : far;
             }
         }
     }

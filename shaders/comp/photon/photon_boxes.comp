@@ -6,11 +6,11 @@ layout(local_size_x = 64) in;
 #include "shared/photon.h"
 
 layout(set = 0, binding = 0) readonly buffer Photons { PhotonRecord photons[]; };
-layout(set = 0, binding = 1) readonly buffer Codes { uint codes[]; };
+layout(set = 0, binding = 1) readonly buffer Distances { uint distances[]; };
 layout(set = 0, binding = 2) readonly buffer Leaves { uint leaves[]; };
 layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) writeonly buffer Boxes { BoxRecord boxes[]; };
-layout(set = 0, binding = 5) writeonly buffer LeafCodes { uint leaf_codes[]; };
+layout(set = 0, binding = 5) writeonly buffer LeafDistances { uint leaf_distances[]; };
 
 layout(set = 0, binding = 6) readonly buffer Footprints { uvec4 footprints[]; };
 layout(push_constant) uniform Push { PhotonBoxParams params; };
@@ -28,7 +28,7 @@ vec3 extent(uint i) {
     return footprint_extent(footprint_of_duals(duals, normal, params.flatness));
 }
 
-// The box of each leaf, and its place on the curve.
+// The box of each leaf, and how far it is from the next one.
 void main() {
     uint leaf = THREAD_INDEX;
     if (leaf >= counters[counter_leaves]) {
@@ -46,5 +46,5 @@ void main() {
         high = max(high, p + half_size);
     }
     boxes[leaf] = BoxRecord(low.x, low.y, low.z, 0.0, high.x, high.y, high.z, 0.0);
-    leaf_codes[leaf] = codes[first];
+    leaf_distances[leaf] = distances[last];
 }

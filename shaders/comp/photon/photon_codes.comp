@@ -11,6 +11,8 @@ layout(set = 0, binding = 2) readonly buffer Photons { PhotonRecord photons[]; }
 layout(set = 0, binding = 3) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = 4) writeonly buffer Order { uint order[]; };
 
+layout(constant_id = 0) const bool wide = false;    // codes of 64 bits, low word first
+
 // Along the space-filling curve, caustic photons behind the others. Empty slots get the largest code and end up behind all.
 void main() {
     uint i = THREAD_INDEX;
@@ -21,7 +23,15 @@ void main() {
     vec3 center = vec3(scene[0].center_x, scene[0].center_y, scene[0].center_z);
     vec3 low = center - scene[0].radius;
     vec3 high = center + scene[0].radius;
-    uint kind = photon_is_caustic(p.normal) ? 1u << photon_kind_shift : 0u;
-    codes[i] = p.normal == no_photon ? no_photon : morton30(vec3(p.x, p.y, p.z), low, high) | kind;
+    vec3 position = vec3(p.x, p.y, p.z);
+    bool empty = p.normal == no_photon;
+    uint kind = photon_is_caustic(p.normal) ? photon_kind_bit : 0u;
+    if (wide) {
+        uvec2 code = morton63(position, low, high);
+        codes[2u * i] = empty ? no_photon : code.x;
+        codes[2u * i + 1u] = empty ? no_photon : code.y | kind;
+    } else {
+        codes[i] = empty ? no_photon : (morton30(position, low, high) << 1u) | kind;
+    }
     order[i] = i;
 }
