@@ -130,6 +130,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
         result.lobes |= bsdf_lobes(record);
         result.has_blended = result.has_blended || (bsdf_lobes(record) & LOBE_PASS) != 0;
         result.has_phong = result.has_phong || is_phong(record);
+        result.has_followed = result.has_followed || followed_lobes(record, follow_roughness) != 0;
         const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
         result.has_glossy = result.has_glossy || (estimated != 0 && !is_lambertian(record));
     }
@@ -186,6 +187,10 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     result.light_choices = upload(device, "light choices", alias_table(weights));
     result.bvh = build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
     return result;
+}
+
+MaterialRecord material_record(const Material& material) {
+    return record_of(material);
 }
 
 CameraRecord camera_record(const Camera& camera, int width, int height) {

@@ -3,6 +3,7 @@
 #include "accel/triangle_bvh.hpp"
 #include "scene/scene.hpp"
 #include "shared/camera.h"
+#include "shared/material_record.h"
 #include "shared/scene_records.h"
 
 namespace argand {
@@ -25,11 +26,15 @@ struct DeviceScene {
     std::uint32_t lobes = 0;    ///< LOBE_* of all materials
     bool has_blended = false;   ///< light passes some surface by alpha
     bool has_phong = false;     ///< some material is modified Phong
+    bool has_followed = false;  ///< some material has lobes that are followed: there may be caustics
     bool has_glossy = false;    ///< some material has a glossy lobe beside or instead of the Lambertian one
 };
 
 /// Uploads the scene and builds its acceleration structure. Records only.
 DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughness);
+
+/// A material as the kernels see it, which decides its lobes (shared/bsdf.h).
+MaterialRecord material_record(const Material& material);
 
 /// The camera for a picture of this size; the vertical angle is kept whatever the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);

@@ -35,8 +35,9 @@ constexpr std::uint32_t asking_count = 2;
 // Vertices recorded before the host asks whether any path is left.
 constexpr int vertices_between_checks = 4;
 
-QueryShareParams share_params(const EyeWorkspace& w, double cell, bool pixel_sized) {
+QueryShareParams share_params(const EyeWorkspace& w, std::uint32_t asks, double cell, bool pixel_sized) {
     QueryShareParams p{.pixel = 3e38f};
+    p.asks = asks;
     p.cell = cell > 0 ? std::max(static_cast<float>(cell), 1e-30f) : 0;
     if (pixel_sized) {
         const double across = glm::length(glm::dvec3(w.view.across_x, w.view.across_y, w.view.across_z));
@@ -50,9 +51,11 @@ QueryShareParams share_params(const EyeWorkspace& w, double cell, bool pixel_siz
     return p;
 }
 
-/// Has the queries of the active paths answered, one for all that share a cell, and adds to the paths' layers.
-void ask(Device& device, EyeWorkspace& w, const Count& active, std::uint32_t part, double cell,
+/// Has the queries of the active paths answered that ask for `asks`, one for all that share a cell, and adds to the
+/// paths' layers.
+void ask(Device& device, EyeWorkspace& w, const Count& active, std::uint32_t asks, std::uint32_t part, double cell,
          bool pixel_sized, const Gather& gather) {
+    const QueryShareParams params = share_params(w, asks, cell, pixel_sized);
     {
         const StageScope stage(device, "share queries");
         if (cell > 0) {
@@ -62,11 +65,12 @@ void ask(Device& device, EyeWorkspace& w, const Count& active, std::uint32_t par
         dispatch_indirect(device,
                           kernels::query_cells{.active_slots = w.active, .counts = w.counts, .asks = w.asks,
                                                .queries = w.queries, .table = w.cells, .owners = w.owners,
-                                               .sources = w.sources, .params = share_params(w, cell, pixel_sized)},
+                                               .sources = w.sources, .params = params},
                           w.counts);
         dispatch_indirect(device,
                           kernels::query_owners{.active_slots = w.active, .counts = w.counts, .owners = w.owners,
-                                                .asks = w.asks, .sources = w.sources, .chosen = w.chosen},
+                                                .asks = w.asks, .sources = w.sources, .chosen = w.chosen,
+                                                .params = params},
                           w.counts);
     }
     {
@@ -114,7 +118,9 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                                                   .queries = w.queries, .alive = w.alive, .asks = w.asks, .batch = batch,
                                                   .constants = {.photon_map = gather != nullptr,
                                                                 .blended = scene.has_blended,
-                                                                .phong = scene.has_phong}},
+                                                                .phong = scene.has_phong,
+                                                                .final_gather = w.final_gather,
+                                                                .caustics = scene.has_followed}},
                               w.counts);
         }
         if (scene.record.light_count > 0) {
@@ -130,11 +136,14 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         }
         if (gather) {
             const QuerySharing& sharing = w.sharing;
-            if (sharing.caustics_apart) {
-                ask(device, w, active, map_indirect, sharing.cell, sharing.pixel_sized, gather);
-                ask(device, w, active, map_caustic, sharing.sharp_caustics ? 0 : sharing.cell, true, gather);
-            } else {
-                ask(device, w, active, map_whole, sharing.cell, sharing.pixel_sized, gather);
+            const double caustic_cell = sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0;
+            const bool apart = sharing.caustics_apart && !w.final_gather;
+            ask(device, w, active, asks_map, apart ? map_indirect : map_whole, sharing.cell, sharing.pixel_sized, gather);
+            if (apart) {
+                ask(device, w, active, asks_map, map_caustic, caustic_cell, true, gather);
+            } else if (w.final_gather && scene.has_followed) {
+                const std::uint32_t part = sharing.caustics_apart ? map_caustic : map_whole;
+                ask(device, w, active, asks_caustics, part, caustic_cell, true, gather);
             }
         }
         {
@@ -173,6 +182,7 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, pixels * settings.samples);
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(GatherRecord));    // the largest per slot
     const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
+    w.final_gather = queries && settings.final_gather;
     w.view = camera;
     w.camera = upload<CameraRecord>(device, "camera", std::span(&camera, 1));
     w.rays = per_slot("eye rays", sizeof(RayRecord));
@@ -209,7 +219,7 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
 
 GatherTarget query_target(const EyeWorkspace& w, std::uint32_t part) {
     return {.slots = w.asking, .counts = w.counts, .queries = w.queries, .estimates = w.estimates,
-            .partial = w.partial, .part = part};
+            .partial = w.partial, .part = part, .final_gather = w.final_gather};
 }
 
 bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const RenderSettings& settings,
@@ -239,8 +249,9 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
             batch.height = static_cast<std::uint32_t>(settings.height);
             batch.bounces = settings.bounces;
             batch.shares_queries = gather && w.sharing.cell > 0 ? 1 : 0;
-            batch.query_step = samples_per_query;
-            const std::uint32_t asking = (batch.samples + samples_per_query - 1) / samples_per_query;
+            // A final gather's noise is that of the scattered directions: all of them ask.
+            batch.query_step = w.final_gather ? 1 : samples_per_query;
+            const std::uint32_t asking = (batch.samples + batch.query_step - 1) / batch.query_step;
             batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(asking);
             trace_batch(device, scene, w, batch, gather);
             if (!w.traversal.careful && download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
@@ -278,7 +289,9 @@ std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, 
         const auto count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
         const std::vector<QueryRecord> queries = download<QueryRecord>(device, w.queries, batch.pixels);
         for (const std::uint32_t slot : download<std::uint32_t>(device, w.asking, count)) {
-            positions.emplace_back(queries[slot].x, queries[slot].y, queries[slot].z);
+            if ((queries[slot].flags & query_caustics) == 0) {
+                positions.emplace_back(queries[slot].x, queries[slot].y, queries[slot].z);
+            }
         }
     });
     return positions;

@@ -18,6 +18,7 @@ struct QuerySharing {
 /// Device memory for eye paths that are traced together.
 struct EyeWorkspace {
     std::uint64_t slots = 0;
+    bool final_gather = false;  ///< the photon map is asked one scattering later, but for caustics
     CameraRecord view{};        ///< the picture's; `camera` is the device's copy
     Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows, occluded;
     Buffer queries, asks;       ///< of the photon map: QueryRecord per slot, flags of slots that ask

@@ -72,6 +72,7 @@ PhotonPass emission_of(const Picture& p, std::uint64_t pass, std::uint64_t photo
 void make_photons(Picture& p) {
     p.photons = PhotonWorkspace();      // the old one's memory is free before the new one's is taken
     p.photons = make_photon_workspace(p.device, p.passes.photons, p.estimator == Estimator::footprints);
+    p.photons.quasi_random = p.settings.photon_sampling == Sampling::sobol;
     p.photons.reemission = p.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     const double power = std::max({p.on_device.power.r, p.on_device.power.g, p.on_device.power.b});
     p.flux_unit = power / static_cast<double>(p.passes.photons) / units_per_photon;
@@ -120,7 +121,8 @@ bool render_pass(Picture& p, const StoredPhotons& stored, std::uint64_t pass, co
     // The nearest photons may be caustic ones, and then very near.
     p.eye.sharing = {.cell = p.settings.query_cell * sampled, .pixel_sized = bandwidth.caustics && nearest};
     p.eye.sharing.sharp_caustics = bandwidth.radii.caustic < bandwidth.radii.indirect;
-    p.eye.sharing.caustics_apart = p.eye.sharing.cell > 0 && bandwidth.caustics && !nearest &&
+    const bool may_part = p.eye.sharing.cell > 0 || p.settings.final_gather;
+    p.eye.sharing.caustics_apart = may_part && bandwidth.caustics && !nearest &&
                                    (p.eye.sharing.sharp_caustics || p.estimator == Estimator::footprints);
     const Gather gather = [&](const Count& asking, std::uint32_t part) {
         const GatherTarget target = query_target(p.eye, part);

@@ -27,6 +27,9 @@ struct FootprintSettings {
     std::uint32_t leaf_size = 0;                ///< photons in a leaf of the map at most; 0: automatic
 };
 
+/// Where numbers come from that decide the first vertices of paths: Owen-scrambled Sobol' points, or a hash.
+enum class Sampling { sobol, random };
+
 /// What a user asks for.
 struct RenderSettings {
     std::string method = "footprints";
@@ -44,6 +47,8 @@ struct RenderSettings {
     double query_cell = 0.25;                   ///< edge of the cells in which one density estimate is shared, in radii
                                                 ///< of estimation; 0: none are shared
     bool wide_codes = false;                    ///< Morton codes of 63 bits for photons, not of 30
+    Sampling photon_sampling = Sampling::sobol;
+    bool final_gather = false;                  ///< the photon map is asked one bounce later, but for caustics
     FootprintSettings footprints;
 };
 

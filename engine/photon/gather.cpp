@@ -30,7 +30,8 @@ template <class Kernel> void run_radius(const Work& work, const Buffer& unfinish
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .params = work.params,
                              .constants = {.glossy = work.scene.has_glossy, .blended = work.scene.has_blended,
-                                           .phong = work.scene.has_phong}},
+                                           .phong = work.scene.has_phong,
+                                           .final_gather = work.target.final_gather}},
                       work.asking.buffer, work.asking.index);
 }
 
@@ -42,7 +43,8 @@ template <class Kernel> void run_footprints(const Work& work, const Buffer& unfi
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .footprints = work.map.footprints, .params = work.params,
                              .constants = {.glossy = work.scene.has_glossy, .uniform_kernel = work.uniform_kernel,
-                                           .blended = work.scene.has_blended, .phong = work.scene.has_phong}},
+                                           .blended = work.scene.has_blended, .phong = work.scene.has_phong,
+                                           .final_gather = work.target.final_gather}},
                       work.asking.buffer, work.asking.index);
 }
 

@@ -14,6 +14,7 @@ struct GatherTarget {
     Buffer estimates;           ///< EstimateRecord: what is scattered towards the eye, without the throughput
     Buffer partial;             ///< GatherRecord: queries between two dispatches (gather_nearest does without)
     std::uint32_t part = map_whole; ///< map_*: the photons that are looked for
+    bool final_gather = false;  ///< queries limit the photons' scatterings (shared/query_record.h)
 };
 
 /// Radii of density estimation, in the scene's units; caustics are sharp, and have one of their own, at most the other.

@@ -86,7 +86,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                       .lights = scene.lights, .light_choices = scene.light_choices, .rays = w.rays,
                                       .paths = w.paths, .ledgers = w.ledgers, .active_slots = w.active,
                                       .differentials = w.differentials, .batch = batch,
-                                      .constants = {.footprints = w.footprints}},
+                                      .constants = {.footprints = w.footprints, .quasi_random = w.quasi_random}},
                  batch.count);
         device.upload(w.counters, counter_active * 4, std::as_bytes(std::span(&batch.count, 1)));
     }
@@ -110,8 +110,10 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                                                 .specular = (scene.lobes & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0,
                                                                 .glossy = (scene.lobes & LOBE_GLOSSY) != 0,
                                                                 .reemission = w.reemission,
+                                                                .reemission = w.reemission,
                                                                 .blended = scene.has_blended,
-                                                                .phong = scene.has_phong}},
+                                                                .phong = scene.has_phong,
+                                                                .quasi_random = w.quasi_random}},
                           w.counters, counter_active);
         compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
         std::swap(w.active, w.next_active);

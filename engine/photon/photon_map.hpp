@@ -43,6 +43,7 @@ struct PhotonWorkspace {
     std::uint64_t slots = 0;    ///< photons traced together
     std::uint64_t capacity = 0; ///< photons stored
     bool footprints = false;    ///< whether photons carry differentials
+    bool quasi_random = true;   ///< Sobol' points instead of random numbers
     std::uint32_t reemission = REEMIT_COSINE;   ///< REEMIT_* of shared/differential.h
     Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order, sorted, heads;
     Buffer differentials;       ///< DifferentialRecord per slot

@@ -31,6 +31,18 @@ FN vec3 unpack_photon_normal(uint packed) {
     return unpack_unit(x | (y << 16));
 }
 
+// Photons of more scatterings count as of so many.
+CONSTANT uint most_scatterings_known = 63u;
+
+// Where a photon came from, with the number of its scatterings in the lowest bits of both coordinates. Read by
+// unpack_unit as it is, the direction is off by at most 6e-4.
+FN uint pack_photon_direction(vec3 direction, uint scatterings) {
+    uint n = scatterings < most_scatterings_known ? scatterings : most_scatterings_known;
+    return (pack_unit(direction) & 0xfff8fff8u) | (n & 7u) | ((n >> 3) << 16);
+}
+
+FN uint photon_scatterings(uint packed) { return (packed & 7u) | ((packed >> 13) & 0x38u); }
+
 FN bool photon_is_caustic(uint packed) { return (packed & photon_caustic_bit) != 0u; }
 
 // Epanechnikov's kernel in two dimensions, at a squared distance in the tangent plane in units of the squared radius r2:

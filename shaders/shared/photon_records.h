@@ -10,7 +10,7 @@ struct PhotonRecord {
     float32 x, y, z;
     uint normal;                // of the surface, on the photon's side (area samples: its front), packed (photon.h)
     float32 flux_r, flux_g, flux_b;
-    uint direction;             // where it came from, packed (pack_unit)
+    uint direction;             // where it came from, and how often it was scattered, packed (pack_photon_direction)
 };
 
 // A photon on its way, one per slot.

@@ -19,7 +19,17 @@ struct QueryRecord {
 
 CONSTANT uint query_front = 1u;     // the surface is seen from its front
 CONSTANT uint query_white = 2u;     // Lambertian, with its albedo in the throughput: asks for what albedo 1 scatters
-CONSTANT uint query_steps_shift = 8u;   // above: steps of directions in which an answer may be shared; 0 where white
+CONSTANT uint query_steps_shift = 10u;  // above: steps of directions in which an answer may be shared; 0 where white
+// With final gather the first estimated vertex of an eye path asks for caustics only, and the next one for all light of
+// a limited number of scatterings, which is indirect light as the eye sees it.
+CONSTANT uint query_caustics = 4u;
+CONSTANT uint query_gathers = 8u;
+CONSTANT uint query_scatterings_shift = 4u; // six bits: the most of a photon that counts (photon.h)
+CONSTANT uint query_scatterings_mask = 0x3fu;
+
+// Flags of paths that ask: for what they ask is found together.
+CONSTANT uint asks_map = 1u;
+CONSTANT uint asks_caustics = 2u;   // by query_caustics
 
 // What the photon map answers: radiance towards the eye.
 struct EstimateRecord {
@@ -33,7 +43,7 @@ struct QueryShareParams {
     float32 pixel, pixel_slope; // a cell is no larger than pixel + pixel_slope × distance from the eye
     uint mask;                  // entries of the table - 1, a power of two - 1
     float32 eye_x, eye_y, eye_z;
-    uint pad;
+    uint asks;                  // asks_*: which queries this is about
 };
 
 CONSTANT uint no_query = 0xffffffffu;

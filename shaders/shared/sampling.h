@@ -17,10 +17,10 @@ FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
     return random4(seed, pixel, sample_index, dimension);
 }
 
-// Photons: one sequence over all of them.
-FN vec4 photon_random4(uint seed, uint photon, uint dimension) {
+// Photons: one sequence over all of them, or, for comparison, a hash everywhere.
+FN vec4 photon_random4(uint seed, uint photon, uint dimension, bool quasi_random) {
     const uint of_photons = 0x40000000u;    // no pixel has this number
-    if (dimension < sobol_dimensions) {
+    if (quasi_random && dimension < sobol_dimensions) {
         return sobol_random4(seed, of_photons, photon, dimension);
     }
     return random4(seed, photon, of_photons, dimension);

@@ -15,6 +15,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <map>
 #include <memory>
 
 namespace argand {
@@ -22,6 +23,8 @@ namespace argand {
 namespace {
 
 constexpr int largest_side = 32768;
+
+const std::map<std::string, Sampling> samplings{{"sobol", Sampling::sobol}, {"random", Sampling::random}};
 
 struct RenderOptions {
     std::string scene;
@@ -199,6 +202,11 @@ void add_render_command(CLI::App& app) {
                         "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
         ->capture_default_str()
         ->check(number_between(0, 1));
+    command->add_flag("--final-gather", settings.final_gather,
+                      "Ask the photon map one bounce later, but for caustics: noise instead of blotches");
+    command->add_option("--photon-sampling", settings.photon_sampling, "Numbers that photons take: sobol, random")
+        ->transform(CLI::CheckedTransformer(samplings))
+        ->default_str("sobol");
     command->add_option("--seed", settings.seed, "Seed of the random numbers")
         ->capture_default_str()
         ->check(integer_between(0, 0xffffffff));

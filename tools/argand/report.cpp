@@ -50,6 +50,8 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
               {"smoothing", statistics.smoothing},
               {"leaf_size", statistics.leaf_size},
               {"follow_roughness", settings.follow_roughness},
+              {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
+              {"final_gather", settings.final_gather},
               {"seed", settings.seed},
               {"camera", scene.cameras[settings.camera].name},
               {"exposure", exposure}}},

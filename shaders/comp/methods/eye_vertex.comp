@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "shared/follow.h"
 #include "shared/lights.h"
+#include "shared/photon.h"
 #include "shared/query_cell.h"
 #include "shared/query_record.h"
 #include "shared/sampling.h"
@@ -27,6 +28,9 @@ layout(constant_id = 0) const bool photon_map = false;
 layout(constant_id = 1) const bool blended = true;
 // Whether some surface is modified Phong.
 layout(constant_id = 2) const bool phong = true;
+// Whether that is asked one scattering later, but for caustics; whether there are any.
+layout(constant_id = 3) const bool final_gather = false;
+layout(constant_id = 4) const bool caustics = true;
 
 #include "layers.glsl"
 
@@ -43,8 +47,22 @@ RayRecord make_ray(Surface surface, vec3 direction, float t_max) {
     return RayRecord(o.x, o.y, o.z, t_max, direction.x, direction.y, direction.z, 0u);
 }
 
+// Whether the path ends where estimated lobes scatter it.
+bool ends_at_estimated(uint state) {
+    return photon_map && (!final_gather || (state & path_estimated) != 0u);
+}
+
+// Light that photons bring is not counted twice.
+void add_emission(uint slot, PathRecord path, vec3 radiance) {
+    uint layer = layer_of_emission(path.state);
+    if (!final_gather || layer != layer_caustic) {
+        add_to_layer(slot, layer, radiance);
+    }
+}
+
 void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, Frame frame, MaterialRecord m, vec3 wo,
                   uint estimated, uint followed, float estimated_probability) {
+    bool ends = ends_at_estimated(path.state);
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
     float choice_probability;
     LightRecord light = lights[choose_light(u.x, choice_probability)];
@@ -54,7 +72,7 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
         return;
     }
     vec3 wi = to_local(frame, s.wi);
-    if (photon_map && light.kind == light_sky) {
+    if (ends && light.kind == light_sky) {
         // Nothing else finds the sky here: by the cosine, not evenly over the sphere, half of which is below.
         wi = sample_cosine_hemisphere(u.yz);
         s.wi = to_world(frame, wi);
@@ -65,16 +83,17 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
     }
     vec3 arriving = throughput * s.radiance * (wi.z / choice_probability);
     float weight = 1.0;
-    if (!s.delta && !photon_map) {
+    if (!s.delta && !ends) {
         float density = choice_probability * s.pdf;
         weight = power_heuristic(density, estimated_probability * bsdf_pdf(m, wo, wi, estimated));
     }
     vec3 e = arriving * weight * bsdf_eval(m, wo, wi, estimated);
-    vec3 f = s.delta && followed != 0u ? arriving * bsdf_eval(m, wo, wi, followed) : vec3(0.0);
+    bool behind_estimated = (path.state & path_estimated) != 0u;
+    bool left_to_photons = final_gather && behind_estimated;
+    vec3 f = s.delta && followed != 0u && !left_to_photons ? arriving * bsdf_eval(m, wo, wi, followed) : vec3(0.0);
     if (!(max_component(e) + max_component(f) > 0.0)) {
         return;
     }
-    bool behind_estimated = (path.state & path_estimated) != 0u;
     uint followed_layer = !behind_estimated                        ? layer_direct
                           : (path.state & path_followed) != 0u ? layer_caustic
                                                                 : layer_indirect;
@@ -103,7 +122,7 @@ void main() {
         vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
         if (max_component(sky) > 0.0) {
             float weight = path.pdf > 0.0 ? power_heuristic(path.pdf, scene[0].sky_probability * 0.25 * INV_PI) : 1.0;
-            add_to_layer(slot, layer_of_emission(path.state), throughput * sky * weight);
+            add_emission(slot, path, throughput * sky * weight);
         }
         return;
     }
@@ -120,7 +139,7 @@ void main() {
             float sides = m.double_sided != 0u ? 2.0 : 1.0;
             weight = power_heuristic(path.pdf, emitter_density(emission, sides, scene[0].light_weight, hit.t, cosine));
         }
-        add_to_layer(slot, layer_of_emission(path.state), throughput * emission * weight);
+        add_emission(slot, path, throughput * emission * weight);
     }
     if ((path.state & path_estimated) != 0u && (path.state & path_depth_mask) >= batch.bounces) {
         return;
@@ -131,15 +150,25 @@ void main() {
     uint followed = followed_lobes(m, scene[0].follow_roughness);
     uint estimated = estimated_lobes(m, scene[0].follow_roughness);
     float followed_albedo = followed != 0u ? max_component(bsdf_albedo(m, wo, surface.front, followed)) : 0.0;
-    float estimated_albedo =
-        estimated != 0u && !photon_map ? max_component(bsdf_albedo(m, wo, surface.front, estimated)) : 0.0;
+    bool goes_on = estimated != 0u && !ends_at_estimated(path.state);
+    float estimated_albedo = goes_on ? max_component(bsdf_albedo(m, wo, surface.front, estimated)) : 0.0;
     float albedo = followed_albedo + estimated_albedo;
     float estimated_probability = albedo > 0.0 ? estimated_albedo / albedo : 0.0;
 
     if (scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
         sample_light(slot, path, throughput, surface, frame, m, wo, estimated, followed, estimated_probability);
     }
-    if (photon_map && estimated != 0u && batch.bounces > 0u) {
+    uint asks_for = asks_map;
+    uint flags = surface.front ? query_front : 0u;
+    uint scatterings = batch.bounces;   // of photons at most
+    if (final_gather && (path.state & path_estimated) != 0u) {
+        flags |= query_gathers;
+        scatterings -= (path.state & path_depth_mask) + 1u;     // this one among them
+    } else if (final_gather) {
+        asks_for = asks_caustics;
+        flags |= query_caustics;
+    }
+    if (photon_map && estimated != 0u && scatterings > 0u && (asks_for == asks_map || caustics)) {
         // If answers are shared, all ask; else every few samples, which count for all.
         bool shares = batch.shares_queries != 0u;
         bool white = shares && is_lambertian(m);
@@ -147,7 +176,7 @@ void main() {
             vec3 counts_by = throughput * (white    ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE)
                                            : shares ? vec3(1.0)
                                                     : vec3(batch.query_weight));
-            uint flags = surface.front ? query_front : 0u;
+            flags |= min(scatterings, most_scatterings_known) << query_scatterings_shift;
             if (white) {
                 flags |= query_white;
             } else if (shares) {
@@ -156,7 +185,7 @@ void main() {
                 float share = clamp(glossy / max(all, 1e-9), 0.0, 1.0);
                 flags |= direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share) << query_steps_shift;
             }
-            asks[i] = 1u;
+            asks[i] = asks_for;
             queries[slot] = QueryRecord(surface.position.x, surface.position.y, surface.position.z,
                                         triangles[hit.triangle].w, counts_by.x, counts_by.y, counts_by.z,
                                         pack_unit(-direction), pack_unit(surface.geometric_normal),

@@ -24,6 +24,7 @@ Cell cell_of(QueryRecord q) {
     vec3 from_eye = p - vec3(params.eye_x, params.eye_y, params.eye_z);
     float pixel = params.pixel + params.pixel_slope * sqrt(dot3(from_eye, from_eye));
     Cell cell = Cell(query_cell(p, unpack_unit(q.geometric_normal), params.cell, pixel), uvec3(0u));
+    cell.place.w |= ((q.flags >> query_scatterings_shift) & query_scatterings_mask) << 16;
     uint steps = q.flags >> query_steps_shift;
     if (steps > 0u) {
         uvec4 random = pcg4d(uvec4(floatBitsToUint(p), 0x85ebca6bu));
@@ -43,7 +44,7 @@ void main() {
     }
     uint slot = active_slots[i];
     uint source = no_query;
-    if (asks[i] != 0u) {
+    if (asks[i] == params.asks) {
         QueryRecord q = queries[slot];
         if (params.cell > 0.0) {
             Cell cell = cell_of(q);

@@ -10,6 +10,7 @@ layout(set = 0, binding = 2) readonly buffer Owners { uint owners[]; };
 layout(set = 0, binding = 3) readonly buffer Asks { uint asks[]; };
 layout(set = 0, binding = 4) buffer Sources { uint sources[]; };
 layout(set = 0, binding = 5) writeonly buffer Chosen { uint chosen[]; };
+layout(push_constant) uniform Push { QueryShareParams params; };
 
 // Of the entry of its cell (none: it has one of its own), makes the slot whose answer each query takes; only that one
 // is chosen to ask.
@@ -19,7 +20,7 @@ void main() {
         return;
     }
     chosen[i] = 0u;
-    if (asks[i] == 0u) {
+    if (asks[i] != params.asks) {
         return;
     }
     uint slot = active_slots[i];

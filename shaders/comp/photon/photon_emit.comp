@@ -17,6 +17,7 @@ layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.
 layout(constant_id = 0) const bool footprints = false;
+layout(constant_id = 1) const bool quasi_random = true;
 
 void main() {
     uint slot = THREAD_INDEX;
@@ -24,8 +25,8 @@ void main() {
         return;
     }
     uint photon = batch.first + slot;
-    vec4 a = photon_random4(batch.seed, photon, 0u);
-    vec4 v = photon_random4(batch.seed, photon, 1u);
+    vec4 a = photon_random4(batch.seed, photon, 0u, quasi_random);
+    vec4 v = photon_random4(batch.seed, photon, 1u, quasi_random);
     // Emission's and first scattering's directions take one set of jointly well distributed numbers: where the light is
     // small, they decide where the photon is stored.
     vec4 u = vec4(a.x, a.y, v.x, v.y);

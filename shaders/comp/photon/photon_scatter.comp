@@ -29,6 +29,7 @@ layout(constant_id = 3) const uint reemission = REEMIT_COSINE;
 layout(constant_id = 4) const bool blended = true;
 // Whether some surface is modified Phong.
 layout(constant_id = 5) const bool phong = true;
+layout(constant_id = 6) const bool quasi_random = true;
 
 // How the shading normal changes along one of a photon's differentials.
 vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
@@ -114,7 +115,7 @@ void main() {
         bool caustic = (path.state & photon_followed) != 0u;
         photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
                                       pack_photon_normal(surface.geometric_normal, caustic), flux.x * arriving,
-                                      flux.y * arriving, flux.z * arriving, pack_unit(-direction));
+                                      flux.y * arriving, flux.z * arriving, pack_photon_direction(-direction, depth));
         if (footprints) {
             offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
         }
@@ -124,9 +125,9 @@ void main() {
         return;
     }
 
-    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth);
+    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth, quasi_random);
     if (depth == 0u) {
-        u.yz = photon_random4(batch.seed, batch.first + slot, 0u).zw;     // see photon_emit.comp
+        u.yz = photon_random4(batch.seed, batch.first + slot, 0u, quasi_random).zw;  // see photon_emit.comp
     }
     BsdfSample s;
     vec3 scattered = vec3(0.0);

@@ -18,6 +18,8 @@ layout(constant_id = 0) const bool glossy = true;
 layout(constant_id = 2) const bool blended = true;
 // Whether some surface is modified Phong.
 layout(constant_id = 3) const bool phong = true;
+// Whether queries are those of a final gather (query_record.h).
+layout(constant_id = 4) const bool final_gather = false;
 
 // Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
 struct Sum {
@@ -40,6 +42,7 @@ struct Query {
     uint front_normal;      // that of the surface's front, as area samples have it
     MaterialRecord material;
     uint lobes;
+    uint most_scatterings;  // of a photon that counts (final_gather)
     bool lambertian;
     vec3 reflectance;       // if lambertian, over pi
     Frame frame;            // of the shading normal
@@ -62,6 +65,7 @@ Query make_query(uint slot) {
     q.material.coverage = blended ? q.material.coverage : 1.0;
     q.material.exponent = phong ? q.material.exponent : -1.0;
     q.lobes = record.lobes;
+    q.most_scatterings = (record.flags >> query_scatterings_shift) & query_scatterings_mask;
     bool white = (record.flags & query_white) != 0u;
     q.lambertian = !glossy || white || is_lambertian(q.material);
     q.p = vec3(record.x, record.y, record.z);
@@ -90,6 +94,9 @@ bool on_same_side(Query q, uint packed) {
 
 // Of a photon's flux and direction, what the surface scatters towards the eye.
 vec3 scattered(Query q, uvec4 carried) {
+    if (final_gather && photon_scatterings(carried.w) > q.most_scatterings) {
+        return vec3(0.0);
+    }
     vec3 flux = uintBitsToFloat(carried.xyz);
     if (q.lambertian) {
         return flux * q.reflectance;
