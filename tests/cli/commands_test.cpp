@@ -134,6 +134,28 @@ TEST_F(Commands, InspectSaysWhatIsThere) {
     EXPECT_TRUE(nlohmann::json::parse(json.out).is_object());
 }
 
+TEST_F(Commands, InspectSaysWhatWouldBeDone) {
+    const auto plan = [this](const std::string& scene) {
+        return nlohmann::json::parse(argand("inspect '" + asset(scene) + "' --json").out).at("plan");
+    };
+    const nlohmann::json glass = plan("cornell_glass.glb");
+    EXPECT_EQ(glass.at("method"), "footprints");
+    EXPECT_EQ(glass.at("followed"), nlohmann::json({"mirror", "transmission"}));
+    EXPECT_EQ(glass.at("estimated"), nlohmann::json({"diffuse"}));
+    EXPECT_EQ(glass.at("light_kinds"), nlohmann::json({"emissive triangles"}));
+    EXPECT_EQ(glass.at("caustics"), true);
+    EXPECT_EQ(glass.at("specular_differentials"), true);
+    EXPECT_EQ(glass.at("glossy_differentials"), false);
+    const nlohmann::json point = plan("cornell_point.glb");
+    EXPECT_EQ(point.at("followed"), nlohmann::json::array());
+    EXPECT_EQ(point.at("light_kinds"), nlohmann::json({"point"}));
+    EXPECT_EQ(point.at("caustics"), false);
+    EXPECT_EQ(point.at("specular_differentials"), false);
+    const Outcome text = argand("inspect '" + asset("cornell_glass.glb") + "'");
+    EXPECT_THAT(text.out, HasSubstr("method      footprints (default)\nfollowed    mirror, transmission\n"));
+    EXPECT_THAT(text.out, HasSubstr("with specular, without glossy terms\n"));
+}
+
 TEST_F(Commands, DevicesListsWhatThereIs) {
     const Outcome run = argand("devices");
     EXPECT_EQ(run.exit_code, 0) << run.error;
