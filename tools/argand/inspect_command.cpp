@@ -24,7 +24,8 @@ struct InspectOptions {
 
 std::vector<std::string> lobe_names(std::uint32_t lobes) {
     constexpr std::pair<std::uint32_t, const char*> names[] = {
-        {LOBE_DIFFUSE, "diffuse"}, {LOBE_GLOSSY, "glossy"}, {LOBE_MIRROR, "mirror"}, {LOBE_TRANSMIT, "transmission"}};
+        {LOBE_DIFFUSE, "diffuse"}, {LOBE_GLOSSY, "glossy"}, {LOBE_MIRROR, "mirror"}, {LOBE_TRANSMIT, "transmission"},
+        {LOBE_PASS, "alpha"}};
     std::vector<std::string> found;
     for (const auto& [lobe, name] : names) {
         if ((lobes & lobe) != 0) {
