@@ -110,7 +110,6 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                                                 .specular = (scene.lobes & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0,
                                                                 .glossy = (scene.lobes & LOBE_GLOSSY) != 0,
                                                                 .reemission = w.reemission,
-                                                                .reemission = w.reemission,
                                                                 .blended = scene.has_blended,
                                                                 .phong = scene.has_phong,
                                                                 .quasi_random = w.quasi_random}},
