@@ -51,7 +51,7 @@ TEST_P(Alpha, SunBehindItIsACaustic) {
 }
 
 // A lamp with an area, which paths can find behind a veil as photons do: each layer on its own.
-TEST_P(Alpha, LayersAgreeWithThePathTracer) {
+TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
     add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1}, add_material(scene, emitter(glm::vec3(2))));
     Material varnished = lambertian({0.2f, 0.6f, 0.7f});

@@ -34,7 +34,7 @@ TEST_P(PhongSurface, ReflectsASunAsTheFormulaSays) {
 }
 
 // One lobe that is estimated and one that is followed.
-TEST_P(PhongSurface, LayersAgreeWithThePathTracer) {
+TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
     add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1}, add_material(scene, emitter(glm::vec3(2))));
     add_floor(scene, 0.9f, -0.8f, add_material(scene, phong({0.2f, 0.4f, 0.3f}, {0.7f, 0.5f, 0.3f}, 12)));

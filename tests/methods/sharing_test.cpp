@@ -18,7 +18,7 @@ double error(const RenderResult& result, const RenderResult& truth, const char* 
     return compare(layer(result, of), layer(truth, of)).rel_mse;
 }
 
-TEST_F(Sharing, IsAsNearToWhatTheMapHolds) {
+TEST_F(Sharing, SlowIsAsNearToWhatTheMapHolds) {
     for (const char* name : {"cornell_point.glb", "cornell_glass.glb", "glossy.glb"}) {
         const Scene scene = load_asset(name);
         for (const char* method : {"photons", "footprints"}) {
