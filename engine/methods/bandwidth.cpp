@@ -152,7 +152,7 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes, 
         b.radii.indirect *= by;
         b.radii.caustic *= by;
     }
-    if (!settings.neighbours) {
+    if (!settings.neighbours && b.neighbours > 0) {
         b.neighbours = static_cast<std::uint32_t>(std::max(std::round(b.neighbours * by * by), 2.0));
     }
     if (!settings.footprints.fixed_smoothing) {

@@ -189,7 +189,10 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
         // Every pass emits all of the lights' power.
         add_flux_sums(statistics.flux, download<std::int64_t>(device, p.photons.flux_sums, 12),
                       p.flux_unit / static_cast<double>(statistics.passes));
-        more = budget.another(pass + 1, passes) && !statistics.interrupted;
+        // Photons have numbers of 32 bits, beyond which they would be the same again.
+        const PhotonPass next = emission_of(p, pass + 1, photons);
+        const bool has_numbers = next.first + next.count <= 0xffffffffu;
+        more = budget.another(pass + 1, passes) && has_numbers && !statistics.interrupted;
         if (settings.budget) {
             bandwidth = for_passes(learnt, expected_at_first, budget.expected(pass + 1, passes), settings);
         }

@@ -7,12 +7,12 @@
 
 ARGAND_SHARED_BEGIN
 
-// A unit vector in 2×15 bits, the caustic bit, and on top the bit of area samples; all bits set stand for a slot
-// without a record.
 // The highest bit of a photon's code is whether it is caustic; so far apart are those that differ in it.
 CONSTANT uint photon_kind_bit = 0x80000000u;
 CONSTANT uint kind_distance = 95u;
 
+// A unit vector in 2×15 bits, the caustic bit, and on top the bit of area samples; all bits set stand for a slot
+// without a record.
 CONSTANT uint no_photon = 0xffffffffu;
 CONSTANT uint photon_normal_mask = 0x3fffffffu;
 CONSTANT uint photon_caustic_bit = 0x40000000u;
