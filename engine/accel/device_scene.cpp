@@ -11,27 +11,6 @@ namespace argand {
 
 namespace {
 
-MaterialRecord record_of(const Material& m) {
-    MaterialRecord record{m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
-                          m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
-                          m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
-                          m.roughness,        m.transmission,     m.ior,              m.thickness,
-                          m.coverage,         -1,                 0,                  0};
-    if (m.phong) {
-        const glm::vec3& specular = m.phong->specular;
-        record.metallic = 0;
-        record.transmission = 0;
-        record.thickness = 0;
-        record.specular_r = specular.r;
-        record.specular_g = specular.g;
-        record.specular_b = specular.b;
-        record.specular = specular == glm::vec3(0) ? 0.0f : 1.0f;
-        record.exponent = m.phong->exponent;
-        record.roughness = roughness_of_phong(record.exponent);
-    }
-    return record;
-}
-
 LightRecord record_of(const Light& light) {
     LightRecord record{};
     record.kind = light.kind == LightKind::point ? light_point
@@ -125,7 +104,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
 
     std::vector<MaterialRecord> materials;
     for (const Material& material : scene.materials) {
-        materials.push_back(record_of(material));
+        materials.push_back(material_record(material));
         const MaterialRecord& record = materials.back();
         result.lobes |= bsdf_lobes(record);
         result.has_blended = result.has_blended || (bsdf_lobes(record) & LOBE_PASS) != 0;
@@ -189,8 +168,25 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     return result;
 }
 
-MaterialRecord material_record(const Material& material) {
-    return record_of(material);
+MaterialRecord material_record(const Material& m) {
+    MaterialRecord record{m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
+                          m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
+                          m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
+                          m.roughness,        m.transmission,     m.ior,              m.thickness,
+                          m.coverage,         -1,                 0,                  0};
+    if (m.phong) {
+        const glm::vec3& specular = m.phong->specular;
+        record.metallic = 0;
+        record.transmission = 0;
+        record.thickness = 0;
+        record.specular_r = specular.r;
+        record.specular_g = specular.g;
+        record.specular_b = specular.b;
+        record.specular = specular == glm::vec3(0) ? 0.0f : 1.0f;
+        record.exponent = m.phong->exponent;
+        record.roughness = roughness_of_phong(record.exponent);
+    }
+    return record;
 }
 
 CameraRecord camera_record(const Camera& camera, int width, int height) {

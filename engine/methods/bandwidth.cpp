@@ -68,10 +68,13 @@ double in_disc_of_pass(double photons, double passes, bool caustic = false) {
 }
 
 /// The radius of caustics follows from where their photons are, which is where the caustics are.
-GatherRadii radii_from(const std::vector<PhotonRecord>& photons, const std::vector<PhotonRecord>& caustic,
-                       std::span<const glm::vec3> queries, const SceneRecord& scene, double passes,
-                       std::optional<std::uint32_t> neighbours) {
+GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const glm::vec3> queries,
+                       const SceneRecord& scene, double passes, std::optional<std::uint32_t> neighbours) {
     const Cube bounds = bounds_of(scene);
+    const std::vector<PhotonRecord> photons = in_curve_order(unordered, bounds);
+    std::vector<PhotonRecord> caustic;
+    std::copy_if(photons.begin(), photons.end(), std::back_inserter(caustic),
+                 [](const PhotonRecord& photon) { return photon_is_caustic(photon.normal); });
     const auto radius_of = [&](const std::vector<PhotonRecord>& some, std::span<const glm::vec3> points, bool is_caustic) {
         const double in_disc =
             neighbours ? *neighbours : in_disc_of_pass(static_cast<double>(some.size()), passes, is_caustic);
@@ -114,15 +117,13 @@ Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const Photon
                           const RenderSettings& settings, Estimator estimator, double passes) {
     const bool nearest = estimator == Estimator::nearest;
     const auto count = static_cast<double>(stored.photons);
-    const std::vector<PhotonRecord> unordered = download<PhotonRecord>(device, workspace.photons, stored.slots);
-    const std::vector<PhotonRecord> photons = in_curve_order(unordered, bounds_of(scene.record));
-    std::vector<PhotonRecord> caustic;
-    std::copy_if(photons.begin(), photons.end(), std::back_inserter(caustic),
-                 [](const PhotonRecord& photon) { return photon_is_caustic(photon.normal); });
+    const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, workspace.photons, stored.slots);
     Bandwidth b;
-    b.caustics = !caustic.empty();
+    b.caustics = std::any_of(photons.begin(), photons.end(), [](const PhotonRecord& photon) {
+        return photon.normal != no_photon && photon_is_caustic(photon.normal);
+    });
     b.radii = settings.radius ? GatherRadii{*settings.radius, *settings.radius}
-                              : radii_from(photons, caustic, queries, scene.record, passes,
+                              : radii_from(photons, queries, scene.record, passes,
                                            nearest ? settings.neighbours : std::nullopt);
     if (nearest) {
         const double automatic = std::max(std::round(in_disc_of_pass(count, passes)), 2.0);
@@ -137,7 +138,7 @@ Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const Photon
     } else if (estimator == Estimator::footprints) {
         const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
         const double learnt = median_smoothing(
-            unordered, offsets, queries,
+            photons, offsets, queries,
             scale_of(settings.footprints, static_cast<double>(stored.emitted), 1, 1, 1e6, scene.record),
             footprints_for_disc * in_disc_of_pass(count, passes));
         b.smoothing = learnt > 0 ? learnt : 1;

@@ -25,11 +25,8 @@ public:
         return now + last <= *seconds_;
     }
 
-    /// Passes that there will be in all, as far as can be told when some are done.
-    double expected(std::uint64_t done, std::uint64_t passes) const {
-        if (!seconds_ || done == 0) {
-            return static_cast<double>(passes);
-        }
+    /// Passes that there will be in the time, as far as can be told when some are done.
+    double expected(std::uint64_t done) const {
         return std::max(std::round(static_cast<double>(done) * *seconds_ / std::max(elapsed(), 1e-9)), 1.0);
     }
 

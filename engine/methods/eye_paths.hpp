@@ -7,7 +7,7 @@
 
 namespace argand {
 
-/// Which Lambertian queries of eye paths traced together take the same answer of the photon map: those in a cell.
+/// Which queries of eye paths traced together take the same answer of the photon map: those in a cell.
 struct QuerySharing {
     double cell = 0;            ///< edge of a cell at most, in the scene's units; 0: none
     bool pixel_sized = false;   ///< no cell is larger than a pixel: the answer may change from one to the next

@@ -78,19 +78,30 @@ void make_photons(Picture& p) {
     p.flux_unit = power / static_cast<double>(p.passes.photons) / units_per_photon;
 }
 
+std::optional<StoredPhotons> trace(Picture& p, const PhotonPass& emission) {
+    return trace_photons(p.device, p.on_device, p.photons, emission, static_cast<float>(p.flux_unit));
+}
+
+StoredPhotons stored_or_fail(const Picture& p, const std::optional<StoredPhotons>& stored) {
+    if (!stored) {
+        fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer bounces or photons",
+             p.scene.name, p.device.info().name);
+    }
+    return *stored;
+}
+
 /// Traces the photons of the first pass, of fewer if light is absorbed so little that every photon is stored very often:
 /// later passes, which store a few photons more or less, are to fit as well.
-std::optional<StoredPhotons> trace_first(Picture& p, std::uint64_t photons) {
+StoredPhotons trace_first(Picture& p, std::uint64_t photons) {
     const std::uint64_t most = max_photons_per_pass(p.device);
     const std::uint64_t wanted = std::max(photons_of_pass, photons / std::max(p.settings.samples, 1u));
     p.passes = split(photons, p.settings.samples, std::min(most, wanted));
     for (;;) {
         make_photons(p);
-        const std::optional<StoredPhotons> stored = trace_photons(
-            p.device, p.on_device, p.photons, emission_of(p, 0, photons), static_cast<float>(p.flux_unit));
+        const std::optional<StoredPhotons> stored = trace(p, emission_of(p, 0, photons));
         const bool has_room = stored && stored->slots <= max_stored_photons(p.device) / 10 * 9;
         if (has_room || p.passes.photons == 1) {
-            return stored;
+            return stored_or_fail(p, stored);
         }
         p.passes = split(photons, p.settings.samples, p.passes.photons / 2);
     }
@@ -155,18 +166,14 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                                camera_record(scene.cameras[settings.camera], settings.width, settings.height), true);
     // Without indirect light no photon is ever looked up.
     const std::uint64_t photons = settings.bounces > 0 && p.on_device.record.light_count > 0 ? settings.photons : 0;
-    std::optional<StoredPhotons> stored = trace_first(p, photons);
+    StoredPhotons stored = trace_first(p, photons);
     const std::uint64_t passes = p.passes.passes;
-    const double expected_at_first = budget.expected(0, passes);
-    Bandwidth learnt;
-    Bandwidth bandwidth;
-    if (stored) {
-        const std::vector<glm::vec3> queries =
-            sample_queries(device, p.on_device, p.eye, settings, scene.cameras[settings.camera]);
-        learnt = learn_bandwidth(device, p.on_device, p.photons, *stored, queries, settings, estimator,
-                                 expected_at_first);
-        bandwidth = learnt;
-    }
+    const auto learnt_for = static_cast<double>(passes);
+    const Bandwidth learnt = learn_bandwidth(
+        device, p.on_device, p.photons, stored,
+        sample_queries(device, p.on_device, p.eye, settings, scene.cameras[settings.camera]), settings, estimator,
+        learnt_for);
+    Bandwidth bandwidth = learnt;
 
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
@@ -174,17 +181,13 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
     for (std::uint64_t pass = 0; more; ++pass) {
         const PhotonPass emission = emission_of(p, pass, photons);
         if (pass > 0) {
-            stored = trace_photons(device, p.on_device, p.photons, emission, static_cast<float>(p.flux_unit));
+            stored = stored_or_fail(p, trace(p, emission));
         }
-        if (!stored) {
-            fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer bounces or photons",
-                 scene.name, device.info().name);
-        }
-        statistics.interrupted = !render_pass(p, *stored, pass, bandwidth, statistics, [&](double part) {
+        statistics.interrupted = !render_pass(p, stored, pass, bandwidth, statistics, [&](double part) {
             return progress(budget.share(pass, part, passes));
         });
         statistics.photons_emitted += emission.count;
-        statistics.photons_stored += stored->photons;
+        statistics.photons_stored += stored.photons;
         ++statistics.passes;
         // Every pass emits all of the lights' power.
         add_flux_sums(statistics.flux, download<std::int64_t>(device, p.photons.flux_sums, 12),
@@ -194,7 +197,7 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
         const bool has_numbers = next.first + next.count <= 0xffffffffu;
         more = budget.another(pass + 1, passes) && has_numbers && !statistics.interrupted;
         if (settings.budget) {
-            bandwidth = for_passes(learnt, expected_at_first, budget.expected(pass + 1, passes), settings);
+            bandwidth = for_passes(learnt, learnt_for, budget.expected(pass + 1), settings);
         }
     }
     result.layers = resolve_film(device, p.eye, settings, statistics);

@@ -63,6 +63,16 @@ inline bool same_bits(const RenderResult& a, const RenderResult& b) {
 #define EXPECT_RELATIVE(actual, expected, tolerance)                                                                   \
     EXPECT_NEAR(actual, expected, (tolerance) * std::abs(expected))
 
+/// Mean radiance of each layer and channel is the same within a share of it.
+inline void expect_same_layers(const RenderResult& found, const RenderResult& expected, double tolerance) {
+    for (const char* name : {"direct", "indirect", "caustic"}) {
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_RELATIVE(mean(layer(found, name))[channel], mean(layer(expected, name))[channel], tolerance)
+                << name << ", " << channel;
+        }
+    }
+}
+
 /// Renders on one device, opened once for each test.
 class RenderTest : public DeviceTest {
 protected:

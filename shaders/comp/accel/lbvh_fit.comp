@@ -72,11 +72,10 @@ void main() {
     if (leaf >= count) {
         return;
     }
-    const uint far = no_neighbour;
     uint first = leaf;
     uint last = leaf;
-    uint before = leaf > 0u ? distances[leaf - 1u] : far;
-    uint after = leaf + 1u < count ? distances[leaf] : far;
+    uint before = leaf > 0u ? distances[leaf - 1u] : no_neighbour;
+    uint after = distances[leaf];
     uint child = order[leaf];
     uint box = in_order ? leaf : child;
     vec3 low = boxes[2u * box].xyz;
@@ -89,16 +88,16 @@ void main() {
     }
     bool going = true;
     while (going) {
-        bool root = before == far && after == far;
+        bool root = before == no_neighbour && after == no_neighbour;
         bool is_left = after < before;
         if (first != last) {
             place = root ? 0u : 2u * (is_left ? last : first);
         }
         // What follows is the right child of the node split after `last`: a leaf if its own split is farther.
         uint escape = lbvh_end;
-        if (after != far) {
+        if (after != no_neighbour) {
             uint next = last + 1u;
-            uint beyond = next + 1u < count ? distances[next] : far;
+            uint beyond = distances[next];
             escape = 2u * next + (after < beyond ? 1u : 0u);
         }
         nodes[2u * place] = uvec4(floatBitsToUint(low), child);
@@ -148,10 +147,10 @@ void main() {
             right_child = is_left ? sibling : place;
             if (is_left) {
                 last = other;
-                after = last + 1u < count ? distances[last] : far;
+                after = distances[last];
             } else {
                 first = other;
-                before = first > 0u ? distances[first - 1u] : far;
+                before = first > 0u ? distances[first - 1u] : no_neighbour;
             }
         }
     }

@@ -20,8 +20,8 @@ float radius_nearby(uint i) {
     for (uint j = first; j <= last; ++j) {
         if ((photons[j].normal & (area_sample_bit | photon_caustic_bit)) == 0u) {
             uvec4 packed = footprints[j];
-            vec3 across = cross3(unpack_dual(packed.x, packed.y), unpack_dual(packed.z, packed.w));
-            sum += 1.0 / sqrt(sqrt(max(dot3(across, across), 1e-37)));
+            // Of dual axes, the inverse of that of the axes; they are at right angles to the normal, and not parallel.
+            sum += 1.0 / max(parallelogram_side(unpack_dual(packed.x, packed.y), unpack_dual(packed.z, packed.w)), 1e-30);
             count += 1.0;
         }
     }

@@ -23,7 +23,7 @@ void main() {
     uint last = i;
     for (;;) {
         uint before = first > 0u ? distances[first - 1u] : no_neighbour;
-        uint after = last + 1u < stored ? distances[last] : no_neighbour;
+        uint after = distances[last];
         uint split = min(before, after);
         // Caustic photons and others are parted at the root, and never in one leaf.
         if (split >= kind_distance) {
@@ -32,8 +32,7 @@ void main() {
         // The parent reaches as far as neighbours are no farther apart than its two children.
         uint parent_first = first;
         uint parent_last = last;
-        while (parent_last - parent_first < params.leaf_size && parent_last + 1u < stored &&
-               distances[parent_last] <= split) {
+        while (parent_last - parent_first < params.leaf_size && distances[parent_last] <= split) {
             ++parent_last;
         }
         while (parent_last - parent_first < params.leaf_size && parent_first > 0u &&

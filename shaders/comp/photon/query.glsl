@@ -1,5 +1,5 @@
 // What all kinds of density estimation at the eye's queries have in common: reading a query, what its surface scatters of
-// a photon's flux, and adding the sums to the layers.
+// a photon's flux, and writing the estimate.
 #include "photon/map_walk.glsl"
 #include "shared/bsdf.h"
 #include "shared/query_record.h"

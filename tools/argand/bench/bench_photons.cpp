@@ -5,8 +5,6 @@
 #include "methods/render.hpp"
 #include "photon/photon_map.hpp"
 
-#include <algorithm>
-
 namespace argand {
 
 namespace {
@@ -71,8 +69,7 @@ std::vector<BenchRow> bench_photons(Device& device) {
         render(device, cornell, settings, keep_going);
         times.push_back(stage_seconds(device, "gather photons"));
     }
-    std::sort(times.begin(), times.end());
-    const double gathered = times[times.size() / 2];
+    const double gathered = median(times);
     rows.push_back({"photon map queries", queries, gathered, queries / gathered, "queries/s", 0, "", 0});
     return rows;
 }

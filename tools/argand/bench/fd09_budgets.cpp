@@ -1,5 +1,5 @@
+#include "bench.hpp"
 #include "fd09.hpp"
-#include "fd09_map.hpp"
 #include "fd09_reference.hpp"
 
 #include <chrono>

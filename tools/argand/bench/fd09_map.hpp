@@ -29,6 +29,4 @@ PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size);
 /// time on all cores, which others' work does not change much; else by the clock.
 double seconds_of(Device& device, const std::function<void()>& work);
 
-double median(std::vector<double> values);
-
 } // namespace argand

@@ -25,12 +25,16 @@ double median_of_runs(const std::function<double()>& run) {
         seconds.push_back(run());
         sum += seconds.back();
     }
-    const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-    std::nth_element(seconds.begin(), middle, seconds.end());
-    return *middle;
+    return median(std::move(seconds));
 }
 
 } // namespace
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
 double median_device_seconds(Device& device, const std::function<void()>& prepare,
                              const std::function<void()>& work) {
