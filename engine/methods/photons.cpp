@@ -16,8 +16,6 @@ namespace {
 
 // A photon's mean flux in units of the fixed-point sums.
 constexpr double units_per_photon = 1 << 18;
-// Photons of a pass at most, unless there are fewer samples than passes: so much memory is enough for any number.
-constexpr std::uint64_t photons_of_pass = 1 << 18;
 // The nearest ask for their own discs, of which many are smaller than the median: of r_max.
 constexpr double sampled_by_nearest = 0.3;
 
@@ -32,7 +30,8 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
 }
 
 /// Passes over which photons and samples are spread. All count the same, so they must be of one size: a small last one
-/// would be the noise of the picture.
+/// would be the noise of the picture. Each pass has a sample of its own, so there are more samples than were asked for
+/// if there are more passes than that, or if they do not divide.
 struct Passes {
     std::uint64_t passes = 1;
     std::uint64_t photons = 1;  ///< of the largest pass
@@ -93,9 +92,7 @@ StoredPhotons stored_or_fail(const Picture& p, const std::optional<StoredPhotons
 /// Traces the photons of the first pass, of fewer if light is absorbed so little that every photon is stored very often:
 /// later passes, which store a few photons more or less, are to fit as well.
 StoredPhotons trace_first(Picture& p, std::uint64_t photons) {
-    const std::uint64_t most = max_photons_per_pass(p.device);
-    const std::uint64_t wanted = std::max(photons_of_pass, photons / std::max(p.settings.samples, 1u));
-    p.passes = split(photons, p.settings.samples, std::min(most, wanted));
+    p.passes = split(photons, p.settings.samples, std::min(max_photons_per_pass(p.device), p.settings.photons_per_pass));
     for (;;) {
         make_photons(p);
         const std::optional<StoredPhotons> stored = trace(p, emission_of(p, 0, photons));

@@ -35,8 +35,10 @@ struct RenderSettings {
     std::string method = "footprints";
     int width = 512;
     int height = 512;
-    std::uint32_t samples = 8;                  ///< eye paths per pixel
+    std::uint32_t samples = 8;                  ///< eye paths per pixel; photon maps: at least, for each of the passes
+                                                ///< over which many photons are spread has as many, RenderStatistics
     std::uint64_t photons = 200'000;            ///< photons emitted in all
+    std::uint64_t photons_per_pass = 1 << 18;   ///< at most, at least 1: so much memory is enough for any number
     std::optional<double> budget;               ///< seconds: so many samples and photons again and again until then
     std::uint32_t bounces = 0xffff;             ///< the most scatterings between light and first estimated vertex
     std::optional<double> radius;               ///< of density estimation, in the scene's units; of `knn`: r_max

@@ -259,6 +259,19 @@ TEST_F(PhotonEdge, PassesAreIndependentEstimatesOfTheSame) {
     }
 }
 
+TEST_F(PhotonEdge, EveryPassHasASampleSoThatMemoryDoesNotGrowWithPhotons) {
+    RenderSettings settings = settings_of("photons", 8, 1);
+    settings.photons_per_pass = 1000;
+    for (const std::uint64_t photons : {1000u, 7001u}) {
+        settings.photons = photons;
+        const RenderResult result = render(room_scene(), settings);
+        const std::uint64_t passes = (photons + 999) / 1000;
+        EXPECT_EQ(result.statistics.passes, passes);
+        EXPECT_EQ(result.statistics.samples, passes);
+        EXPECT_EQ(result.statistics.photons_emitted, photons);
+    }
+}
+
 TEST_F(PhotonEdge, SlowPassesGrowSmallerWhereEveryPhotonIsStoredOften) {
     // Walls that reflect almost everything: a photon is stored far more often than room is made for.
     Scene scene = load_asset("closed_box.gltf");

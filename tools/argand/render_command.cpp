@@ -170,7 +170,7 @@ void add_render_command(CLI::App& app) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--method", options->method, fmt::format("{}", fmt::join(method_names(), ", ")))->capture_default_str();
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
-    command->add_option("--spp", settings.samples, "Eye paths per pixel")
+    command->add_option("--spp", settings.samples, "Eye paths per pixel; at least one for each pass of 262,144 photons")
         ->capture_default_str()
         ->check(integer_between(1, 1 << 24));
     command->add_option("--photons", settings.photons, "Photons emitted")

@@ -14,6 +14,7 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
     paper.render = render;
     paper.render.method = "footprints";
     paper.render.photons = std::min(render.photons, max_photons_per_pass(device));
+    paper.render.photons_per_pass = std::max<std::uint64_t>(paper.render.photons, 1);    // one map of all
     paper.statistics = argand::render(device, scene, paper.render, [](double) { return true; }).statistics;
     if (!paper.statistics.footprint_scale || paper.statistics.photons_stored == 0) {
         fail("measuring '{}': no photon is stored; choose a scene with a light and a surface that scatters it twice",
