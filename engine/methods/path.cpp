@@ -18,13 +18,15 @@ RenderResult render_path(Device& device, const Scene& scene, const RenderSetting
     RenderResult result;
     std::uint64_t& passes = result.statistics.passes;
     bool more = true;
+    budget.start_pass();
     while (more) {
         const auto first_sample = static_cast<std::uint32_t>(passes * settings.samples);
         result.statistics.interrupted =
             !trace_eye_paths(device, on_device, workspace, settings, first_sample, settings.samples, nullptr,
                              [&](double part) { return progress(budget.share(passes, part, 1)); });
         ++passes;
-        more = budget.another(passes, 1) && !result.statistics.interrupted;
+        more = budget.another(passes, 1) && has_sample_numbers(passes, settings.samples) &&
+               !result.statistics.interrupted;
     }
     result.layers = resolve_film(device, workspace, settings, result.statistics);
     return result;

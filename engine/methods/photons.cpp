@@ -91,10 +91,11 @@ StoredPhotons stored_or_fail(const Picture& p, const std::optional<StoredPhotons
 
 /// Traces the photons of the first pass, of fewer if light is absorbed so little that every photon is stored very often:
 /// later passes, which store a few photons more or less, are to fit as well.
-StoredPhotons trace_first(Picture& p, std::uint64_t photons) {
+StoredPhotons trace_first(Picture& p, std::uint64_t photons, Budget& budget) {
     p.passes = split(photons, p.settings.samples, std::min(max_photons_per_pass(p.device), p.settings.photons_per_pass));
     for (;;) {
         make_photons(p);
+        budget.start_pass();
         const std::optional<StoredPhotons> stored = trace(p, emission_of(p, 0, photons));
         const bool has_room = stored && stored->slots <= max_stored_photons(p.device) / 10 * 9;
         if (has_room || p.passes.photons == 1) {
@@ -163,13 +164,14 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                                camera_record(scene.cameras[settings.camera], settings.width, settings.height), true);
     // Without indirect light no photon is ever looked up.
     const std::uint64_t photons = settings.bounces > 0 && p.on_device.record.light_count > 0 ? settings.photons : 0;
-    StoredPhotons stored = trace_first(p, photons);
+    StoredPhotons stored = trace_first(p, photons, budget);
     const std::uint64_t passes = p.passes.passes;
     const auto learnt_for = static_cast<double>(passes);
-    const Bandwidth learnt = learn_bandwidth(
-        device, p.on_device, p.photons, stored,
-        sample_queries(device, p.on_device, p.eye, settings, scene.cameras[settings.camera]), settings, estimator,
-        learnt_for);
+    const Bandwidth learnt = budget.once([&] {
+        const std::vector<glm::vec3> queries =
+            sample_queries(device, p.on_device, p.eye, settings, scene.cameras[settings.camera]);
+        return learn_bandwidth(device, p.on_device, p.photons, stored, queries, settings, estimator, learnt_for);
+    });
     Bandwidth bandwidth = learnt;
 
     RenderResult result;
@@ -191,7 +193,8 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                       p.flux_unit / static_cast<double>(statistics.passes));
         // Photons have numbers of 32 bits, beyond which they would be the same again.
         const PhotonPass next = emission_of(p, pass + 1, photons);
-        const bool has_numbers = next.first + next.count <= 0xffffffffu;
+        const bool has_numbers =
+            next.first + next.count <= 0xffffffffu && has_sample_numbers(pass + 1, p.passes.samples);
         more = budget.another(pass + 1, passes) && has_numbers && !statistics.interrupted;
         if (settings.budget) {
             bandwidth = for_passes(learnt, learnt_for, budget.expected(pass + 1), settings);
@@ -203,16 +206,19 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
 
 } // namespace
 
+/// Over a fixed radius, as gathers of progressive photon mapping (Hachisuka et al. 2008).
 RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
                             const OnProgress& progress) {
     return render_map(device, scene, settings, progress, Estimator::radius);
 }
 
+/// Over each photon's own footprint (Fabianowski and Dingliana 2009).
 RenderResult render_footprints(Device& device, const Scene& scene, const RenderSettings& settings,
                                const OnProgress& progress) {
     return render_map(device, scene, settings, progress, Estimator::footprints);
 }
 
+/// Over the k nearest (Jensen 1996).
 RenderResult render_nearest(Device& device, const Scene& scene, const RenderSettings& settings,
                             const OnProgress& progress) {
     return render_map(device, scene, settings, progress, Estimator::nearest);
