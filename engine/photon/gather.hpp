@@ -24,8 +24,9 @@ struct GatherRadii {
 };
 
 /// Estimates for every query the radiance that estimated lobes scatter towards the eye: density estimation with the
-/// Epanechnikov kernel over the photons within the radii (Jensen 1996). Queries that take more iterations than one
-/// dispatch allows are counted in traversal.unfinished; if traversal.careful is set, gone on with until they are done.
+/// Epanechnikov kernel over the photons within the radii, which are the same for all queries (as in each pass of
+/// Hachisuka et al. 2008). Queries that take more iterations than one dispatch allows are counted in
+/// traversal.unfinished; if traversal.careful is set, gone on with until they are done.
 void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map, const GatherTarget& target,
                     Traversal& traversal, const GatherRadii& radii, const Count& asking, std::uint32_t budget = gather_budget);
 
