@@ -22,6 +22,18 @@ Json memory_json(const Device& device) {
     return {{"peak_bytes", device.memory().peak}, {"peak_bytes_by_name", by_name}};
 }
 
+/// Of the method `footprints`.
+Json footprints_json(const FootprintSettings& settings, const FootprintScale& scale) {
+    return {{"kernel", settings.uniform_kernel ? "uniform" : "epanechnikov"},
+            {"caustic_smoothing", settings.caustic_smoothing},
+            {"largest_footprint", scale.radius_max},
+            {"largest_caustic_footprint", scale.caustic_max},
+            {"flatness", settings.flatness},
+            {"fixed_smoothing", settings.fixed_smoothing},
+            {"paper_axes", settings.paper_axes},
+            {"paper_reemission", settings.paper_reemission}};
+}
+
 } // namespace
 
 Json render_report(Device& device, const Scene& scene, const RenderSettings& settings, float exposure,
@@ -35,29 +47,32 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
                           {"gpu_seconds", info.features.timestamps ? Json(stage.seconds) : Json()},
                           {"runs", stage.runs}});
     }
+    Json parameters = {{"method", settings.method},
+                       {"width", settings.width},
+                       {"height", settings.height},
+                       {"spp", settings.samples},
+                       {"photons", settings.photons},
+                       {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
+                       {"radius", statistics.radius},
+                       {"caustic_radius", statistics.caustic_radius},
+                       {"k", statistics.neighbours},
+                       {"smoothing", statistics.smoothing},
+                       {"leaf_size", statistics.leaf_size},
+                       {"budget", settings.budget ? Json(*settings.budget) : Json()},
+                       {"query_cell", settings.query_cell},
+                       {"wide_codes", settings.wide_codes},
+                       {"follow_roughness", settings.follow_roughness},
+                       {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
+                       {"final_gather", settings.final_gather},
+                       {"seed", settings.seed},
+                       {"camera", scene.cameras[settings.camera].name},
+                       {"exposure", exposure}};
+    if (statistics.footprint_scale) {
+        parameters.update(footprints_json(settings.footprints, *statistics.footprint_scale));
+    }
     return {{"scene", scene.name},
             {"outputs", outputs},
-            {"parameters",
-             {{"method", settings.method},
-              {"width", settings.width},
-              {"height", settings.height},
-              {"spp", settings.samples},
-              {"photons", settings.photons},
-              {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
-              {"radius", statistics.radius},
-              {"caustic_radius", statistics.caustic_radius},
-              {"k", statistics.neighbours},
-              {"smoothing", statistics.smoothing},
-              {"leaf_size", statistics.leaf_size},
-              {"budget", settings.budget ? Json(*settings.budget) : Json()},
-              {"query_cell", settings.query_cell},
-              {"wide_codes", settings.wide_codes},
-              {"follow_roughness", settings.follow_roughness},
-              {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
-              {"final_gather", settings.final_gather},
-              {"seed", settings.seed},
-              {"camera", scene.cameras[settings.camera].name},
-              {"exposure", exposure}}},
+            {"parameters", parameters},
             {"device",
              {{"backend", info.backend},
               {"name", info.name},

@@ -12,8 +12,9 @@ struct ReportTimes {
     double load = 0, open = 0, render = 0, write = 0;
 };
 
-/// The report of `argand render --json`: every parameter, the device, times, photons, memory. Null: no limit of bounces,
-/// no time stamps to time a stage by.
+/// The report of `argand render --json`: every parameter, the device, times, photons, memory. `spp` and `photons` are as
+/// asked for, `samples_per_pixel` and `photons_emitted` what all passes did; largest footprints are semi-axes of the last
+/// pass in the scene's units. Null: no limit of bounces, no time stamps to time a stage by.
 nlohmann::ordered_json render_report(Device& device, const Scene& scene, const RenderSettings& settings, float exposure,
                                      const std::vector<std::string>& outputs, const RenderStatistics& statistics,
                                      const ReportTimes& times);
