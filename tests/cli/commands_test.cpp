@@ -104,11 +104,38 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
 }
 
 TEST_F(Commands, PathTracingReportsNoPhotons) {
-    render("-q -o a.png --method path --json report.json");
+    const Outcome run = argand("render '" + asset("cornell_glass.glb") +
+                               "' --size 6x4 --spp 2 -q -o a.png --method path --json report.json");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
     const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
     EXPECT_EQ(report.at("parameters").at("method"), "path");
     EXPECT_EQ(report.at("photons_emitted"), 0);
     EXPECT_EQ(report.at("samples_per_pixel"), 2);
+    EXPECT_FALSE(report.at("parameters").contains("flatness"));
+}
+
+TEST_F(Commands, ReportHoldsWhatFootprintsAreMadeBy) {
+    render("-q -o a.png --json report.json --flatness 0.5 --caustic-smoothing 3 --uniform-kernel --paper-axes");
+    const nlohmann::json p = nlohmann::json::parse(read_text(file("report.json"))).at("parameters");
+    EXPECT_EQ(p.at("flatness"), 0.5);
+    EXPECT_EQ(p.at("caustic_smoothing"), 3);
+    EXPECT_EQ(p.at("kernel"), "uniform");
+    EXPECT_EQ(p.at("paper_axes"), true);
+    EXPECT_EQ(p.at("paper_reemission"), false);
+    EXPECT_EQ(p.at("fixed_smoothing"), false);
+    EXPECT_GT(p.at("largest_footprint"), 0);
+    EXPECT_GT(p.at("largest_caustic_footprint"), 0);
+}
+
+TEST_F(Commands, BudgetThatAPassExceedsIsNoted) {
+    const Outcome run = render("-o a.png --budget 0.001 --json report.json");
+    EXPECT_THAT(run.error, HasSubstr("argand: note: rendering took "));
+    EXPECT_THAT(run.error, HasSubstr("--budget"));
+    const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
+    EXPECT_EQ(report.at("passes"), 1);
+    EXPECT_EQ(report.at("samples_per_pixel"), 2);
+    ASSERT_FALSE(report.at("notes").empty());
+    EXPECT_THAT(report.at("notes").back().get<std::string>(), HasSubstr("not the 0.001 s"));
 }
 
 TEST_F(Commands, CompareMeasuresAndDrawsTheDifference) {

@@ -7,6 +7,7 @@
 #include "base/progress.hpp"
 #include "footprint_options.hpp"
 #include "image/files.hpp"
+#include "method_options.hpp"
 #include "methods/render.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
@@ -74,7 +75,7 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
          choice, scene.name, scene.cameras.size());
 }
 
-void check(const RenderOptions& options) {
+void check(const RenderOptions& options, const CLI::App& command) {
     if (options.backend != "vulkan") {
         throw UsageError(fmt::format("choosing backend '{}': there is only vulkan", options.backend));
     }
@@ -82,6 +83,7 @@ void check(const RenderOptions& options) {
     if (std::find(methods.begin(), methods.end(), options.method) == methods.end()) {
         throw UsageError(fmt::format("choosing method '{}': choose from {}", options.method, fmt::join(methods, ", ")));
     }
+    check_method_options(command, options.method);
     std::vector<std::string> files{options.scene};
     for (const std::string& output : options.outputs) {
         check_overwrites_none(output, files);
@@ -94,7 +96,18 @@ void check(const RenderOptions& options) {
     }
 }
 
-void render_file(RenderOptions& options) {
+/// What the user should know of how the render went. seconds: that it took.
+std::vector<std::string> notes_on(const RenderSettings& settings, const RenderStatistics& statistics, double seconds) {
+    constexpr double clearly_more = 1.2;
+    if (!settings.budget || seconds <= clearly_more * *settings.budget) {
+        return {};
+    }
+    return {fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of --budget; passes are shorter with a "
+                        "lower --spp{}", seconds, statistics.passes, statistics.passes == 1 ? "" : "es", *settings.budget,
+                        settings.method == "path" ? "" : " or fewer --photons")};
+}
+
+void render_file(RenderOptions& options, const CLI::App& command) {
     using Clock = std::chrono::steady_clock;
     const auto seconds_since = [](Clock::time_point start) {
         return std::chrono::duration<double>(Clock::now() - start).count();
@@ -107,7 +120,7 @@ void render_file(RenderOptions& options) {
     if (options.outputs.empty()) {
         options.outputs.push_back(std::filesystem::path(options.scene).filename().replace_extension(".png").string());
     }
-    check(options);
+    check(options, command);
     catch_interrupts();
 
     ReportTimes times;
@@ -134,6 +147,7 @@ void render_file(RenderOptions& options) {
         });
     }
     times.render = seconds_since(rendering);
+    const std::vector<std::string> notes = notes_on(options.settings, result.statistics, times.render);
     if (result.statistics.samples == 0) {
         fail("rendering '{}': interrupted before the first pass was finished; nothing is written", options.scene);
     }
@@ -143,14 +157,21 @@ void render_file(RenderOptions& options) {
     }
     times.write = seconds_since(writing);
     if (!options.report.empty()) {
-        write_json(options.report, render_report(*device, scene, options.settings, options.exposure, options.outputs,
-                                                 result.statistics, times));
+        nlohmann::ordered_json report = render_report(*device, scene, options.settings, options.exposure,
+                                                      options.outputs, result.statistics, times);
+        for (const std::string& note : notes) {
+            report["notes"].push_back(note);
+        }
+        write_json(options.report, report);
     }
     if (result.statistics.non_finite > 0) {
         fmt::print(stderr, "argand: note: {} samples were not finite and are left out; please report the scene\n",
                    result.statistics.non_finite);
     }
     if (!options.quiet) {
+        for (const std::string& note : notes) {
+            fmt::print(stderr, "argand: note: {}\n", note);
+        }
         fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "), options.method,
                    options.settings.width, options.settings.height, device->info().name,
                    seconds_since(start), result.statistics.interrupted ? " (interrupted: the passes so far)" : "");
@@ -185,7 +206,8 @@ void add_render_command(CLI::App& app) {
                      "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
         ->check(integer_between(0, 0xffff));
     command->add_option("--radius", options->radius,
-                        "Radius of density estimation; of method knn, the largest (default: from the scene)")
+                        "Radius of density estimation; of knn, the largest; of footprints, what bounds their size and the "
+                        "cells of sharing follow from (default: from the scene)")
         ->check(number_between(1e-18, 1e18));   // its square and the inverse of that are finite
     command
         ->add_option("--k", settings.neighbours,
@@ -220,7 +242,7 @@ void add_render_command(CLI::App& app) {
     add_footprint_options(*command, settings.footprints);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");
     command->footer("Example:\n  argand render assets/cornell_glass.glb -o glass.png -o glass.exr --size 256x256");
-    command->callback([options] { render_file(*options); });
+    command->callback([options, command] { render_file(*options, *command); });
 }
 
 } // namespace argand
