@@ -17,6 +17,7 @@ struct PathRecord {
 CONSTANT uint path_depth_mask = 0xffffu;
 CONSTANT uint path_estimated = 0x10000u;    // an estimated vertex lies behind: what is found counts as reflected light
 CONSTANT uint path_followed = 0x20000u;     // all scatterings since that vertex were followed lobes (a caustic path)
+CONSTANT uint path_seeks_emission = 0x40000u;   // ends at the next surface, whose emission is all it is traced for
 
 // Radiance that a path has gathered so far, by layer (docs/design.md: "Which path is whose").
 struct LayersRecord {

@@ -46,12 +46,37 @@ Scene glossy_room() {
     return scene;
 }
 
-/// Two walls on a floor under the sky, one of them a mirror.
-Scene yard() {
+/// Rougher than what is followed, and yet so narrow that a point sampled on the light is seldom in its lobe.
+Material narrow_gloss() {
+    Material metal = mirror(glm::vec3(0.9f));
+    metal.roughness = 0.3f;
+    return metal;
+}
+
+Scene room_with_narrow_gloss() {
+    Scene scene = room_with_wall_of(narrow_gloss());
+    scene.name = "room with narrow gloss";
+    return scene;
+}
+
+/// Diffuse and glossy, and half of it is not there: a path that arrives is scattered by one lobe or follows
+/// another.
+Scene room_with_half_a_plastic_wall() {
+    Material plastic = lambertian(glm::vec3(0.5f));
+    plastic.specular = 1;
+    plastic.roughness = 0.3f;
+    plastic.coverage = 0.5f;
+    Scene scene = room_with_wall_of(plastic);
+    scene.name = "room with half a plastic wall";
+    return scene;
+}
+
+/// Two walls on a floor under the sky, one of them of this material.
+Scene yard(const Material& material) {
     Scene scene = floor_scene(lambertian(glm::vec3(wall_albedo)), 1);
     scene.name = "yard";
     add_quad(scene, {-1, 0, -1}, {2, 0, 0}, {0, 1.5f, 0}, 0);
-    add_quad(scene, {-1, 0, 1}, {0, 0, -2}, {0, 1.5f, 0}, add_material(scene, mirror(glm::vec3(0.9f))));
+    add_quad(scene, {-1, 0, 1}, {0, 0, -2}, {0, 1.5f, 0}, add_material(scene, material));
     scene.sky = glm::vec3(0.5f, 0.8f, 1);
     scene.cameras = {look_at({1.5f, 1, 1.5f}, {-0.4f, 0.2f, -0.4f}, 40)};
     return scene;
@@ -89,7 +114,8 @@ TEST_F(FinalGather, EmittersAreMetOnce) {
 }
 
 TEST_F(FinalGather, Sky) {
-    expect_as_path(yard());
+    expect_as_path(yard(mirror(glm::vec3(0.9f))));
+    expect_as_path(yard(narrow_gloss()));
 }
 
 TEST_F(FinalGather, CausticsOfAMirror) {
@@ -102,6 +128,24 @@ TEST_F(FinalGather, CausticsOfGlass) {
 
 TEST_F(FinalGather, CausticsOfGlossFromALightWithoutExtent) {
     expect_as_path(glossy_room(), "photons", 0.015);
+}
+
+TEST_F(FinalGather, EmittersInNarrowLobesAreMetOnce) {
+    expect_as_path(room_with_narrow_gloss());
+    expect_as_path(room_with_narrow_gloss(), "photons", 0.01, 1);
+    expect_as_path(room_with_half_a_plastic_wall());
+}
+
+TEST_F(FinalGather, NoBrightDotsOfEmittersInNarrowLobes) {
+    const Scene scene = room_with_narrow_gloss();
+    RenderSettings settings = settings_of("path", 32, 512);
+    settings.bounces = 1; // only what the gather's own rays find
+    const Image reference = layer(render(scene, settings), "indirect");
+    settings.samples = 32;
+    const double of_path = compare(layer(render(scene, settings), "indirect"), reference).rmse;
+    settings.method = "photons";
+    settings.final_gather = true;
+    EXPECT_LT(compare(layer(render(scene, settings), "indirect"), reference).rmse, 1.2 * of_path);
 }
 
 TEST_F(FinalGather, NoMoreBouncesThanAreAllowed) {

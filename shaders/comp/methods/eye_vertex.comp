@@ -47,7 +47,7 @@ RayRecord make_ray(Surface surface, vec3 direction, float t_max) {
     return RayRecord(o.x, o.y, o.z, t_max, direction.x, direction.y, direction.z, 0u);
 }
 
-// Whether the path ends where estimated lobes scatter it.
+// Whether the path ends where estimated lobes scatter it, but for a ray that seeks emission.
 bool ends_at_estimated(uint state) {
     return photon_map && (!final_gather || (state & path_estimated) != 0u);
 }
@@ -60,8 +60,9 @@ void add_emission(uint slot, PathRecord path, vec3 radiance) {
     }
 }
 
+// onward: those of the estimated lobes that the path is scattered by as well.
 void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, Frame frame, MaterialRecord m, vec3 wo,
-                  uint estimated, uint followed, float estimated_probability) {
+                  uint estimated, uint onward, uint followed, float estimated_probability) {
     bool ends = ends_at_estimated(path.state);
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
     float choice_probability;
@@ -72,8 +73,9 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
         return;
     }
     vec3 wi = to_local(frame, s.wi);
-    if (ends && light.kind == light_sky) {
-        // Nothing else finds the sky here: by the cosine, not evenly over the sphere, half of which is below.
+    bool sky_by_cosine = ends && light.kind == light_sky;
+    if (sky_by_cosine) {
+        // Nothing else finds the sky for diffuse lobes here: not evenly over the sphere, half of which is below.
         wi = sample_cosine_hemisphere(u.yz);
         s.wi = to_world(frame, wi);
         s.radiance = light_color(light) * (PI / max(wi.z, 1e-6));
@@ -82,12 +84,16 @@ void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, 
         return;
     }
     vec3 arriving = throughput * s.radiance * (wi.z / choice_probability);
-    float weight = 1.0;
-    if (!s.delta && !ends) {
+    float weight = 1.0;     // for the lobes of `onward`; the others have nothing but this sample
+    if (!s.delta && onward != 0u) {
         float density = choice_probability * s.pdf;
-        weight = power_heuristic(density, estimated_probability * bsdf_pdf(m, wo, wi, estimated));
+        weight = sky_by_cosine ? 0.0
+                               : power_heuristic(density, estimated_probability * bsdf_pdf(m, wo, wi, onward));
     }
-    vec3 e = arriving * weight * bsdf_eval(m, wo, wi, estimated);
+    vec3 e = arriving * weight * bsdf_eval(m, wo, wi, onward);
+    if (onward != estimated) {
+        e += arriving * bsdf_eval(m, wo, wi, estimated & ~onward);
+    }
     bool behind_estimated = (path.state & path_estimated) != 0u;
     bool left_to_photons = final_gather && behind_estimated;
     vec3 f = s.delta && followed != 0u && !left_to_photons ? arriving * bsdf_eval(m, wo, wi, followed) : vec3(0.0);
@@ -117,11 +123,13 @@ void main() {
     if (photon_map) {
         asks[i] = 0u;
     }
+    bool seeks_emission = final_gather && (path.state & path_seeks_emission) != 0u;
 
     if (hit.triangle == no_triangle) {
         vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
         if (max_component(sky) > 0.0) {
-            float weight = path.pdf > 0.0 ? power_heuristic(path.pdf, scene[0].sky_probability * 0.25 * INV_PI) : 1.0;
+            bool found_twice = path.pdf > 0.0 && !seeks_emission;
+            float weight = found_twice ? power_heuristic(path.pdf, scene[0].sky_probability * 0.25 * INV_PI) : 1.0;
             add_emission(slot, path, throughput * sky * weight);
         }
         return;
@@ -141,7 +149,7 @@ void main() {
         }
         add_emission(slot, path, throughput * emission * weight);
     }
-    if ((path.state & path_estimated) != 0u && (path.state & path_depth_mask) >= batch.bounces) {
+    if (seeks_emission || ((path.state & path_estimated) != 0u && (path.state & path_depth_mask) >= batch.bounces)) {
         return;
     }
     // From here on the state's depth is that of this vertex: scatterings between the first estimated vertex and it.
@@ -150,13 +158,17 @@ void main() {
     uint followed = followed_lobes(m, scene[0].follow_roughness);
     uint estimated = estimated_lobes(m, scene[0].follow_roughness);
     float followed_albedo = followed != 0u ? max_component(bsdf_albedo(m, wo, surface.front, followed)) : 0.0;
-    bool goes_on = estimated != 0u && !ends_at_estimated(path.state);
-    float estimated_albedo = goes_on ? max_component(bsdf_albedo(m, wo, surface.front, estimated)) : 0.0;
+    // The map answers for what else lies behind the last estimated vertex; but shadow rays alone would make bright dots
+    // of lights that a glossy lobe reflects there, so one more ray looks for them.
+    bool ends = ends_at_estimated(path.state);
+    uint onward = !ends ? estimated : final_gather ? estimated & LOBE_GLOSSY : 0u;
+    float estimated_albedo = onward != 0u ? max_component(bsdf_albedo(m, wo, surface.front, onward)) : 0.0;
     float albedo = followed_albedo + estimated_albedo;
     float estimated_probability = albedo > 0.0 ? estimated_albedo / albedo : 0.0;
 
     if (scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
-        sample_light(slot, path, throughput, surface, frame, m, wo, estimated, followed, estimated_probability);
+        sample_light(slot, path, throughput, surface, frame, m, wo, estimated, onward, followed,
+                     estimated_probability);
     }
     uint asks_for = asks_map;
     uint flags = surface.front ? query_front : 0u;
@@ -199,7 +211,7 @@ void main() {
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 2u);
     bool takes_estimated = u.w < estimated_probability;
     BsdfSample s;
-    uint lobes = takes_estimated ? estimated : followed;
+    uint lobes = takes_estimated ? onward : followed;
     if (!bsdf_sample(m, wo, surface.front, lobes, u, s)) {
         return;
     }
@@ -229,6 +241,9 @@ void main() {
     path.throughput_b = throughput.z;
     path.pdf = takes_estimated ? estimated_probability * s.pdf : 0.0;
     path.state = state_after(path.state, !takes_estimated);
+    if (ends && takes_estimated) {
+        path.state |= path_seeks_emission;
+    }
     paths[slot] = path;
     alive[i] = 1u;
 }
