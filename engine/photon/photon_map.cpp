@@ -35,7 +35,9 @@ constexpr std::uint64_t slots_on_gpu = 1u << 20;
 constexpr std::uint64_t stored_per_emitted = 3;
 constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
-constexpr std::uint32_t leaf_size_of_points = 16;
+// T_auto of Fabianowski and Dingliana 2009 (§5.3), who have it grow with the number of footprints on a point. With as wide
+// estimates as are made here one size is best, or within 3 % of it, from 2 to 350 of them: docs/results/fd09.md.
+constexpr std::uint32_t automatic_leaf_size = 16;
 
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
@@ -45,16 +47,6 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
-}
-
-/// The leaf size in proportion to the mean number of footprints on a point (Fabianowski and Dingliana 2009, §5.3). Both
-/// constants were fitted to the rate of the linear build's maps over leaf sizes of 1 to 512 in six scenes, and reach
-/// 99.3 % of the best size's rate on average in five others, two cores, lavapipe: docs/results/fd09.md.
-std::uint32_t automatic_leaf_size(double mean_footprints) {
-    constexpr double photons_per_footprint = 0.135;
-    constexpr double least = 8;
-    constexpr double most = 16;     // beyond, gathering is as fast, and building slower
-    return static_cast<std::uint32_t>(std::clamp(photons_per_footprint * mean_footprints, least, most));
 }
 
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
@@ -259,7 +251,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                       kernels::photon_order{.photons = w.photons, .order = w.order, .counters = w.counters,
                                             .sorted = w.sorted},
                       w.counters, counter_stored);
-    map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : leaf_size_of_points;
+    map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
     const Count photons(w.counters, counter_stored, w.capacity);
     if (settings.footprints) {
         map.footprints = device.scratch("photon footprints", w.capacity * sizeof(glm::uvec4));
@@ -287,9 +279,6 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
         reduce_sum(device, w.heads, w.counters, counter_footprints, photons);
         map.mean_footprints =
             double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) / area_shares;
-        if (settings.leaf_size == 0) {
-            map.leaf_size = automatic_leaf_size(map.mean_footprints);
-        }
     }
     const Buffer distances = code_distances(device, w.codes, photons, settings.wide_codes);
     // The order is not needed any more.
