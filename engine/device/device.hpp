@@ -27,6 +27,8 @@ struct MemoryUse {
     std::uint64_t peak = 0;
 };
 
+class Primitives;
+
 /// A device that runs kernels in the order in which they are recorded. All calls but wait(), download() and
 /// stage_times() only record; barriers follow from the kernels' declared reads and writes. One thread at a time.
 class Device {
@@ -62,6 +64,9 @@ public:
     /// As dispatch, with the count of threads read on the device from the uint at `count_index` of `counts`.
     virtual void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
                                    std::uint32_t count_index) = 0;
+
+    /// The backend's own sort, scan, reduce and compact; null: they are made of kernels.
+    virtual Primitives* primitives() { return nullptr; }
 
     /// Hands what is recorded to the device without waiting for it.
     virtual void submit() = 0;
@@ -137,11 +142,16 @@ inline bool read_as_texels(const Device& device, const Buffer& a, const Buffer& 
     return device.info().lane_serial() && std::max(a.size(), b.size()) / 16 <= device.info().limits.texels;
 }
 
+/// Backends that this build has, in the order in which they are preferred.
+const std::vector<std::string>& backend_names();
+
 /// Devices of all backends, suitable or not, in the order of their indices.
 std::vector<DeviceInfo> list_devices();
 
 /// Opens a device. `choice` is an index, part of a name (case does not matter), or empty: then ARGAND_DEVICE, then the
-/// best there is (discrete, integrated, virtual, CPU). Throws Error if there is none or it is unsuitable.
-std::unique_ptr<Device> open_device(const std::string& choice = "");
+/// best there is (discrete, integrated, virtual, CPU). `backend` is one of backend_names(), or empty: then
+/// ARGAND_BACKEND, then the first that has a suitable device. Throws Error if there is none or it is unsuitable, and
+/// UsageError if there is no such backend.
+std::unique_ptr<Device> open_device(const std::string& choice = "", const std::string& backend = "");
 
 } // namespace argand

@@ -31,7 +31,7 @@ struct Limits {
 };
 
 struct DeviceInfo {
-    std::string backend;                ///< "vulkan"
+    std::string backend;                ///< one of backend_names()
     std::uint32_t index = 0;            ///< as `argand devices` numbers them
     std::string name;
     std::string driver;                 ///< driver's name and version

@@ -48,6 +48,15 @@ struct KernelConstant {
     std::uint32_t id;
 };
 
+struct TwinArguments;
+
+/// Runs invocations first <= i < end of a kernel's twin on the host, see device/twin.hpp.
+using RunOnHost = void(const TwinArguments& arguments, std::uint64_t first, std::uint64_t end);
+
+/// Launches a kernel's twin on a CUDA stream, on `threads` invocations or as many as `count` in the device's memory says
+/// (null: `threads`).
+using LaunchOnCuda = void(const TwinArguments& arguments, std::uint64_t threads, const std::uint32_t* count, void* stream);
+
 /// What tools/shader_compile learned of one kernel.
 struct KernelInfo {
     const char* name;
@@ -57,6 +66,8 @@ struct KernelInfo {
     std::uint32_t push_bytes;                   ///< size of the push constants, 0 if none
     std::array<std::uint32_t, 3> local_size;
     bool uses_subgroups;                        ///< declares a GroupNonUniform capability beyond Basic
+    RunOnHost* host = nullptr;                  ///< its twins; null: only Vulkan needs the kernel
+    LaunchOnCuda* cuda = nullptr;
 };
 
 inline constexpr std::size_t max_bindings = 24;

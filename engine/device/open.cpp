@@ -1,6 +1,7 @@
 #include "base/environment.hpp"
 #include "base/error.hpp"
 #include "device/device.hpp"
+#include "device/host/host_device.hpp"
 #include "device/vulkan/instance.hpp"
 #include "device/vulkan/vulkan_device.hpp"
 
@@ -18,48 +19,80 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-/// Position of the chosen device in the list.
-std::size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
+/// What devices there are, and why a backend that this build has offers none.
+struct Offer {
+    std::vector<DeviceInfo> devices;
+    std::map<std::string, std::string> missing;
+};
+
+Offer offer() {
+    Offer result;
+    const auto add = [&](std::vector<DeviceInfo> devices) {
+        for (DeviceInfo& device : devices) {
+            device.index = static_cast<std::uint32_t>(result.devices.size());
+            result.devices.push_back(std::move(device));
+        }
+    };
+    try {
+        add(vulkan::list_devices());
+        if (result.devices.empty()) {
+            result.missing["vulkan"] = "Vulkan offers no device; install a driver, for instance mesa-vulkan-drivers";
+        }
+    } catch (const Error& error) {
+        result.missing["vulkan"] = error.what();
+    }
+    add({host::describe()});
+    return result;
+}
+
+/// The chosen device among those of a backend, or of all backends if it is empty.
+const DeviceInfo& choose(const Offer& offer, const std::string& choice, const std::string& backend) {
+    std::vector<const DeviceInfo*> devices;
+    for (const DeviceInfo& device : offer.devices) {
+        if (backend.empty() || device.backend == backend) {
+            devices.push_back(&device);
+        }
+    }
+    if (devices.empty()) {
+        fail("opening a device of backend {}: {}", backend, offer.missing.at(backend));
+    }
     if (choice.empty()) {
-        const auto best = std::min_element(devices.begin(), devices.end(), [](const DeviceInfo& a, const DeviceInfo& b) {
-            return std::pair(!a.unsuitable.empty(), a.kind) < std::pair(!b.unsuitable.empty(), b.kind);
-        });
-        return static_cast<std::size_t>(best - devices.begin());
+        const std::vector<std::string>& order = backend_names();
+        const auto rank = [&](const DeviceInfo& device) {
+            return std::tuple(!device.unsuitable.empty(), std::find(order.begin(), order.end(), device.backend) - order.begin(),
+                              device.kind);
+        };
+        return **std::min_element(devices.begin(), devices.end(),
+                                  [&](const DeviceInfo* a, const DeviceInfo* b) { return rank(*a) < rank(*b); });
     }
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-    if (error == std::errc() && end == choice.data() + choice.size()) {
-        if (index >= devices.size()) {
-            fail("opening device {}: there are {}; `argand devices` lists them", choice, devices.size());
-        }
-        return index;
-    }
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-        if (lower_case(devices[i].name).find(lower_case(choice)) != std::string::npos) {
-            return i;
+    const bool is_index = error == std::errc() && end == choice.data() + choice.size();
+    for (const DeviceInfo* device : devices) {
+        if (is_index ? device->index == index : lower_case(device->name).find(lower_case(choice)) != std::string::npos) {
+            return *device;
         }
     }
-    fail("opening device '{}': no device has that in its name; `argand devices` lists them", choice);
+    fail("opening device '{}': there is none of that {}{}; `argand devices` lists them", choice, is_index ? "index" : "name",
+         backend.empty() ? "" : " of backend " + backend);
 }
 
 } // namespace
 
-std::vector<DeviceInfo> list_devices() {
-    const std::shared_ptr<vulkan::Instance> instance = vulkan::instance();
-    std::vector<DeviceInfo> devices;
-    for (const VkPhysicalDevice physical : instance->physical_devices()) {
-        devices.push_back(vulkan::describe(physical, static_cast<std::uint32_t>(devices.size())));
-    }
-    return devices;
+const std::vector<std::string>& backend_names() {
+    static const std::vector<std::string> names{"vulkan", "cpu"};
+    return names;
 }
 
-std::unique_ptr<Device> open_device(const std::string& choice) {
-    const std::shared_ptr<vulkan::Instance> instance = vulkan::instance();
-    std::vector<DeviceInfo> devices = list_devices();
-    if (devices.empty()) {
-        fail("opening a device: Vulkan offers none; install a driver, for instance mesa-vulkan-drivers");
+std::vector<DeviceInfo> list_devices() { return offer().devices; }
+
+std::unique_ptr<Device> open_device(const std::string& choice, const std::string& backend) {
+    const std::string wanted = backend.empty() ? environment("ARGAND_BACKEND") : backend;
+    const std::vector<std::string>& names = backend_names();
+    if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end()) {
+        throw UsageError(fmt::format("choosing backend '{}': this build has {}", wanted, fmt::join(names, ", ")));
     }
-    DeviceInfo info = devices[choose(devices, choice.empty() ? environment("ARGAND_DEVICE") : choice)];
+    DeviceInfo info = choose(offer(), choice.empty() ? environment("ARGAND_DEVICE") : choice, wanted);
     apply_environment(info);
     if (info.unsuitable.empty()) {
         info.unsuitable = unmet_requirement(info.limits);
@@ -68,8 +101,10 @@ std::unique_ptr<Device> open_device(const std::string& choice) {
         fail("opening device '{}': {}; choose another with --device (`argand devices` lists them)", info.name,
              info.unsuitable);
     }
-    const VkPhysicalDevice physical = instance->physical_devices()[info.index];
-    return std::make_unique<vulkan::VulkanDevice>(instance, physical, std::move(info));
+    if (info.backend == "cpu") {
+        return std::make_unique<host::HostDevice>(std::move(info));
+    }
+    return vulkan::open(std::move(info));
 }
 
 } // namespace argand

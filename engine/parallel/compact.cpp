@@ -1,5 +1,6 @@
 #include "parallel/compact.hpp"
 
+#include "device/primitives.hpp"
 #include "kernels/compact_parts_serial.hpp"
 #include "kernels/compact_parts_shared.hpp"
 #include "kernels/compact_parts_subgroup.hpp"
@@ -11,6 +12,10 @@ void compact(Device& device, const Buffer& flags, const Buffer& values, const Bu
              const Buffer& counts, std::uint32_t count_index, const Count& count) {
     check_room("compacting", flags, count, sizeof(uint));
     check_room("compacting", values, count, sizeof(uint));
+    if (Primitives* primitives = device.primitives()) {
+        primitives->compact(flags, values, out, counts, count_index, count);
+        return;
+    }
     const Variant variant = variant_of(device.info());
     const PartsRecord parts = variant_parts(variant, count);
     const Buffer sums = device.scratch("compact: kept of parts", parts.parts * sizeof(uint));

@@ -1,5 +1,6 @@
 #include "parallel/radix_sort.hpp"
 
+#include "device/primitives.hpp"
 #include "kernels/sort_histogram_group.hpp"
 #include "kernels/sort_histogram_serial.hpp"
 #include "kernels/sort_keys_serial.hpp"
@@ -47,6 +48,10 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
         check_room("sorting", elements.values, count, sizeof(uint));
     }
     if (count.bound < 2 || bits == 0) {
+        return;
+    }
+    if (Primitives* primitives = device.primitives()) {
+        primitives->sort(elements.keys, elements.values, count, bits, key_words);
         return;
     }
     const Variant variant = variant_of(device.info());

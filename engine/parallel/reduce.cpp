@@ -1,5 +1,6 @@
 #include "parallel/reduce.hpp"
 
+#include "device/primitives.hpp"
 #include "kernels/reduce_box.hpp"
 #include "parallel/parts.hpp"
 #include "shared/geometry_records.h"
@@ -13,6 +14,10 @@ constexpr PartsRecord one_part{1, 16};
 void reduce(Device& device, const Buffer& in, const Buffer& out, std::uint32_t out_index, const Count& count,
             uint op) {
     check_room("reducing", in, count, sizeof(uint));
+    if (Primitives* primitives = device.primitives()) {
+        primitives->reduce(in, out, out_index, count, op);
+        return;
+    }
     const PartsRecord parts = group_parts(count);
     if (parts.parts == 1) {
         reduce_parts(device, in, out, out_index, count, parts, op);
@@ -53,6 +58,10 @@ void reduce_max(Device& device, const Buffer& in, const Buffer& out, std::uint32
 void reduce_box(Device& device, const Buffer& boxes, const Buffer& out, std::uint32_t out_index,
                 const Count& count) {
     check_room("reducing boxes", boxes, count, sizeof(BoxRecord));
+    if (Primitives* primitives = device.primitives()) {
+        primitives->reduce_box(boxes, out, out_index, count);
+        return;
+    }
     const PartsRecord parts = group_parts(count);
     if (parts.parts == 1) {
         reduce_box_parts(device, boxes, out, out_index, count, parts);

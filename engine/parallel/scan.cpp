@@ -1,5 +1,6 @@
 #include "parallel/scan.hpp"
 
+#include "device/primitives.hpp"
 #include "kernels/scan_parts_serial.hpp"
 #include "kernels/scan_parts_shared.hpp"
 #include "kernels/scan_parts_subgroup.hpp"
@@ -18,6 +19,10 @@ void scan(Device& device, const Buffer& in, const Buffer& out, const Count& coun
     check_room("scanning", in, count, sizeof(uint));
     check_room("scanning", out, count, sizeof(uint));
     if (count.bound == 0) {
+        return;
+    }
+    if (Primitives* primitives = device.primitives()) {
+        primitives->scan(in, out, count, inclusive);
         return;
     }
     const Variant variant = variant_of(device.info());
@@ -55,6 +60,10 @@ void segmented_scan(Device& device, const Buffer& in, const Buffer& heads, const
     check_room("scanning segments", heads, count, sizeof(uint));
     check_room("scanning segments", out, count, sizeof(uint));
     if (count.bound == 0) {
+        return;
+    }
+    if (Primitives* primitives = device.primitives()) {
+        primitives->segmented_scan(in, heads, out, count);
         return;
     }
     const Variant variant = variant_of(device.info());

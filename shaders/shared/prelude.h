@@ -18,7 +18,7 @@
 #define IN(T) const T&
 #define OUT(T) T&
 #define INOUT(T) T&
-#define CONSTANT constexpr
+#define CONSTANT static constexpr
 
 #ifdef ARGAND_REAL_DOUBLE
 #define ARGAND_SHARED_BEGIN namespace argand { namespace oracle {
@@ -41,18 +41,28 @@ typedef glm::vec<4, real> vec4;
 typedef glm::uvec2 uvec2;
 typedef glm::uvec3 uvec3;
 typedef glm::uvec4 uvec4;
+typedef glm::ivec4 ivec4;
+typedef glm::bvec3 bvec3;
+typedef glm::bvec4 bvec4;
 // Lanes of records in buffers are single precision whatever `real` is.
 typedef float float32;
 typedef glm::vec<4, float> lane4;
 
 FN uint float_bits(float x) { return glm::floatBitsToUint(x); }
 FN float bits_float(uint x) { return glm::uintBitsToFloat(x); }
+FN uvec3 float_bits(const glm::vec3& x) { return glm::floatBitsToUint(x); }
+FN glm::vec3 bits_float(const uvec3& x) { return glm::uintBitsToFloat(x); }
+FN uvec4 float_bits(const glm::vec4& x) { return glm::floatBitsToUint(x); }
 using glm::abs;
+using glm::ceil;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
 using glm::findMSB;
 using glm::floor;
+using glm::inversesqrt;
+using glm::lessThan;
+using glm::lessThanEqual;
 using glm::max;
 using glm::min;
 using glm::mix;

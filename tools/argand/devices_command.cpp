@@ -15,8 +15,8 @@ void list() {
         fail("listing devices: there is no device; install a driver, for instance the package mesa-vulkan-drivers");
     }
     for (const DeviceInfo& device : devices) {
-        fmt::print("{}: {} ({}, {}, Vulkan {}, {} MiB){}\n", device.index, device.name, to_string(device.kind),
-                   device.driver, device.api_version, device.limits.memory >> 20,
+        fmt::print("{}: {} ({}, {}, backend {}{}, {} MiB){}\n", device.index, device.name, to_string(device.kind),
+                   device.driver, device.backend, device.api_version.empty() ? "" : " " + device.api_version, device.limits.memory >> 20,
                    device.unsuitable.empty() ? "" : "; cannot be used: " + device.unsuitable);
     }
 }

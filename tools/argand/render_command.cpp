@@ -33,7 +33,7 @@ struct RenderOptions {
     std::string method = method_names().front();
     std::string size = "512x512";
     std::string camera;
-    std::string backend = "vulkan";
+    std::string backend = "auto";
     std::string device;
     std::string report;
     double radius = 0;
@@ -76,9 +76,6 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
 }
 
 void check(const RenderOptions& options, const CLI::App& command) {
-    if (options.backend != "vulkan") {
-        throw UsageError(fmt::format("choosing backend '{}': there is only vulkan", options.backend));
-    }
     const std::vector<std::string> methods = method_names();
     if (std::find(methods.begin(), methods.end(), options.method) == methods.end()) {
         throw UsageError(fmt::format("choosing method '{}': choose from {}", options.method, fmt::join(methods, ", ")));
@@ -134,7 +131,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         }
     }
     const Clock::time_point opened = Clock::now();
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_device(options.device, options.backend == "auto" ? "" : options.backend);
     times.open = seconds_since(opened);
 
     const Clock::time_point rendering = Clock::now();
@@ -236,7 +233,8 @@ void add_render_command(CLI::App& app) {
     command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")
         ->capture_default_str()
         ->check(number_between(-100, 100));
-    command->add_option("--backend", options->backend, "vulkan")->capture_default_str();
+    command->add_option("--backend", options->backend, "auto, " + fmt::format("{}", fmt::join(backend_names(), ", ")))
+        ->capture_default_str();
     command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
     command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");
     add_footprint_options(*command, settings.footprints);

@@ -145,12 +145,14 @@ std::string emit_source(const Kernel& kernel) {
     }
     fmt::format_to(
         out,
-        "\n}} // namespace\n\nconstinit const KernelInfo {0}::info{{\n"
+        "\n}} // namespace\n\n{8}constinit const KernelInfo {0}::info{{\n"
         "    .name = \"{0}\",\n    .spirv = spirv,\n    .bindings = {1},\n    .constants = {2},\n"
-        "    .push_bytes = {3},\n    .local_size = {{{4}, {5}, {6}}},\n    .uses_subgroups = {7},\n}};\n\n",
+        "    .push_bytes = {3},\n    .local_size = {{{4}, {5}, {6}}},\n    .uses_subgroups = {7},\n{9}}};\n\n",
         kernel.name, interface.bindings.empty() ? "{}" : "bindings",
         interface.constants.empty() ? "{}" : "specialization", interface.push ? interface.push->size : 0,
-        interface.local_size[0], interface.local_size[1], interface.local_size[2], interface.uses_subgroups);
+        interface.local_size[0], interface.local_size[1], interface.local_size[2], interface.uses_subgroups,
+        kernel.has_twin ? fmt::format("RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n", kernel.name) : "",
+        kernel.has_twin ? fmt::format("    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n", kernel.name) : "");
     fmt::format_to(out, "KernelArguments {}::arguments() const {{\n    KernelArguments result;\n",
                    kernel.name);
     for (const Binding& binding : interface.bindings) {

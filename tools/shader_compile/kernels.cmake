@@ -1,5 +1,7 @@
 # argand_add_kernels(target file.comp...): compiles each kernel at build time. NAME.comp becomes
-# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which becomes part of the target.
+# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which becomes part of the target. Kernels that
+# only Vulkan needs are those under parallel/ and device/, for which other backends have libraries, and *_texels; all
+# others must have a twin of the same name under shaders/cuda/, for which NAME.twin.h is written.
 function(argand_add_kernels target)
     set(directory ${CMAKE_BINARY_DIR}/generated/kernels)
     file(MAKE_DIRECTORY ${directory})
@@ -10,17 +12,30 @@ function(argand_add_kernels target)
             message(FATAL_ERROR "Two kernels are called ${name}: ${earlier} and ${file}; rename one of them")
         endif()
         set_property(GLOBAL PROPERTY ARGAND_KERNEL_${name} ${file})
+        set(twin)
+        set(twin_header)
+        if(file MATCHES "/shaders/comp/" AND NOT file MATCHES "/comp/(parallel|device)/|_texels\\.comp$")
+            string(REGEX REPLACE "/comp/(.*)\\.comp$" "/cuda/\\1.cu" twin_source ${file})
+            if(NOT EXISTS ${twin_source})
+                message(FATAL_ERROR "Kernel ${file} has no twin; write ${twin_source}")
+            endif()
+            set(twin --twin)
+            set(twin_header ${directory}/${name}.twin.h)
+        endif()
         # The path as messages show it.
         file(RELATIVE_PATH shown ${CMAKE_SOURCE_DIR} ${file})
         add_custom_command(
-            OUTPUT ${directory}/${name}.hpp ${directory}/${name}.cpp
-            COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${shown}
+            OUTPUT ${directory}/${name}.hpp ${directory}/${name}.cpp ${twin_header}
+            COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${twin} ${shown}
             DEPENDS ${file} shader_compile
             DEPFILE ${directory}/${name}.d
             WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
             COMMENT "Compiling kernel ${shown}"
             VERBATIM)
-        target_sources(${target} PRIVATE ${directory}/${name}.cpp ${directory}/${name}.hpp)
+        target_sources(${target} PRIVATE ${directory}/${name}.cpp ${directory}/${name}.hpp ${twin_header})
+        list(APPEND twin_headers ${twin_header})
     endforeach()
     target_include_directories(${target} PUBLIC ${CMAKE_BINARY_DIR}/generated)
+    # What the twins, which are targets of their own, wait for.
+    add_custom_target(${target}_twin_headers DEPENDS ${twin_headers})
 endfunction()

@@ -1,4 +1,4 @@
-// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE KERNEL.comp
+// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin] KERNEL.comp
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
@@ -17,12 +17,17 @@ struct Options {
     std::vector<std::string> include_directories;
     std::string out;
     std::string depfile;
+    bool has_twin = false;
     std::string kernel;
 };
 
 Options parse(const std::vector<std::string>& words) {
     Options options;
     for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] == "--twin") {
+            options.has_twin = true;
+            continue;
+        }
         const bool is_option = words[i] == "-I" || words[i] == "--out" || words[i] == "--depfile";
         if (is_option && i + 1 == words.size()) {
             throw UsageError(fmt::format("shader_compile: {} needs a value", words[i]));
@@ -40,7 +45,7 @@ Options parse(const std::vector<std::string>& words) {
         }
     }
     if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
-        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE KERNEL.comp");
+        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin] KERNEL.comp");
     }
     return options;
 }
@@ -55,7 +60,7 @@ void run(const Options& options) {
     std::fputs(compiled.warnings.c_str(), stderr);
 
     Kernel kernel{name, options.kernel, reflect(compiled, options.include_directories),
-                  optimise(compiled.spirv, options.kernel)};
+                  optimise(compiled.spirv, options.kernel), options.has_twin};
     validate(kernel.spirv, options.kernel);
 
     const std::string header = (fs::path(options.out) / (name + ".hpp")).string();
@@ -65,7 +70,13 @@ void run(const Options& options) {
         // The build runs elsewhere than this program.
         inputs.push_back(fs::absolute(input.path).string());
     }
-    write_if_changed(options.depfile, emit_depfile({header, source}, inputs));
+    const std::string twin = (fs::path(options.out) / (name + ".twin.h")).string();
+    std::vector<std::string> outputs{header, source};
+    if (options.has_twin) {
+        outputs.push_back(twin);
+        write_if_changed(twin, emit_twin(kernel));
+    }
+    write_if_changed(options.depfile, emit_depfile(outputs, inputs));
     write_if_changed(header, emit_header(kernel));
     write_if_changed(source, emit_source(kernel));
 }

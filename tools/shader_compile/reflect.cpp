@@ -95,6 +95,39 @@ Access access_of(const Reader& reader, const Resource& buffer) {
     return no_write ? Access::read : no_read ? Access::write : Access::read_write;
 }
 
+/// The C++ type of a storage buffer's elements.
+std::string element_type(const Reader& reader, const SPIRType& block) {
+    const SPIRType& element = reader.without_array(reader.spirv.get_type(block.member_types.back()));
+    const std::string vector = element.vecsize > 1 ? fmt::format("vec{}", element.vecsize) : "";
+    switch (element.basetype) {
+    case SPIRType::Struct: {
+        const std::string name = reader.spirv.get_name(element.self);
+        return reader.shared_header(name) ? name : "void";
+    }
+    case SPIRType::UInt:
+        return vector.empty() ? "uint" : "u" + vector;
+    case SPIRType::Float:
+        return vector.empty() ? "float" : vector;
+    default:
+        return "void";
+    }
+}
+
+/// The included headers that C++ includes as well: what kernels work with, not their own text.
+std::vector<std::string> shared_headers(const Reader& reader) {
+    std::vector<std::string> headers;
+    for (const Source& source : reader.sources) {
+        for (const std::string& directory : reader.include_directories) {
+            const std::string path = std::filesystem::path(source.path).lexically_relative(directory).generic_string();
+            if (path.starts_with("shared/") && !path.starts_with("shared/kernels/")) {
+                headers.push_back(path);
+            }
+        }
+    }
+    std::sort(headers.begin(), headers.end());
+    return headers;
+}
+
 void add_record(const Reader& reader, const SPIRType& block, Reflection& result) {
     const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
     const SPIRType& member = reader.spirv.get_type(block.member_types[last]);
@@ -150,12 +183,12 @@ void read_buffers(const Reader& reader, Reflection& result) {
         }
         const SPIRType& block = reader.spirv.get_type(buffer->base_type_id);
         if (block.basetype == SPIRType::Image) {
-            result.bindings.push_back({buffer->name, Access::read, true});
+            result.bindings.push_back({buffer->name, Access::read, true, "uvec4"});
             continue;
         }
         const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
         result.bindings.push_back(
-            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer), false});
+            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer), false, element_type(reader, block)});
         add_record(reader, block, result);
     }
 }
@@ -297,6 +330,7 @@ Reflection reflect(const Compiled& compiled, const std::vector<std::string>& inc
         read_constants(reader, result);
         check_names(reader, result);
         result.uses_subgroups = uses_subgroups(spirv);
+        result.headers = shared_headers(reader);
         return result;
     } catch (const spirv_cross::CompilerError& error) {
         fail("{}:1: error: cannot reflect the SPIR-V: {}", compiled.sources.front().path, error.what());

@@ -25,6 +25,7 @@ struct Binding {
     std::string name; ///< of the block's last member
     Access access;
     bool texels = false; ///< a utextureBuffer
+    std::string type;    ///< of its elements, in C++; "void" if C++ does not see the type
 };
 
 struct Constant {
@@ -40,6 +41,7 @@ struct Reflection {
     std::string push_name;           ///< of the push constant block's one member
     std::vector<Constant> constants; ///< in the order of their ids
     std::vector<Record> records;     ///< elements of the storage buffers that C++ sees too, each once
+    std::vector<std::string> headers; ///< all included headers under shared/, as C++ includes them, but shared/kernels/
     std::array<std::uint32_t, 3> local_size;
     bool uses_subgroups;
 };

@@ -9,8 +9,6 @@ namespace argand::vulkan {
 
 namespace {
 
-constexpr double mebibyte = 1024.0 * 1024.0;
-
 /// Index of the memory type with the wanted properties, or with the required ones alone; UINT32_MAX if there is none.
 std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed, VkMemoryPropertyFlags required,
                           VkMemoryPropertyFlags wanted) {
@@ -27,18 +25,6 @@ std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed, VkMe
 }
 
 } // namespace
-
-void MemoryLedger::allocated(const std::string& name, std::uint64_t bytes) {
-    for (MemoryUse* use : {&by_name[name], &total}) {
-        use->current += bytes;
-        use->peak = std::max(use->peak, use->current);
-    }
-}
-
-void MemoryLedger::freed(const std::string& name, std::uint64_t bytes) {
-    by_name[name].current -= bytes;
-    total.current -= bytes;
-}
 
 LogicalDevice::~LogicalDevice() {
     if (handle) {
@@ -107,10 +93,7 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const s
     allocate.memoryTypeIndex = type;
     const VkResult result = vkAllocateMemory(device->handle, &allocate, nullptr, &storage->memory);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        fail("allocating {:.1f} MiB for '{}': the device is out of memory ({:.1f} MiB in use); use fewer photons, a "
-             "smaller picture or another device",
-             static_cast<double>(bytes) / mebibyte, storage->name,
-             static_cast<double>(ledger->total.current) / mebibyte);
+        fail_out_of_memory(*ledger, storage->name, bytes);
     }
     check(result, "allocating memory");
     check(vkBindBufferMemory(device->handle, storage->buffer, storage->memory, 0), "binding memory");

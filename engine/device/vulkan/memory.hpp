@@ -1,7 +1,7 @@
 #pragma once
 
 #include "device/buffer.hpp"
-#include "device/device.hpp"
+#include "device/memory_ledger.hpp"
 #include "device/vulkan/instance.hpp"
 
 #include <map>
@@ -20,15 +20,6 @@ struct LogicalDevice {
 };
 
 enum class MemoryKind : std::uint8_t { device, upload, download };
-
-/// Bytes in use by name of allocation.
-struct MemoryLedger {
-    std::map<std::string, MemoryUse> by_name;
-    MemoryUse total;
-
-    void allocated(const std::string& name, std::uint64_t bytes);
-    void freed(const std::string& name, std::uint64_t bytes);
-};
 
 struct VulkanBuffer final : BufferStorage {
     std::shared_ptr<LogicalDevice> device;

@@ -124,16 +124,7 @@ VkCommandBuffer VulkanDevice::commands() {
 }
 
 Buffer VulkanDevice::allocate(std::string name, std::uint64_t bytes) {
-    if (bytes > info_.limits.storage_range) {
-        fail("allocating '{}': {} bytes exceed the {} bytes that a kernel can address on '{}'; use fewer photons, a "
-             "smaller picture or another device",
-             name, bytes, info_.limits.storage_range, info_.name);
-    }
-    if (ledger_->total.current + bytes > info_.limits.memory) {
-        fail("allocating '{}': {} bytes more than the {} in use exceed the {} bytes of memory of '{}'; use fewer "
-             "photons, a smaller picture or another device",
-             name, bytes, ledger_->total.current, info_.limits.memory, info_.name);
-    }
+    check_allocation(info_, *ledger_, name, bytes);
     return Buffer(allocate_buffer(physical_, device_, ledger_, std::move(name), bytes, MemoryKind::device));
 }
 

@@ -80,4 +80,10 @@ private:
     Buffer download_staging_;
 };
 
+/// Vulkan's devices, in its own order.
+std::vector<DeviceInfo> list_devices();
+
+/// Opens the device at info.index of list_devices().
+std::unique_ptr<Device> open(DeviceInfo info);
+
 } // namespace argand::vulkan

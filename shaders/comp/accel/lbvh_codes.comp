@@ -1,7 +1,6 @@
 #version 460
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
-#include "accel/count.glsl"
 #include "shared/accel_records.h"
 #include "shared/morton.h"
 
@@ -12,13 +11,4 @@ layout(set = 0, binding = 3) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = 4) writeonly buffer Order { uint order[]; };
 layout(push_constant) uniform Push { AccelParams params; };
 
-// The 30-bit Morton code of each box's centre in the bounds of all.
-void main() {
-    uint i = THREAD_INDEX;
-    if (i >= ELEMENT_COUNT) {
-        return;
-    }
-    vec3 centre = 0.5 * boxes[2u * i].xyz + 0.5 * boxes[2u * i + 1u].xyz;
-    codes[i] = morton30(centre, bounds[0].xyz, bounds[1].xyz);
-    order[i] = i;
-}
+#include "shared/kernels/accel/lbvh_codes.h"

@@ -1,7 +1,6 @@
 #version 460
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
-#include "accel/forest.glsl"
 #include "shared/accel_records.h"
 
 layout(set = 0, binding = 0) readonly buffer Tree { uvec4 tree[]; };
@@ -10,62 +9,4 @@ layout(set = 0, binding = 2) readonly buffer Ranks { uint ranks[]; };
 layout(set = 0, binding = 3) writeonly buffer Nodes { uvec4 nodes[]; };
 layout(push_constant) uniform Push { AccelParams params; };
 
-// ranks: inclusive sums of what wide_roots.comp wrote.
-bool is_wide(uint node) { return ranks[node] != (node > 0u ? ranks[node - 1u] : 0u); }
-
-// The least power of two that `cells` cells of it reach over the extent, as a biased exponent.
-uint cell_exponent(float extent) {
-    uint bits = floatBitsToUint(max(extent, 0.0) / 255.0);
-    return clamp((bits + 0x7fffffu) >> 23u, 1u, 254u);
-}
-
-// Writes the four-wide tree's nodes, with their children's boxes rounded outwards to the grid's cells.
-void main() {
-    uint node = THREAD_INDEX;
-    if (node + 1u >= params.count.number || !is_wide(node)) {
-        return;
-    }
-    uint split = costs[node].w;
-    uint children[4];
-    uint parts[4];
-    children[0] = tree[4u * node].w;
-    children[1] = tree[2u * children[0] + 1u].w;        // what follows a left child is its sibling
-    parts[0] = left_part(split, 1u);
-    parts[1] = 4u - parts[0];
-    uint count = 2u;
-    for (uint i = 0u; i < count;) {
-        uint child = children[i];
-        uint child_split = (child & 1u) == 0u ? costs[child >> 1u].w : 0u;
-        uint size = (child & 1u) == 0u ? forest_size(child_split, parts[i]) : 1u;
-        if (size == 1u) {
-            ++i;
-        } else {
-            children[i] = tree[2u * child].w;
-            children[count] = tree[2u * children[i] + 1u].w;
-            parts[i] = left_part(child_split, size);
-            parts[count] = size - parts[i];
-            ++count;
-        }
-    }
-
-    vec3 low = uintBitsToFloat(tree[4u * node].xyz);
-    vec3 high = uintBitsToFloat(tree[4u * node + 1u].xyz);
-    uvec3 exponents = uvec3(cell_exponent(high.x - low.x), cell_exponent(high.y - low.y), cell_exponent(high.z - low.z));
-    vec3 cell = uintBitsToFloat(exponents << 23u);
-    uvec3 low_cells = uvec3(0u);
-    uvec3 high_cells = uvec3(0u);
-    uvec4 references = uvec4(lbvh_end);
-    for (uint i = 0u; i < count; ++i) {
-        uint child = children[i];
-        vec3 child_low = uintBitsToFloat(tree[2u * child].xyz);
-        vec3 child_high = uintBitsToFloat(tree[2u * child + 1u].xyz);
-        low_cells |= uvec3(clamp(floor((child_low - low) / cell), 0.0, 255.0)) << (8u * i);
-        high_cells |= uvec3(clamp(ceil((child_high - low) / cell), 0.0, 255.0)) << (8u * i);
-        references[i] = (child & 1u) == 0u ? 2u * (ranks[child >> 1u] - 1u) : child;
-    }
-    uint place = 4u * (ranks[node] - 1u);
-    nodes[place] = uvec4(floatBitsToUint(low), exponents.x | (exponents.y << 8u) | (exponents.z << 16u) | (count << 24u));
-    nodes[place + 1u] = uvec4(low_cells, high_cells.x);
-    nodes[place + 2u] = uvec4(high_cells.yz, 0u, 0u);
-    nodes[place + 3u] = references;
-}
+#include "shared/kernels/accel/ray_nodes.h"

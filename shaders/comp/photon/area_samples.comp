@@ -10,34 +10,4 @@ layout(set = 0, binding = 8) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 9) writeonly buffer Photons { PhotonRecord photons[]; };
 layout(push_constant) uniform Push { AreaSampleParams params; };
 
-// Points spread evenly over all surfaces: one at every step along the triangles' summed areas, and within a triangle by
-// a sequence of its own.
-void main() {
-    uint i = THREAD_INDEX;
-    if (i >= params.count || counters[counter_stored_slots] + i >= params.capacity) {
-        return;
-    }
-    uint target = i * params.step;
-    // The last triangle that begins at or before the target.
-    uint low = 0u;
-    uint high = params.triangle_count;
-    while (high - low > 1u) {
-        uint middle = low + (high - low) / 2u;
-        if (area_sums[middle] <= target) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    uint begin = area_sums[low];
-    uint first = begin / params.step + (begin % params.step > 0u ? 1u : 0u);
-    vec4 u = sobol_random4(params.seed, low, i - first, 0x80000000u);
-    vec2 b = sample_triangle(u.xy);
-    uvec4 t = triangles[low];
-    vec3 error;
-    vec3 p = hit_point(positions[t.x].xyz, positions[t.y].xyz, positions[t.z].xyz, b.x, b.y, error);
-    vec3 normal = normalize_or(cross3(positions[t.y].xyz - positions[t.x].xyz, positions[t.z].xyz - positions[t.x].xyz),
-                               vec3(0.0, 0.0, 1.0));
-    photons[counters[counter_stored_slots] + i] =
-        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit, params.area, 0.0, 0.0, 0u);
-}
+#include "shared/kernels/photon/area_samples.h"

@@ -8,37 +8,4 @@ layout(set = 0, binding = 0) readonly buffer Ledgers { FluxLedger ledgers[]; };
 layout(set = 0, binding = 1) buffer Sums { uint sums[]; };
 layout(push_constant) uniform Push { FluxSumParams params; };
 
-const uint ledgers_per_thread = 64u;
-
-// 64-bit sums of two words; integers, so that their order does not matter. The addend is signed.
-void add(uint index, uint value) {
-    if (value == 0u) {
-        return;
-    }
-    uint old = atomicAdd(sums[2u * index], value);
-    uint sign_extension = (value & 0x80000000u) != 0u ? 0xffffffffu : 0u;
-    atomicAdd(sums[2u * index + 1u], fixed_add(uvec2(old, 0u), uvec2(value, sign_extension)).y);
-}
-
-void main() {
-    uint first = THREAD_INDEX * ledgers_per_thread;
-    if (first >= params.count) {
-        return;
-    }
-    uvec4 emitted = uvec4(0u);
-    uvec4 absorbed = uvec4(0u);
-    uvec4 escaped = uvec4(0u);
-    uvec4 cut = uvec4(0u);
-    for (uint i = first; i < min(first + ledgers_per_thread, params.count); ++i) {
-        emitted += ledgers[i].emitted;
-        absorbed += ledgers[i].absorbed;
-        escaped += ledgers[i].escaped;
-        cut += ledgers[i].cut;
-    }
-    for (uint channel = 0u; channel < 3u; ++channel) {
-        add(channel, emitted[channel]);
-        add(3u + channel, absorbed[channel]);
-        add(6u + channel, escaped[channel]);
-        add(9u + channel, cut[channel]);
-    }
-}
+#include "shared/kernels/photon/flux_sum.h"

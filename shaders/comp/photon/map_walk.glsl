@@ -1,5 +1,4 @@
-// Walking a photon map: its tree in depth-first order, by escape references, from leaf to leaf. TEXELS (0 or 1) says
-// through what the map is read.
+// The photon map. TEXELS (0 or 1) says through what it is read.
 #include "shared/accel_records.h"
 #include "shared/photon.h"
 
@@ -15,54 +14,3 @@ layout(set = 0, binding = 1) readonly buffer Photons { uvec4 photons[]; };
 #define PHOTONS(i) photons[i]
 #endif
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
-
-uint walk_end = lbvh_end;   // the node at which the walk is over
-
-// Where the walk through a part of the map begins; walk_end is set.
-uint first_node(uint part) {
-    uint leaves = counters[counter_leaves];
-    uint root = leaves == 0u ? lbvh_end : leaves == 1u ? 1u : 0u;
-    walk_end = lbvh_end;
-    if (part == map_whole || root == lbvh_end) {
-        return root;
-    }
-    bool first_caustic = photon_is_caustic(PHOTONS(0u).w);
-    bool last_caustic = photon_is_caustic(PHOTONS(2u * (counters[counter_stored] - 1u)).w);
-    if (first_caustic == last_caustic) {
-        return first_caustic == (part == map_caustic) ? root : lbvh_end;
-    }
-    uint others = NODES(0u).w;
-    uint caustic = NODES(2u * others + 1u).w;
-    if (part == map_caustic) {
-        return caustic;
-    }
-    walk_end = caustic;
-    return others;
-}
-
-// A leaf's photons: first <= i < end.
-struct PhotonRange {
-    uint first, end;
-};
-
-// The next leaf, from `node` on, that a ball about p reaches; empty at the tree's end or after `limit` steps. Apart from
-// the photons' loop, so that all lanes of a subgroup look for a leaf, and then go through theirs together: 2.2 times as
-// fast on lavapipe.
-PhotonRange next_leaf(vec3 p, float radius2, uint limit, inout uint node, inout uint steps) {
-    PhotonRange range = PhotonRange(0u, 0u);
-    while (range.end == 0u && node != lbvh_end && steps < limit) {
-        ++steps;
-        uvec4 low = NODES(2u * node);
-        uvec4 high = NODES(2u * node + 1u);
-        vec3 outside = max(max(uintBitsToFloat(low.xyz) - p, p - uintBitsToFloat(high.xyz)), vec3(0.0));
-        bool near = dot3(outside, outside) <= radius2;
-        bool leaf = (node & 1u) != 0u;
-        if (near && leaf) {
-            uint first = low.w & leaf_first_mask;
-            range = PhotonRange(first, first + (low.w >> leaf_first_bits) + 1u);
-        }
-        node = near && !leaf ? low.w : high.w;
-        node = node == walk_end ? lbvh_end : node;
-    }
-    return range;
-}

@@ -13,27 +13,4 @@ layout(set = 0, binding = 5) writeonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 6) writeonly buffer AreaPlaces { uint area_places[]; };
 layout(push_constant) uniform Push { FootprintParams params; };
 
-// Footprints in the order of the map, as dual axes, and their areas in shares of the scene's. Area samples, whose
-// footprints are their neighbours', are listed for area_footprints.comp: few among many, they would keep all lanes waiting.
-void main() {
-    uint i = THREAD_INDEX;
-    if (i >= counters[counter_stored]) {
-        return;
-    }
-    uint slot = order[i];
-    uint packed = photons[slot].normal;
-    if ((packed & area_sample_bit) != 0u) {
-        area_places[atomicAdd(counters[counter_area_places], 1u)] = i;
-        shares[i] = 0u;
-        return;
-    }
-    PhotonDifferential d = no_differential();
-    d.dp_du = unpack_dual(offsets[slot].x, offsets[slot].y);
-    d.dp_dv = unpack_dual(offsets[slot].z, offsets[slot].w);
-    vec3 normal = unpack_photon_normal(packed);
-    Footprint f = make_footprint(d, normal, photon_is_caustic(packed), params.scale);
-    float share = footprint_area(f) * params.inverse_surface_area * float(area_shares);
-    FootprintDuals duals = footprint_duals(f, normal);
-    footprints[i] = uvec4(pack_dual(duals.a), pack_dual(duals.b));
-    shares[i] = uint(min(share, float(area_shares)) + 0.5);
-}
+#include "shared/kernels/photon/photon_footprints.h"

@@ -10,41 +10,4 @@ layout(set = 0, binding = 2) writeonly buffer Leaves { uint leaves[]; };
 layout(set = 0, binding = 3) writeonly buffer Heads { uint heads[]; };
 layout(push_constant) uniform Push { PhotonLeafParams params; };
 
-// The largest subtree of at most leaf_size photons around each photon, of which the first one is the head: these are the
-// leaves that are left where splits below the threshold are undone (Fabianowski and Dingliana 2009, §6.2), and their
-// number is known before the tree is built.
-void main() {
-    uint i = THREAD_INDEX;
-    uint stored = counters[counter_stored];
-    if (i >= stored) {
-        return;
-    }
-    uint first = i;
-    uint last = i;
-    for (;;) {
-        uint before = first > 0u ? distances[first - 1u] : no_neighbour;
-        uint after = distances[last];
-        uint split = min(before, after);
-        // Caustic photons and others are parted at the root, and never in one leaf.
-        if (split >= kind_distance) {
-            break;
-        }
-        // The parent reaches as far as neighbours are no farther apart than its two children.
-        uint parent_first = first;
-        uint parent_last = last;
-        while (parent_last - parent_first < params.leaf_size && distances[parent_last] <= split) {
-            ++parent_last;
-        }
-        while (parent_last - parent_first < params.leaf_size && parent_first > 0u &&
-               distances[parent_first - 1u] <= split) {
-            --parent_first;
-        }
-        if (parent_last - parent_first >= params.leaf_size) {
-            break;
-        }
-        first = parent_first;
-        last = parent_last;
-    }
-    leaves[i] = first | ((last - first) << leaf_first_bits);
-    heads[i] = first == i ? 1u : 0u;
-}
+#include "shared/kernels/photon/photon_leaves.h"

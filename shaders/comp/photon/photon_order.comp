@@ -8,10 +8,4 @@ layout(set = 0, binding = 1) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) writeonly buffer Sorted { PhotonRecord sorted[]; };
 
-// Photons in the order of their codes.
-void main() {
-    uint i = THREAD_INDEX;
-    if (i < counters[counter_stored]) {
-        sorted[i] = photons[order[i]];
-    }
-}
+#include "shared/kernels/photon/photon_order.h"

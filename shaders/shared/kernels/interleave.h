@@ -1,6 +1,6 @@
 // CPU devices give each core one contiguous half of a dispatch: taking pixels alternately from the two halves of the
 // picture, in blocks, keeps both busy to the end.
-uint interleave(uint i, uint count) {
+FN uint interleave(uint i, uint count) {
     const uint block = 64u;
     uint blocks = count / block;
     if (i >= blocks * block) {

@@ -1,5 +1,5 @@
 // Adding to the layers of a path; needs a buffer `layers`.
-void add_to_layer(uint slot, uint layer, vec3 radiance) {
+FN void add_to_layer(uint slot, uint layer, vec3 radiance) {
     if (layer == layer_direct) {
         layers[slot].direct_r += radiance.x;
         layers[slot].direct_g += radiance.y;

@@ -1,0 +1,42 @@
+#include "base/machine.hpp"
+
+#include <fstream>
+
+#ifdef _WIN32
+#define NOMINMAX
+#include <windows.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace argand {
+
+std::uint64_t physical_memory() {
+#ifdef _WIN32
+    MEMORYSTATUSEX status{};
+    status.dwLength = sizeof(status);
+    if (GlobalMemoryStatusEx(&status) != 0) {
+        return status.ullTotalPhys;
+    }
+#else
+    const long pages = sysconf(_SC_PHYS_PAGES);
+    const long page = sysconf(_SC_PAGE_SIZE);
+    if (pages > 0 && page > 0) {
+        return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
+    }
+#endif
+    return std::uint64_t(2) << 30;
+}
+
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "processor";
+}
+
+} // namespace argand

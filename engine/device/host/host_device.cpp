@@ -1,0 +1,133 @@
+#include "device/host/host_device.hpp"
+
+#include "base/error.hpp"
+#include "base/machine.hpp"
+#include "device/twin.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <omp.h>
+
+namespace argand::host {
+
+namespace {
+
+constexpr std::align_val_t alignment{64};
+// Invocations that a core takes at a time: neighbours, as they read the same memory.
+constexpr std::uint64_t chunk = 64;
+
+HostBuffer& host(const Buffer& buffer) { return static_cast<HostBuffer&>(*buffer.storage()); }
+
+std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size : view.buffer->size() - view.offset; }
+
+TwinArguments twin_arguments(const KernelArguments& arguments) {
+    TwinArguments result;
+    for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
+        result.buffers[i] = host(*arguments.buffers[i]).bytes + arguments.offsets[i];
+    }
+    std::copy(arguments.push.begin(), arguments.push.end(), result.push);
+    std::copy(arguments.constants.begin(), arguments.constants.end(), result.constants);
+    return result;
+}
+
+} // namespace
+
+DeviceInfo describe() {
+    DeviceInfo info;
+    info.backend = "cpu";
+    info.name = processor_name();
+    info.driver = fmt::format("{} threads", omp_get_max_threads());
+    info.kind = DeviceKind::cpu;
+    info.features.timestamps = true;
+    info.limits.memory = physical_memory();
+    info.limits.storage_range = info.limits.memory;
+    // No kernel works in groups here.
+    info.limits.invocations = UINT32_MAX;
+    info.limits.shared_memory = UINT32_MAX;
+    info.limits.storage_buffers = max_bindings;
+    info.limits.groups = UINT32_MAX;
+    return info;
+}
+
+HostBuffer::~HostBuffer() {
+    ::operator delete(bytes, alignment);
+    if (allocated > 0) {
+        ledger->freed(name, allocated);
+    }
+}
+
+Buffer HostDevice::allocate(std::string name, std::uint64_t bytes) {
+    check_allocation(info_, *ledger_, name, bytes);
+    auto storage = std::make_shared<HostBuffer>();
+    storage->name = std::move(name);
+    storage->size = bytes;
+    storage->ledger = ledger_;
+    // Kernels read fours of 32-bit words, of buffers of no elements too.
+    const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
+    storage->bytes = static_cast<std::byte*>(::operator new(rounded, alignment, std::nothrow));
+    if (storage->bytes == nullptr) {
+        fail_out_of_memory(*ledger_, storage->name, bytes);
+    }
+    storage->allocated = rounded;
+    ledger_->allocated(storage->name, rounded);
+    return Buffer(std::move(storage));
+}
+
+void HostDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
+    std::copy(data.begin(), data.end(), host(to).bytes + offset);
+}
+
+void HostDevice::fill(const BufferView& to, std::uint32_t value) {
+    auto* words = reinterpret_cast<std::uint32_t*>(host(*to.buffer).bytes + to.offset);
+    std::fill_n(words, size_of(to) / sizeof(std::uint32_t), value);
+}
+
+void HostDevice::copy(const BufferView& from, const BufferView& to) {
+    std::memmove(host(*to.buffer).bytes + to.offset, host(*from.buffer).bytes + from.offset,
+                 std::min(size_of(from), size_of(to)));
+}
+
+void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
+    if (kernel.host == nullptr) {
+        fail("running kernel {}: it has no twin for backend cpu; please report this", kernel.name);
+    }
+    const TwinArguments twin = twin_arguments(arguments);
+    const auto chunks = static_cast<std::int64_t>((threads + chunk - 1) / chunk);
+#pragma omp parallel for schedule(dynamic) if (chunks > 1)
+    for (std::int64_t i = 0; i < chunks; ++i) {
+        const std::uint64_t first = static_cast<std::uint64_t>(i) * chunk;
+        kernel.host(twin, first, std::min(first + chunk, threads));
+    }
+}
+
+void HostDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                                   std::uint32_t count_index) {
+    std::uint32_t threads = 0;
+    std::memcpy(&threads, host(counts).bytes + count_index * sizeof(std::uint32_t), sizeof(threads));
+    dispatch(kernel, arguments, threads);
+}
+
+void HostDevice::download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
+    std::copy_n(host(from).bytes + offset, data.size(), data.begin());
+}
+
+void HostDevice::begin_stage(std::string_view name) {
+    stage_ = name;
+    stage_start_ = std::chrono::steady_clock::now();
+}
+
+void HostDevice::end_stage() {
+    if (!info_.features.timestamps) {
+        return;
+    }
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - stage_start_;
+    auto found = std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.name == stage_; });
+    if (found == times_.end()) {
+        found = times_.insert(times_.end(), {stage_, 0, 0});
+    }
+    found->seconds += spent.count();
+    ++found->runs;
+}
+
+} // namespace argand::host

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "device/device.hpp"
+#include "device/host/host_primitives.hpp"
+#include "device/memory_ledger.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace argand::host {
+
+/// Memory of the host, aligned to a cache line.
+struct HostBuffer final : BufferStorage {
+    std::byte* bytes = nullptr;
+    std::uint64_t allocated = 0;        ///< bytes counted in the ledger
+    std::shared_ptr<MemoryLedger> ledger;
+
+    ~HostBuffer() override;
+};
+
+/// Describes the host's cores as a device.
+DeviceInfo describe();
+
+/// Runs the kernels' twins on the host's cores. Nothing is put off: what is recorded is done.
+class HostDevice final : public Device {
+public:
+    explicit HostDevice(DeviceInfo info) : info_(std::move(info)) {}
+
+    const DeviceInfo& info() const override { return info_; }
+    Buffer allocate(std::string name, std::uint64_t bytes) override;
+    void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
+    void fill(const BufferView& to, std::uint32_t value) override;
+    void copy(const BufferView& from, const BufferView& to) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                           std::uint32_t count_index) override;
+    Primitives* primitives() override { return &primitives_; }
+    void submit() override {}
+    void wait() override {}
+    void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override;
+    void begin_stage(std::string_view name) override;
+    void end_stage() override;
+    std::vector<StageTime> stage_times() override { return times_; }
+    void reset_stage_times() override { times_.clear(); }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override { return ledger_->by_name; }
+    MemoryUse memory() const override { return ledger_->total; }
+    std::vector<std::string> validation_messages() const override { return {}; }
+
+private:
+    DeviceInfo info_;
+    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
+    HostPrimitives primitives_;
+    std::vector<StageTime> times_;
+    std::string stage_;
+    std::chrono::steady_clock::time_point stage_start_;
+};
+
+} // namespace argand::host

@@ -1,0 +1,10 @@
+// Whether each ray meets any triangle.
+
+// Nothing is known yet of a ray that goes on.
+FN void load_result(uint, INOUT(HitRecord)) {}
+FN void store_result(uint ray, HitRecord hit) {
+    occluded[ray] = hit.triangle != no_triangle || hit.t < real(0.0) ? 1u : 0u;
+}
+
+#define ANY_HIT 1
+#include "shared/kernels/accel/traverse.h"

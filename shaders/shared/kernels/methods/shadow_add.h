@@ -1,0 +1,18 @@
+#include "shared/kernels/layers.h"
+
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counts[0]) {
+        return;
+    }
+    uint slot = active_slots[i];
+    if (occluded[slot] != 0u) {
+        return;
+    }
+    ShadowRecord s = shadows[slot];
+    add_to_layer(slot, s.estimated_layer, vec3(s.estimated_r, s.estimated_g, s.estimated_b));
+    vec3 followed = vec3(s.followed_r, s.followed_g, s.followed_b);
+    if (followed != vec3(real(0.0))) {
+        add_to_layer(slot, s.followed_layer, followed);
+    }
+}

@@ -1,0 +1,389 @@
+// Density estimation over the k nearest photons within r_max (Jensen 1996), exactly: ties go to the photon that comes
+// first in the map. WORD(i) is the i-th of nearest_words words that a query works with.
+//
+// There is no heap: it takes k words of memory a query, and each insertion is a chain of dependent reads that lanes of a
+// subgroup go through at different lengths. A first walk counts photons by distance in a histogram, whose bins are ranges
+// of the bits of squared distances, and shrinks its radius whenever the bins below hold k. The bin of the k-th nearest
+// holds few photons (else it is divided, and they are counted again). A second walk adds up what is surely nearer, and
+// puts that bin's few photons in a list, from which the rest is selected. As the kernel is linear in the squared
+// distance, sums of flux and of flux times squared distance do not need to know its radius beforehand.
+#include "shared/kernels/photon/query.h"
+
+// Bin 0: bits < low; bin i: low + (i - 1 .. i) << shift, none of `high` or more.
+struct Search {
+    uint phase;
+    uint low, high, shift;
+    uint top;               // the bin that holds the k-th nearest of those counted so far
+    uint total;             // photons in bins 0 to top
+    uint start, stop;       // photons of the leaf where the walk began, if it has to go around, and where it ends
+    // Of the second walk: bits below low are taken, those from low on, below high, are candidates.
+    uint missing;           // candidates to be taken
+    uint taken, last;       // those that have been, if their distances are all the same; the last one
+    uint listed;
+    bool overflown;         // the list
+    Sum indirect_moment, caustic_moment;        // flux times squared distance, in units of `unit`
+    real coverage_moment;
+};
+
+FN real squared_distance(Query q, vec3 d) {
+    real height = dot3(d, q.normal);
+    return dot3(d, d) + nearest_stretch * (height * height);
+}
+
+FN uint bin_start(Search s, uint bin) {
+    return bin == 0u ? 0u : min(s.low + ((bin - 1u) << s.shift), s.high);
+}
+
+// The leaf that a descent towards the nearer box leads to.
+FN uint near_leaf(vec3 p, INOUT(uint) steps) {
+    uint node = first_node(params.part);
+    while (node != lbvh_end && (node & 1u) == 0u) {
+        ++steps;
+        uint left = NODES(2u * node).w;
+        uvec4 low = NODES(2u * left);
+        uvec4 high = NODES(2u * left + 1u);
+        uint right = high.w;
+        vec3 to_left = max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+        low = NODES(2u * right);
+        high = NODES(2u * right + 1u);
+        vec3 to_right = max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+        node = dot3(to_left, to_left) <= dot3(to_right, to_right) ? left : right;
+    }
+    return node;
+}
+
+FN void clear_bins() {
+    for (uint i = 0u; i < nearest_words; ++i) {
+        WORD(i) = 0u;
+    }
+}
+
+// Bins for the whole ball of r_max. The walk begins near the query, so that its radius shrinks soon.
+FN void start_counting(INOUT(Query) q, OUT(Search) s, INOUT(uint) steps) {
+    s.phase = nearest_counts;
+    s.high = float_bits(params.radius * params.radius);
+    s.shift = nearest_first_shift;
+    uint span = (nearest_words - 1u) << s.shift;
+    s.low = s.high > span ? s.high - span : 0u;
+    s.top = nearest_words - 1u;
+    s.total = 0u;
+    q.node = near_leaf(q.p, steps);
+    s.start = q.node == lbvh_end ? nearest_none : NODES(2u * q.node).w & leaf_first_mask;
+    s.stop = nearest_none;
+    clear_bins();
+}
+
+// Bins for what lies in [low, high) only, where the k-th nearest is.
+FN void zoom(INOUT(Query) q, INOUT(Search) s, uint low, uint high) {
+    s.phase = nearest_counts;
+    s.high = high;
+    s.low = low;
+    if (low == 0u) {
+        // All that is left, of whatever magnitude.
+        s.shift = uint(max(findMSB(high) - 5, 0));
+    } else {
+        s.shift = max(s.shift, nearest_zoom_bits) - nearest_zoom_bits;
+    }
+    s.top = nearest_words - 1u;
+    s.total = 0u;
+    s.start = nearest_none;
+    s.stop = nearest_none;
+    q.node = first_node(params.part);
+    clear_bins();
+}
+
+// False: it is not at its end.
+FN bool count_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
+    uint bound = bin_start(s, s.top + 1u);
+    for (;;) {
+        PhotonRange range = next_leaf(q.p, bits_float(bound), params.budget, q.node, steps);
+        if (range.end == 0u && q.node != lbvh_end) {
+            return false;
+        }
+        if (range.end == 0u || range.first >= s.stop) {
+            q.node = lbvh_end;
+            if (s.start == nearest_none) {
+                return true;
+            }
+            s.stop = s.start;
+            s.start = nearest_none;
+            q.node = first_node(params.part);
+            continue;
+        }
+        steps += range.end - range.first;
+        for (uint j = range.first; j < range.end; ++j) {
+            uvec4 place = PHOTONS(2u * j);
+            uint bits = float_bits(squared_distance(q, bits_float(uvec3(place)) - q.p));
+            if (bits < bound && (place.w & area_sample_bit) == 0u && on_same_side(q, place.w)) {
+                uint bin = bits < s.low ? 0u : 1u + ((bits - s.low) >> s.shift);
+                WORD(bin) += 1u;
+                ++s.total;
+            }
+        }
+        while (s.total >= params.neighbours && s.total - WORD(s.top) >= params.neighbours) {
+            s.total -= WORD(s.top);
+            --s.top;
+        }
+        bound = bin_start(s, s.top + 1u);
+    }
+}
+
+// After a count: on to the sums, or to another count.
+FN void judge_count(INOUT(Query) q, INOUT(Search) s) {
+    bool all = s.total < params.neighbours;
+    uint in_top = WORD(s.top);
+    uint low = all ? s.high : bin_start(s, s.top);
+    uint high = all ? s.high : bin_start(s, s.top + 1u);
+    if (!all && high - low > 1u && in_top > nearest_listed) {
+        zoom(q, s, low, high);
+        return;
+    }
+    s.phase = nearest_sums;
+    s.missing = all ? 0u : params.neighbours - (s.total - in_top);
+    s.low = low;
+    s.high = high;
+    s.taken = 0u;
+    s.listed = 0u;
+    s.last = nearest_none;
+    s.overflown = false;
+    s.indirect_moment = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    s.caustic_moment = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    s.coverage_moment = real(0.0);
+    q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    q.coverage = real(0.0);
+    q.node = first_node(params.part);
+}
+
+FN real least_r2() {
+    return max(nearest_least * nearest_least * (params.radius * params.radius), nearest_least_square);
+}
+
+// The same for both walks. False: it is not at its end.
+FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
+    bool one_distance = s.high - s.low == 1u;
+    real radius2 = bits_float(s.high);
+    real inverse_unit = real(1.0) / max(radius2, least_r2());
+    for (;;) {
+        PhotonRange range = next_leaf(q.p, radius2, params.budget, q.node, steps);
+        if (range.end == 0u) {
+            return q.node == lbvh_end;
+        }
+        vec3 indirect = vec3(real(0.0));
+        vec3 indirect_moment = vec3(real(0.0));
+        vec3 caustic = vec3(real(0.0));
+        vec3 caustic_moment = vec3(real(0.0));
+        steps += range.end - range.first;
+        for (uint j = range.first; j < range.end; ++j) {
+            uvec4 place = PHOTONS(2u * j);
+            real d2 = squared_distance(q, bits_float(uvec3(place)) - q.p);
+            uint bits = float_bits(d2);
+            if (bits >= s.high || !on_same_side(q, place.w)) {
+                continue;
+            }
+            bool is_area = (place.w & area_sample_bit) != 0u;
+            if (bits >= s.low) {
+                if (!one_distance) {
+                    if (s.listed < nearest_listed) {
+                        WORD(2u * s.listed) = bits;
+                        WORD(2u * s.listed + 1u) = j | (place.w & area_sample_bit);
+                        ++s.listed;
+                    } else {
+                        s.overflown = true;
+                    }
+                    continue;
+                }
+                if (!is_area) {
+                    if (s.taken == s.missing) {
+                        continue;
+                    }
+                    ++s.taken;
+                    s.last = j;
+                }
+            }
+            uvec4 carried = PHOTONS(2u * j + 1u);
+            real share = d2 * inverse_unit;
+            if (is_area) {
+                real area = bits_float(carried.x);
+                q.coverage += area;
+                s.coverage_moment += area * share;
+            } else {
+                vec3 term = scattered(q, carried);
+                if (photon_is_caustic(place.w)) {
+                    caustic += term;
+                    caustic_moment += term * share;
+                } else {
+                    indirect += term;
+                    indirect_moment += term * share;
+                }
+            }
+        }
+        add(q.indirect, indirect);
+        add(s.indirect_moment, indirect_moment);
+        add(q.caustic, caustic);
+        add(s.caustic_moment, caustic_moment);
+    }
+}
+
+// Bits of the squared distance of the last candidate to be taken, which becomes s.last.
+FN uint select_last(INOUT(Search) s) {
+    for (uint i = 0u; i < s.listed; ++i) {
+        uint bits = WORD(2u * i);
+        uint index = WORD(2u * i + 1u);
+        uint before = 0u;
+        for (uint j = 0u; j < s.listed; ++j) {
+            uint other = WORD(2u * j);
+            bool is_area = (WORD(2u * j + 1u) & area_sample_bit) != 0u;
+            before += !is_area && (other < bits || (other == bits && j < i)) ? 1u : 0u;
+        }
+        if ((index & area_sample_bit) == 0u && before + 1u == s.missing) {
+            s.last = index;
+            return bits;
+        }
+    }
+    return s.high;      // with nothing missing
+}
+
+FN void finish(Query q, INOUT(Search) s) {
+    bool one_distance = s.high - s.low == 1u;
+    real unit = max(bits_float(s.high), least_r2());
+    uint last_bits = one_distance ? s.low : select_last(s);
+    // Photons lie in a disc to whose edge the k-th nearest belongs, with no weight: so the mean is right where they are
+    // spread evenly, (k - 1) / (π r²) being the unbiased estimate of their density. Fewer than k: the disc of r_max.
+    real r2 = max(bits_float(last_bits), least_r2());
+    real inverse_r2 = real(1.0) / r2;
+    real ratio = unit * inverse_r2;
+    // What is taken away is at most as much, but for rounding.
+    vec3 indirect = max(q.indirect.value - s.indirect_moment.value * ratio, vec3(real(0.0)));
+    vec3 caustic = max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0)));
+    real coverage = max(q.coverage - s.coverage_moment * ratio, real(0.0));
+    for (uint i = 0u; i < s.listed; ++i) {
+        uint bits = WORD(2u * i);
+        uint index = WORD(2u * i + 1u);
+        bool is_area = (index & area_sample_bit) != 0u;
+        index &= ~area_sample_bit;
+        if (bits > last_bits || (bits == last_bits && !is_area && index > s.last)) {
+            continue;
+        }
+        real weight = kernel_weight(bits_float(bits) * inverse_r2);
+        uvec4 carried = PHOTONS(2u * index + 1u);
+        if (is_area) {
+            coverage += bits_float(carried.x) * weight;
+        } else if (photon_is_caustic(PHOTONS(2u * index).w)) {
+            caustic += scattered(q, carried) * weight;
+        } else {
+            indirect += scattered(q, carried) * weight;
+        }
+    }
+    real density = kernel_scale * inverse_r2;
+    // Few samples do not tell how much of a disc lies on surfaces; where photons are so dense, edges matter little.
+    real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
+    real trust = clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
+    real scale = params.boundary_correction != 0u ? mix(real(1.0), real(1.0) / max(coverage * density, least_coverage), trust) : real(1.0);
+    store_estimate(q, scale * density * indirect, scale * density * caustic);
+    s.low = last_bits;
+    s.phase = nearest_done;
+}
+
+FN void put_aside(uint place, Query q, Search s) {
+    NearestRecord r;
+    r.phase = s.phase;
+    r.low = s.low;
+    r.high = s.high;
+    r.shift = s.shift;
+    r.top = s.top;
+    r.total = s.total;
+    r.node = q.node;
+    r.start = s.start;
+    r.stop = s.stop;
+    r.missing = s.missing;
+    r.taken = s.taken;
+    r.listed = s.listed;
+    r.last = s.last;
+    r.coverage = q.coverage;
+    r.coverage_moment = s.coverage_moment;
+    r.overflown = s.overflown ? 1u : 0u;
+    r.indirect = vec4(q.indirect.value, real(0.0));
+    r.indirect_compensation = vec4(q.indirect.compensation, real(0.0));
+    r.caustic = vec4(q.caustic.value, real(0.0));
+    r.caustic_compensation = vec4(q.caustic.compensation, real(0.0));
+    r.indirect_moment = vec4(s.indirect_moment.value, real(0.0));
+    r.indirect_moment_compensation = vec4(s.indirect_moment.compensation, real(0.0));
+    r.caustic_moment = vec4(s.caustic_moment.value, real(0.0));
+    r.caustic_moment_compensation = vec4(s.caustic_moment.compensation, real(0.0));
+    states[place] = r;
+    for (uint i = 0u; i < nearest_words; ++i) {
+        suspended_words[i * params.places + place] = WORD(i);
+    }
+}
+
+FN void resume(uint place, INOUT(Query) q, OUT(Search) s) {
+    NearestRecord r = states[place];
+    s.phase = r.phase;
+    s.low = r.low;
+    s.high = r.high;
+    s.shift = r.shift;
+    s.top = r.top;
+    s.total = r.total;
+    q.node = r.node;
+    s.start = r.start;
+    s.stop = r.stop;
+    s.missing = r.missing;
+    s.taken = r.taken;
+    s.listed = r.listed;
+    s.last = r.last;
+    q.coverage = r.coverage;
+    s.coverage_moment = r.coverage_moment;
+    s.overflown = r.overflown != 0u;
+    q.indirect = Sum(vec3(r.indirect), vec3(r.indirect_compensation));
+    q.caustic = Sum(vec3(r.caustic), vec3(r.caustic_compensation));
+    s.indirect_moment = Sum(vec3(r.indirect_moment), vec3(r.indirect_moment_compensation));
+    s.caustic_moment = Sum(vec3(r.caustic_moment), vec3(r.caustic_moment_compensation));
+    for (uint i = 0u; i < nearest_words; ++i) {
+        WORD(i) = suspended_words[i * params.places + place];
+    }
+}
+
+FN void main() {
+    uint place = THREAD_INDEX;
+    uint i = params.first_query + place;
+    if (i >= counts[params.count_index] || (params.places > 0u && place >= params.places)) {
+        return;
+    }
+    if (params.first == 0u && states[place].phase == nearest_done) {
+        return;
+    }
+    Query q = make_query(active_slots[i]);
+    Search s;
+    uint steps = 0u;
+    if (params.first != 0u) {
+        start_counting(q, s, steps);
+    } else {
+        resume(place, q, s);
+    }
+    bool ended;
+    for (;;) {
+        ended = true;
+        // All lanes of a subgroup count, and then all of them add up.
+        while (ended && s.phase == nearest_counts) {
+            ended = count_photons(q, s, steps);
+            if (ended) {
+                judge_count(q, s);
+            }
+        }
+        ended = ended && sum_photons(q, s, steps);
+        if (!ended || !s.overflown) {
+            break;
+        }
+        // Too many area samples among the candidates.
+        zoom(q, s, s.low, s.high);
+    }
+    if (ended) {
+        finish(q, s);
+    } else {
+        atomicAdd(unfinished[0], 1u);
+    }
+    if (params.places > 0u) {
+        put_aside(place, q, s);
+    }
+}

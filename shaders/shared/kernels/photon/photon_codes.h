@@ -1,0 +1,22 @@
+// Along the space-filling curve, caustic photons behind the others. Empty slots get the largest code and end up behind all.
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counters[counter_stored_slots]) {
+        return;
+    }
+    PhotonRecord p = photons[i];
+    vec3 center = vec3(scene[0].center_x, scene[0].center_y, scene[0].center_z);
+    vec3 low = center - scene[0].radius;
+    vec3 high = center + scene[0].radius;
+    vec3 position = vec3(p.x, p.y, p.z);
+    bool empty = p.normal == no_photon;
+    uint kind = photon_is_caustic(p.normal) ? photon_kind_bit : 0u;
+    if (wide) {
+        uvec2 code = morton63(position, low, high);
+        codes[2u * i] = empty ? no_photon : code.x;
+        codes[2u * i + 1u] = empty ? no_photon : code.y | kind;
+    } else {
+        codes[i] = empty ? no_photon : (morton30(position, low, high) << 1u) | kind;
+    }
+    order[i] = i;
+}

@@ -1,0 +1,91 @@
+// What all kinds of density estimation at the eye's queries have in common: reading a query, what its surface scatters of
+// a photon's flux, and writing the estimate.
+#include "shared/kernels/photon/map_walk.h"
+
+// Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
+struct Sum {
+    vec3 value, compensation;
+};
+
+FN void add(INOUT(Sum) sum, vec3 term) {
+    vec3 y = term - sum.compensation;
+    vec3 t = sum.value + y;
+    sum.compensation = (t - sum.value) - y;
+    sum.value = t;
+}
+
+struct Query {
+    uint slot;
+    vec3 p;
+    vec3 normal;            // geometric, towards the eye
+    bool front;             // the surface is seen from its front
+    uint own_normal;        // packed as photons' are
+    uint front_normal;      // that of the surface's front, as area samples have it
+    MaterialRecord material;
+    uint lobes;
+    uint most_scatterings;  // of a photon that counts (final_gather)
+    bool lambertian;
+    vec3 reflectance;       // if lambertian, over pi
+    Frame frame;            // of the shading normal
+    vec3 wo;
+    Sum indirect, caustic;
+    real coverage;         // sum of the weighted areas
+    uint node;              // to go on with
+};
+
+// The query of a slot, before its walk.
+FN Query make_query(uint slot) {
+    Query q;
+    q.slot = slot;
+    QueryRecord record = queries[slot];
+    q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    q.coverage = real(0.0);
+    q.node = first_node(params.part);
+    q.material = materials[record.material];
+    q.material.coverage = blended ? q.material.coverage : real(1.0);
+    q.material.exponent = phong ? q.material.exponent : -real(1.0);
+    q.lobes = record.lobes;
+    q.most_scatterings = (record.flags >> query_scatterings_shift) & query_scatterings_mask;
+    bool white = (record.flags & query_white) != 0u;
+    q.lambertian = !glossy || white || is_lambertian(q.material);
+    q.p = vec3(record.x, record.y, record.z);
+    q.normal = unpack_unit(record.geometric_normal);
+    q.front = (record.flags & query_front) != 0u;
+    q.own_normal = pack_photon_normal(q.normal, false);
+    q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
+    q.frame = make_frame(unpack_unit(record.shading_normal));
+    q.wo = to_local(q.frame, unpack_unit(record.direction));
+    q.reflectance = white          ? vec3(INV_PI)
+                    : q.lambertian ? bsdf_eval(q.material, q.wo, vec3(real(0.0), real(0.0), real(1.0)), q.lobes)
+                                   : vec3(real(0.0));
+    return q;
+}
+
+// Whether a photon's or an area sample's packed normal is that of the query's surface, on its side.
+FN bool on_same_side(Query q, uint packed) {
+    bool is_area = (packed & area_sample_bit) != 0u;
+    // On flat surfaces the packed normals are the same, and nothing need be unpacked.
+    if ((packed & photon_normal_mask) == (is_area ? q.front_normal : q.own_normal)) {
+        return true;
+    }
+    real cosine = dot3(unpack_photon_normal(packed), q.normal);
+    return (is_area && !q.front ? -cosine : cosine) >= same_surface_cosine;
+}
+
+// Of a photon's flux and direction, what the surface scatters towards the eye.
+FN vec3 scattered(Query q, uvec4 carried) {
+    if (final_gather && photon_scatterings(carried.w) > q.most_scatterings) {
+        return vec3(real(0.0));
+    }
+    vec3 flux = bits_float(uvec3(carried));
+    if (q.lambertian) {
+        return flux * q.reflectance;
+    }
+    vec3 wi = to_local(q.frame, unpack_unit(carried.w));
+    return flux * (wi.z > real(0.0) ? bsdf_eval(q.material, q.wo, wi, q.lobes) : vec3(real(0.0)));
+}
+
+FN void store_estimate(Query q, vec3 indirect, vec3 caustic) {
+    estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x, caustic.y, caustic.z, real(0.0));
+}
