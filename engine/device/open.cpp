@@ -2,6 +2,9 @@
 #include "base/error.hpp"
 #include "device/device.hpp"
 #include "device/host/host_device.hpp"
+#if ARGAND_CUDA
+#include "device/cuda/cuda_device.hpp"
+#endif
 #include "device/vulkan/instance.hpp"
 #include "device/vulkan/vulkan_device.hpp"
 
@@ -23,6 +26,7 @@ std::string lower_case(std::string text) {
 struct Offer {
     std::vector<DeviceInfo> devices;
     std::map<std::string, std::string> missing;
+    std::size_t first_cuda = 0;         ///< place of CUDA's first device; Vulkan's are the first
 };
 
 Offer offer() {
@@ -41,6 +45,10 @@ Offer offer() {
     } catch (const Error& error) {
         result.missing["vulkan"] = error.what();
     }
+#if ARGAND_CUDA
+    result.first_cuda = result.devices.size();
+    add(cuda::list_devices(result.missing["cuda"]));
+#endif
     add({host::describe()});
     return result;
 }
@@ -59,7 +67,7 @@ const DeviceInfo& choose(const Offer& offer, const std::string& choice, const st
     if (choice.empty()) {
         const std::vector<std::string>& order = backend_names();
         const auto rank = [&](const DeviceInfo& device) {
-            return std::tuple(!device.unsuitable.empty(), std::find(order.begin(), order.end(), device.backend) - order.begin(),
+            return std::tuple(!device.unsuitable.empty(), device.kind == DeviceKind::cpu, std::find(order.begin(), order.end(), device.backend) - order.begin(),
                               device.kind);
         };
         return **std::min_element(devices.begin(), devices.end(),
@@ -80,7 +88,11 @@ const DeviceInfo& choose(const Offer& offer, const std::string& choice, const st
 } // namespace
 
 const std::vector<std::string>& backend_names() {
+#if ARGAND_CUDA
+    static const std::vector<std::string> names{"vulkan", "cuda", "cpu"};
+#else
     static const std::vector<std::string> names{"vulkan", "cpu"};
+#endif
     return names;
 }
 
@@ -92,7 +104,8 @@ std::unique_ptr<Device> open_device(const std::string& choice, const std::string
     if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end()) {
         throw UsageError(fmt::format("choosing backend '{}': this build has {}", wanted, fmt::join(names, ", ")));
     }
-    DeviceInfo info = choose(offer(), choice.empty() ? environment("ARGAND_DEVICE") : choice, wanted);
+    const Offer offered = offer();
+    DeviceInfo info = choose(offered, choice.empty() ? environment("ARGAND_DEVICE") : choice, wanted);
     apply_environment(info);
     if (info.unsuitable.empty()) {
         info.unsuitable = unmet_requirement(info.limits);
@@ -104,6 +117,12 @@ std::unique_ptr<Device> open_device(const std::string& choice, const std::string
     if (info.backend == "cpu") {
         return std::make_unique<host::HostDevice>(std::move(info));
     }
+#if ARGAND_CUDA
+    if (info.backend == "cuda") {
+        const auto ordinal = static_cast<int>(info.index - offered.first_cuda);
+        return cuda::open(std::move(info), ordinal);
+    }
+#endif
     return vulkan::open(std::move(info));
 }
 

@@ -19,6 +19,12 @@
 #define OUT(T) T&
 #define INOUT(T) T&
 #define CONSTANT static constexpr
+// An array of constants, as NVIDIA's devices see it.
+#ifdef __CUDA_ARCH__
+#define TABLE static constexpr __device__
+#else
+#define TABLE static constexpr
+#endif
 
 #ifdef ARGAND_REAL_DOUBLE
 #define ARGAND_SHARED_BEGIN namespace argand { namespace oracle {

@@ -10,7 +10,7 @@ ARGAND_SHARED_BEGIN
 
 // Direction numbers of the third and fourth dimension (Joe and Kuo 2008); those of the first two are computed.
 #ifdef __cplusplus
-constexpr uvec2 sobol_directions[32] = {
+TABLE uvec2 sobol_directions[32] = {
 #else
 const uvec2 sobol_directions[32] = uvec2[32](
 #endif

@@ -1,0 +1,25 @@
+# ARGAND_HAS_CUDA: whether the backend cuda is built. The runtime is linked statically and looks for the driver when it is
+# first used, so that what is built runs on machines without CUDA as well.
+set(ARGAND_HAS_CUDA OFF)
+if(NOT ARGAND_CUDA STREQUAL "OFF")
+    include(CheckLanguage)
+    # Which architectures is said where they are compiled for.
+    set(CMAKE_CUDA_ARCHITECTURES OFF)
+    check_language(CUDA)
+    if(CMAKE_CUDA_COMPILER)
+        enable_language(CUDA)
+        if(CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+            find_package(CUDAToolkit REQUIRED)
+            set(ARGAND_HAS_CUDA ON)
+            # CMake 3.25 does not know the option of nvcc 12.
+            if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
+                set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
+                set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
+            endif()
+        endif()
+    endif()
+    if(ARGAND_CUDA STREQUAL "ON" AND NOT ARGAND_HAS_CUDA)
+        message(FATAL_ERROR "ARGAND_CUDA is ON, but no nvcc of version 12 or later was found; set CUDACXX to its path")
+    endif()
+endif()
+message(STATUS "Backend cuda: ${ARGAND_HAS_CUDA}")

@@ -1,0 +1,233 @@
+#include "device/cuda/cuda_device.hpp"
+
+#include "base/error.hpp"
+#include "device/twin.hpp"
+
+#include <algorithm>
+
+namespace argand::cuda {
+
+namespace {
+
+// Runs of stages whose events are kept before they are added up.
+constexpr std::size_t most_runs = 512;
+// Threads that are launched where only the device knows the count; kernels go on in strides of as many.
+constexpr std::uint64_t indirect_threads = 1u << 20;
+
+CudaBuffer& cuda(const Buffer& buffer) { return static_cast<CudaBuffer&>(*buffer.storage()); }
+
+std::byte* pointer_of(const Buffer& buffer, std::uint64_t offset) {
+    return static_cast<std::byte*>(cuda(buffer).pointer) + offset;
+}
+
+std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size : view.buffer->size() - view.offset; }
+
+} // namespace
+
+void check(cudaError_t result, const std::string& doing, const std::string& device) {
+    if (result != cudaSuccess) {
+        fail("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver", doing, device,
+             cudaGetErrorString(result));
+    }
+}
+
+CudaBuffer::~CudaBuffer() {
+    // cudaFree waits for what is under way. It fails where a kernel did, which has been said already.
+    cudaSetDevice(device);
+    cudaFree(pointer);
+    if (allocated > 0) {
+        ledger->freed(name, allocated);
+    }
+}
+
+CudaDevice::CudaDevice(DeviceInfo info, int ordinal) : info_(std::move(info)), ordinal_(ordinal) {
+    check(cudaSetDevice(ordinal_), "opening a device", info_.name);
+    check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "creating a stream", info_.name);
+    primitives_ = make_primitives(*this, stream_);
+}
+
+CudaDevice::~CudaDevice() {
+    cudaStreamSynchronize(stream_);
+    for (const StageRun& run : runs_) {
+        idle_events_.insert(idle_events_.end(), {run.begin, run.end});
+    }
+    for (const cudaEvent_t event : idle_events_) {
+        if (event != nullptr) {
+            cudaEventDestroy(event);
+        }
+    }
+    cudaStreamDestroy(stream_);
+}
+
+Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
+    check_allocation(info_, *ledger_, name, bytes);
+    auto storage = std::make_shared<CudaBuffer>();
+    storage->name = std::move(name);
+    storage->size = bytes;
+    storage->device = ordinal_;
+    storage->ledger = ledger_;
+    // Kernels read fours of 32-bit words, of buffers of no elements too.
+    const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
+    const cudaError_t result = cudaMalloc(&storage->pointer, rounded);
+    if (result == cudaErrorMemoryAllocation) {
+        cudaGetLastError();     // this one is not for the next call to report
+        fail_out_of_memory(*ledger_, storage->name, bytes);
+    }
+    check(result, fmt::format("allocating '{}'", storage->name), info_.name);
+    storage->allocated = rounded;
+    ledger_->allocated(storage->name, rounded);
+    return Buffer(std::move(storage));
+}
+
+void CudaDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
+    check(cudaMemcpyAsync(pointer_of(to, offset), data.data(), data.size(), cudaMemcpyHostToDevice, stream_), "uploading",
+          info_.name);
+}
+
+void CudaDevice::fill(const BufferView& to, std::uint32_t value) {
+    fill_words(pointer_of(*to.buffer, to.offset), size_of(to) / sizeof(std::uint32_t), value, stream_);
+    check(cudaGetLastError(), "filling a buffer", info_.name);
+}
+
+void CudaDevice::copy(const BufferView& from, const BufferView& to) {
+    check(cudaMemcpyAsync(pointer_of(*to.buffer, to.offset), pointer_of(*from.buffer, from.offset),
+                          std::min(size_of(from), size_of(to)), cudaMemcpyDeviceToDevice, stream_),
+          "copying", info_.name);
+}
+
+void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads,
+                        const std::uint32_t* count) {
+    if (kernel.cuda == nullptr) {
+        fail("running kernel {}: it has no twin for backend cuda; please report this", kernel.name);
+    }
+    if (threads == 0) {
+        return;
+    }
+    TwinArguments twin;
+    for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
+        twin.buffers[i] = pointer_of(*arguments.buffers[i], arguments.offsets[i]);
+    }
+    std::copy(arguments.push.begin(), arguments.push.end(), twin.push);
+    std::copy(arguments.constants.begin(), arguments.constants.end(), twin.constants);
+    kernel.cuda(twin, threads, count, stream_);
+    check(cudaGetLastError(), fmt::format("running kernel {}", kernel.name), info_.name);
+}
+
+void CudaDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
+    launch(kernel, arguments, threads, nullptr);
+}
+
+void CudaDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                                   std::uint32_t count_index) {
+    const auto* count = reinterpret_cast<const std::uint32_t*>(pointer_of(counts, 0)) + count_index;
+    launch(kernel, arguments, indirect_threads, count);
+}
+
+void CudaDevice::wait() { check(cudaStreamSynchronize(stream_), "running kernels", info_.name); }
+
+void CudaDevice::download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
+    check(cudaMemcpyAsync(data.data(), pointer_of(from, offset), data.size(), cudaMemcpyDeviceToHost, stream_),
+          "downloading", info_.name);
+    wait();
+}
+
+cudaEvent_t CudaDevice::stamp() {
+    cudaEvent_t event = nullptr;
+    if (idle_events_.empty()) {
+        check(cudaEventCreate(&event), "creating an event", info_.name);
+    } else {
+        event = idle_events_.back();
+        idle_events_.pop_back();
+    }
+    check(cudaEventRecord(event, stream_), "recording an event", info_.name);
+    return event;
+}
+
+void CudaDevice::begin_stage(std::string_view name) {
+    auto found = std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.name == name; });
+    if (found == times_.end()) {
+        found = times_.insert(times_.end(), {std::string(name), 0, 0});
+    }
+    if (runs_.size() >= most_runs) {
+        collect();
+    }
+    if (info_.features.timestamps) {
+        runs_.push_back({static_cast<std::size_t>(found - times_.begin()), stamp(), nullptr});
+    }
+    ++found->runs;
+}
+
+void CudaDevice::end_stage() {
+    if (info_.features.timestamps) {
+        runs_.back().end = stamp();
+    }
+}
+
+void CudaDevice::collect() {
+    wait();
+    for (const StageRun& run : runs_) {
+        float milliseconds = 0;
+        check(cudaEventElapsedTime(&milliseconds, run.begin, run.end), "timing a stage", info_.name);
+        times_[run.stage].seconds += milliseconds * 1e-3;
+        idle_events_.insert(idle_events_.end(), {run.begin, run.end});
+    }
+    runs_.clear();
+}
+
+std::vector<StageTime> CudaDevice::stage_times() {
+    collect();
+    return times_;
+}
+
+void CudaDevice::reset_stage_times() {
+    collect();
+    times_.clear();
+}
+
+std::vector<DeviceInfo> list_devices(std::string& missing) {
+    int count = 0;
+    const cudaError_t result = cudaGetDeviceCount(&count);
+    if (result != cudaSuccess) {
+        cudaGetLastError();
+        missing = result == cudaErrorInsufficientDriver
+                      ? "there is no NVIDIA driver, or it is older than CUDA " + std::to_string(CUDART_VERSION / 1000)
+                      : fmt::format("CUDA says '{}'", cudaGetErrorString(result));
+        return {};
+    }
+    int driver = 0;
+    cudaDriverGetVersion(&driver);
+    std::vector<DeviceInfo> devices;
+    for (int i = 0; i < count; ++i) {
+        cudaDeviceProp properties{};
+        check(cudaGetDeviceProperties(&properties, i), "describing a device", std::to_string(i));
+        DeviceInfo info;
+        info.backend = "cuda";
+        info.name = properties.name;
+        info.driver = fmt::format("driver for CUDA {}.{}", driver / 1000, driver % 1000 / 10);
+        info.api_version = fmt::format("{}.{}", CUDART_VERSION / 1000, CUDART_VERSION % 1000 / 10);
+        info.kind = properties.integrated != 0 ? DeviceKind::integrated : DeviceKind::discrete;
+        info.subgroup_size = static_cast<std::uint32_t>(properties.warpSize);
+        info.features.timestamps = true;
+        info.limits.memory = properties.totalGlobalMem;
+        info.limits.storage_range = properties.totalGlobalMem;
+        info.limits.invocations = static_cast<std::uint32_t>(properties.maxThreadsPerBlock);
+        info.limits.shared_memory = static_cast<std::uint32_t>(properties.sharedMemPerBlock);
+        info.limits.storage_buffers = max_bindings;
+        info.limits.groups = static_cast<std::uint32_t>(properties.maxGridSize[0]);
+        constexpr int least_major = 7;
+        constexpr int least_minor = 5;
+        if (std::pair(properties.major, properties.minor) < std::pair(least_major, least_minor)) {
+            info.unsuitable = fmt::format("its compute capability is {}.{}, Argand needs {}.{}", properties.major,
+                                          properties.minor, least_major, least_minor);
+        }
+        devices.push_back(std::move(info));
+    }
+    if (devices.empty()) {
+        missing = "CUDA offers no device";
+    }
+    return devices;
+}
+
+std::unique_ptr<Device> open(DeviceInfo info, int ordinal) { return std::make_unique<CudaDevice>(std::move(info), ordinal); }
+
+} // namespace argand::cuda

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "device/device.hpp"
+#include "device/memory_ledger.hpp"
+#include "device/primitives.hpp"
+
+#include <cuda_runtime_api.h>
+#include <memory>
+
+namespace argand::cuda {
+
+/// Throws Error naming what was being done, to which device, unless the result is success.
+void check(cudaError_t result, const std::string& doing, const std::string& device);
+
+/// A device's memory. The device is current again when it is freed.
+struct CudaBuffer final : BufferStorage {
+    void* pointer = nullptr;
+    int device = 0;
+    std::uint64_t allocated = 0;        ///< bytes counted in the ledger
+    std::shared_ptr<MemoryLedger> ledger;
+
+    ~CudaBuffer() override;
+};
+
+/// CUDA's devices, in its own order; empty if there is no driver. `missing`: why there are none.
+std::vector<DeviceInfo> list_devices(std::string& missing);
+
+/// Runs the kernels' twins on an NVIDIA GPU, in the order of one stream.
+class CudaDevice final : public Device {
+public:
+    /// `ordinal`: CUDA's number of the device.
+    CudaDevice(DeviceInfo info, int ordinal);
+    ~CudaDevice() override;
+
+    const DeviceInfo& info() const override { return info_; }
+    Buffer allocate(std::string name, std::uint64_t bytes) override;
+    void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
+    void fill(const BufferView& to, std::uint32_t value) override;
+    void copy(const BufferView& from, const BufferView& to) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                           std::uint32_t count_index) override;
+    Primitives* primitives() override { return primitives_.get(); }
+    void submit() override {}
+    void wait() override;
+    void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override;
+    void begin_stage(std::string_view name) override;
+    void end_stage() override;
+    std::vector<StageTime> stage_times() override;
+    void reset_stage_times() override;
+    const std::map<std::string, MemoryUse>& memory_by_name() const override { return ledger_->by_name; }
+    MemoryUse memory() const override { return ledger_->total; }
+    std::vector<std::string> validation_messages() const override { return {}; }
+
+private:
+    /// Events around one run of a stage.
+    struct StageRun {
+        std::size_t stage;
+        cudaEvent_t begin, end;
+    };
+
+    cudaEvent_t stamp();
+    void collect();
+    void launch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads,
+                const std::uint32_t* count);
+
+    DeviceInfo info_;
+    int ordinal_;
+    cudaStream_t stream_ = nullptr;
+    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
+    std::unique_ptr<Primitives> primitives_;
+    std::vector<StageTime> times_;
+    std::vector<StageRun> runs_;
+    std::vector<cudaEvent_t> idle_events_;
+};
+
+/// Opens the device at this place of list_devices().
+std::unique_ptr<Device> open(DeviceInfo info, int ordinal);
+
+/// Repeats a word on a stream; the call's error is left to cudaGetLastError.
+void fill_words(void* to, std::uint64_t count, std::uint32_t value, cudaStream_t stream);
+
+/// CUB's sort, scan, reduce and compact on a device's stream.
+std::unique_ptr<Primitives> make_primitives(Device& device, cudaStream_t stream);
+
+} // namespace argand::cuda
