@@ -41,6 +41,7 @@ struct KernelBinding {
     std::uint32_t binding;
     Access access;
     bool texels = false; ///< read as a utextureBuffer of rgba32ui texels; the buffer's offset is a multiple of 256
+    const char* words = "u"; ///< of an element: 'f' for each float, 'u' for each other 32-bit word
 };
 
 struct KernelConstant {

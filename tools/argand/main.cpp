@@ -64,6 +64,7 @@ int parse_and_run(int argc, char** argv) {
                "`argand COMMAND --help` says more of each command.");
     add_render_command(app);
     add_compare_command(app);
+    add_compare_backends_command(app);
     add_inspect_command(app);
     add_devices_command(app);
     add_bench_command(app);

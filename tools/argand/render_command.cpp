@@ -11,6 +11,7 @@
 #include "methods/render.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
+#include "picture_size.hpp"
 #include "report.hpp"
 #include "scene/gltf.hpp"
 
@@ -22,8 +23,6 @@
 namespace argand {
 
 namespace {
-
-constexpr int largest_side = 32768;
 
 const std::map<std::string, Sampling> samplings{{"sobol", Sampling::sobol}, {"random", Sampling::random}};
 
@@ -41,21 +40,6 @@ struct RenderOptions {
     bool quiet = false;
     RenderSettings settings;
 };
-
-int parse_side(std::string_view text, const std::string& size) {
-    int side = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-    if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > largest_side) {
-        throw UsageError(fmt::format("reading --size {}: it must be WIDTHxHEIGHT, each from 1 to {}", size, largest_side));
-    }
-    return side;
-}
-
-void parse_size(const std::string& size, RenderSettings& settings) {
-    const std::size_t x = std::min(size.find('x'), size.size());
-    settings.width = parse_side(std::string_view(size).substr(0, x), size);
-    settings.height = parse_side(std::string_view(size).substr(std::min(x + 1, size.size())), size);
-}
 
 std::size_t find_camera(const Scene& scene, const std::string& choice) {
     if (choice.empty()) {
@@ -109,7 +93,9 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     const auto seconds_since = [](Clock::time_point start) {
         return std::chrono::duration<double>(Clock::now() - start).count();
     };
-    parse_size(options.size, options.settings);
+    const PictureSize size = parse_picture_size(options.size);
+    options.settings.width = size.width;
+    options.settings.height = size.height;
     options.settings.method = options.method;
     if (options.radius > 0) {
         options.settings.radius = options.radius;

@@ -131,8 +131,9 @@ std::string emit_source(const Kernel& kernel) {
     if (!interface.bindings.empty()) {
         fmt::format_to(out, "constexpr KernelBinding bindings[] = {{\n");
         for (std::size_t i = 0; i < interface.bindings.size(); ++i) {
-            fmt::format_to(out, "    {{\"{}\", {}, Access::{}, {}}},\n", interface.bindings[i].name, i,
-                           enumerator(interface.bindings[i].access), interface.bindings[i].texels);
+            fmt::format_to(out, "    {{\"{}\", {}, Access::{}, {}, \"{}\"}},\n", interface.bindings[i].name, i,
+                           enumerator(interface.bindings[i].access), interface.bindings[i].texels,
+                           interface.bindings[i].words);
         }
         fmt::format_to(out, "}};\n");
     }
@@ -151,8 +152,8 @@ std::string emit_source(const Kernel& kernel) {
         kernel.name, interface.bindings.empty() ? "{}" : "bindings",
         interface.constants.empty() ? "{}" : "specialization", interface.push ? interface.push->size : 0,
         interface.local_size[0], interface.local_size[1], interface.local_size[2], interface.uses_subgroups,
-        kernel.has_twin ? fmt::format("RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n", kernel.name) : "",
-        kernel.has_twin ? fmt::format("    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n", kernel.name) : "");
+        kernel.twin.empty() ? "" : fmt::format("RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n", kernel.twin),
+        kernel.twin.empty() ? "" : fmt::format("    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n", kernel.twin));
     fmt::format_to(out, "KernelArguments {}::arguments() const {{\n    KernelArguments result;\n",
                    kernel.name);
     for (const Binding& binding : interface.bindings) {

@@ -10,7 +10,7 @@ struct Kernel {
     std::string path; ///< of its source, for the documentation
     Reflection interface;
     Spirv spirv; ///< final
-    bool has_twin = false; ///< other backends run the same text, see shaders/cuda/
+    std::string twin; ///< the kernel under shaders/cuda/ that other backends run instead; empty: none
 };
 
 /// NAME.hpp: the typed binding.

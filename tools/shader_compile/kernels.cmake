@@ -1,7 +1,7 @@
 # argand_add_kernels(target file.comp...): compiles each kernel at build time. NAME.comp becomes
 # generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which becomes part of the target. Kernels that
-# only Vulkan needs are those under parallel/ and device/, for which other backends have libraries, and *_texels; all
-# others must have a twin of the same name under shaders/cuda/, for which NAME.twin.h is written.
+# only Vulkan needs are those under parallel/ and device/, for which other backends have libraries; all others must have
+# a twin of the same name (NAME_texels: NAME) under shaders/cuda/, for which NAME.twin.h is written.
 function(argand_add_kernels target)
     set(directory ${CMAKE_BINARY_DIR}/generated/kernels)
     file(MAKE_DIRECTORY ${directory})
@@ -14,13 +14,16 @@ function(argand_add_kernels target)
         set_property(GLOBAL PROPERTY ARGAND_KERNEL_${name} ${file})
         set(twin)
         set(twin_header)
-        if(file MATCHES "/shaders/comp/" AND NOT file MATCHES "/comp/(parallel|device)/|_texels\\.comp$")
-            string(REGEX REPLACE "/comp/(.*)\\.comp$" "/cuda/\\1.cu" twin_source ${file})
+        if(file MATCHES "/shaders/comp/" AND NOT file MATCHES "/comp/(parallel|device)/")
+            string(REPLACE "_texels" "" twin_name ${name})
+            string(REGEX REPLACE "/comp/(.*)/[^/]*$" "/cuda/\\1/${twin_name}.cu" twin_source ${file})
             if(NOT EXISTS ${twin_source})
                 message(FATAL_ERROR "Kernel ${file} has no twin; write ${twin_source}")
             endif()
-            set(twin --twin)
-            set(twin_header ${directory}/${name}.twin.h)
+            set(twin --twin ${twin_name})
+            if(twin_name STREQUAL name)
+                set(twin_header ${directory}/${name}.twin.h)
+            endif()
         endif()
         # The path as messages show it.
         file(RELATIVE_PATH shown ${CMAKE_SOURCE_DIR} ${file})

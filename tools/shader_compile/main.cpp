@@ -1,4 +1,4 @@
-// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin] KERNEL.comp
+// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME] KERNEL.comp
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
@@ -17,18 +17,15 @@ struct Options {
     std::vector<std::string> include_directories;
     std::string out;
     std::string depfile;
-    bool has_twin = false;
+    std::string twin;
     std::string kernel;
 };
 
 Options parse(const std::vector<std::string>& words) {
     Options options;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i] == "--twin") {
-            options.has_twin = true;
-            continue;
-        }
-        const bool is_option = words[i] == "-I" || words[i] == "--out" || words[i] == "--depfile";
+        const bool is_option =
+            words[i] == "-I" || words[i] == "--out" || words[i] == "--depfile" || words[i] == "--twin";
         if (is_option && i + 1 == words.size()) {
             throw UsageError(fmt::format("shader_compile: {} needs a value", words[i]));
         }
@@ -38,6 +35,8 @@ Options parse(const std::vector<std::string>& words) {
             options.out = words[++i];
         } else if (words[i] == "--depfile") {
             options.depfile = words[++i];
+        } else if (words[i] == "--twin") {
+            options.twin = words[++i];
         } else if (words[i].starts_with("-") || !options.kernel.empty()) {
             throw UsageError(fmt::format("shader_compile: unknown argument {}", words[i]));
         } else {
@@ -45,7 +44,7 @@ Options parse(const std::vector<std::string>& words) {
         }
     }
     if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
-        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin] KERNEL.comp");
+        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME] KERNEL.comp");
     }
     return options;
 }
@@ -60,7 +59,7 @@ void run(const Options& options) {
     std::fputs(compiled.warnings.c_str(), stderr);
 
     Kernel kernel{name, options.kernel, reflect(compiled, options.include_directories),
-                  optimise(compiled.spirv, options.kernel), options.has_twin};
+                  optimise(compiled.spirv, options.kernel), options.twin};
     validate(kernel.spirv, options.kernel);
 
     const std::string header = (fs::path(options.out) / (name + ".hpp")).string();
@@ -72,7 +71,7 @@ void run(const Options& options) {
     }
     const std::string twin = (fs::path(options.out) / (name + ".twin.h")).string();
     std::vector<std::string> outputs{header, source};
-    if (options.has_twin) {
+    if (options.twin == name) {
         outputs.push_back(twin);
         write_if_changed(twin, emit_twin(kernel));
     }

@@ -113,6 +113,34 @@ std::string element_type(const Reader& reader, const SPIRType& block) {
     }
 }
 
+/// What each 32-bit word of a type is: 'f' a float, 'u' anything else.
+void append_words(const Reader& reader, const SPIRType& type, std::string& words) {
+    if (!type.array.empty()) {
+        const SPIRType& element = reader.spirv.get_type(type.parent_type);
+        for (std::uint32_t i = 0; i < type.array.back(); ++i) {
+            append_words(reader, element, words);
+        }
+    } else if (type.basetype == SPIRType::Struct) {
+        for (std::uint32_t i = 0; i < type.member_types.size(); ++i) {
+            // std430 may leave room between members.
+            words.resize(reader.spirv.type_struct_member_offset(type, i) / 4, 'u');
+            append_words(reader, reader.spirv.get_type(type.member_types[i]), words);
+        }
+    } else {
+        words.append(std::size_t(type.vecsize) * type.columns, type.basetype == SPIRType::Float ? 'f' : 'u');
+    }
+}
+
+std::string element_words(const Reader& reader, const SPIRType& block) {
+    std::string words;
+    append_words(reader, reader.without_array(reader.spirv.get_type(block.member_types.back())), words);
+    const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
+    if (!reader.spirv.get_type(block.member_types.back()).array.empty()) {
+        words.resize(reader.spirv.type_struct_member_array_stride(block, last) / 4, 'u');
+    }
+    return words;
+}
+
 /// The included headers that C++ includes as well: what kernels work with, not their own text.
 std::vector<std::string> shared_headers(const Reader& reader) {
     std::vector<std::string> headers;
@@ -183,12 +211,12 @@ void read_buffers(const Reader& reader, Reflection& result) {
         }
         const SPIRType& block = reader.spirv.get_type(buffer->base_type_id);
         if (block.basetype == SPIRType::Image) {
-            result.bindings.push_back({buffer->name, Access::read, true, "uvec4"});
+            result.bindings.push_back({buffer->name, Access::read, true, "uvec4", "uuuu"});
             continue;
         }
         const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
         result.bindings.push_back(
-            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer), false, element_type(reader, block)});
+            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer), false, element_type(reader, block), element_words(reader, block)});
         add_record(reader, block, result);
     }
 }

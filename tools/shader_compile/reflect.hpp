@@ -26,6 +26,7 @@ struct Binding {
     Access access;
     bool texels = false; ///< a utextureBuffer
     std::string type;    ///< of its elements, in C++; "void" if C++ does not see the type
+    std::string words;   ///< of an element: 'f' for each float, 'u' for each other 32-bit word
 };
 
 struct Constant {

@@ -1,0 +1,67 @@
+#include "compare/backends.hpp"
+
+#include "compare/paired_device.hpp"
+#include "image/metrics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace argand {
+
+namespace {
+
+constexpr std::array<std::string_view, 17> exact_stages{
+    "sort",         "scan",          "segmented scan", "reduce",       "reduce boxes", "compact",
+    "lbvh_codes",   "code_distances", "lbvh_fit",      "wide_roots",   "triangle_boxes", "photon_codes",
+    "photon_count", "photon_leaves", "photon_order",   "photon_tally", "query_owners"};
+
+bool keep_going(double) { return true; }
+
+RenderResult render_timed(Device& device, const Scene& scene, const RenderSettings& settings, double& seconds) {
+    render(device, scene, settings, keep_going);    // compiles what it needs
+    const auto start = std::chrono::steady_clock::now();
+    RenderResult result = render(device, scene, settings, keep_going);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& scene, const RenderSettings& settings,
+                                            Pairing pairing) {
+    PairedDevice pair(a, b, pairing);
+    render(pair, scene, settings, keep_going);
+    return pair.comparisons();
+}
+
+} // namespace
+
+BackendComparison compare_backends(Device& a, Device& b, const Scene& scene, const RenderSettings& settings) {
+    BackendComparison result;
+    const RenderResult picture_a = render_timed(a, scene, settings, result.seconds_a);
+    const RenderResult picture_b = render_timed(b, scene, settings, result.seconds_b);
+    result.rel_mse = compare(picture_b.layers.front().image, picture_a.layers.front().image, "B", "A").rel_mse;
+    result.isolated = compare_stages(a, b, scene, settings, Pairing::isolated);
+    result.end_to_end = compare_stages(a, b, scene, settings, Pairing::end_to_end);
+    return result;
+}
+
+bool must_be_equal(const StageComparison& stage) {
+    return std::find(exact_stages.begin(), exact_stages.end(), stage.name) != exact_stages.end();
+}
+
+bool passes(const StageComparison& stage, double tolerance) {
+    return static_cast<double>(stage.diverged) <= tolerance * static_cast<double>(stage.items);
+}
+
+bool passes(const BackendComparison& comparison) {
+    return comparison.rel_mse <= picture_tolerance &&
+           std::all_of(comparison.isolated.begin(), comparison.isolated.end(),
+                       [](const StageComparison& stage) {
+                           return must_be_equal(stage) ? stage.unequal == 0 : passes(stage, isolated_tolerance);
+                       }) &&
+           std::all_of(comparison.end_to_end.begin(), comparison.end_to_end.end(),
+                       [](const StageComparison& stage) { return passes(stage, end_to_end_tolerance); });
+}
+
+} // namespace argand

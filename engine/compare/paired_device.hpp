@@ -1,0 +1,75 @@
+#pragma once
+
+#include "compare/comparison.hpp"
+#include "device/device.hpp"
+#include "device/primitives.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace argand {
+
+enum class Pairing {
+    isolated,   ///< every stage of the second device starts from what the first one had before it
+    end_to_end  ///< the second device goes on with its own results
+};
+
+/// A buffer on either device.
+struct PairedBuffer final : BufferStorage {
+    Buffer a, b;
+};
+
+/// Two devices as one: what is recorded runs on both, stage by stage, and what they write is compared. What is
+/// downloaded is the first device's.
+class PairedDevice final : public Device {
+public:
+    PairedDevice(Device& a, Device& b, Pairing pairing);
+    ~PairedDevice() override;
+
+    const DeviceInfo& info() const override { return info_; }
+    Buffer allocate(std::string name, std::uint64_t bytes) override;
+    void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
+    void fill(const BufferView& to, std::uint32_t value) override;
+    void copy(const BufferView& from, const BufferView& to) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                           std::uint32_t count_index) override;
+    Primitives* primitives() override { return primitives_.get(); }
+    void submit() override {}
+    void wait() override;
+    void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override;
+    void begin_stage(std::string_view) override {}
+    void end_stage() override {}
+    std::vector<StageTime> stage_times() override { return {}; }
+    void reset_stage_times() override {}
+    const std::map<std::string, MemoryUse>& memory_by_name() const override { return a_.memory_by_name(); }
+    MemoryUse memory() const override { return a_.memory(); }
+    std::vector<std::string> validation_messages() const override { return a_.validation_messages(); }
+
+    /// In the order of their first runs.
+    const std::vector<StageComparison>& comparisons() const { return comparisons_; }
+
+    /// A buffer that a stage writes, and what its 32-bit words are.
+    struct Written {
+        const Buffer* buffer;
+        std::uint64_t offset;
+        std::uint64_t size;             ///< 0: to the end
+        std::string layout;
+        const char* name;
+    };
+    /// Runs a stage on both devices, compares what it wrote, and if isolated gives the first one's to the second.
+    void run(const std::string& stage, const std::function<void()>& on_a, const std::function<void()>& on_b,
+             std::span<const Written> written);
+
+private:
+    StageComparison& comparison(const std::string& stage);
+
+    Device& a_;
+    Device& b_;
+    Pairing pairing_;
+    DeviceInfo info_;
+    std::unique_ptr<Primitives> primitives_;
+    std::vector<StageComparison> comparisons_;
+};
+
+} // namespace argand

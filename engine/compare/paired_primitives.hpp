@@ -1,0 +1,15 @@
+#pragma once
+
+#include "device/device.hpp"
+#include "device/primitives.hpp"
+
+#include <memory>
+
+namespace argand {
+
+class PairedDevice;
+
+/// Sort, scan, reduce and compact of two devices, each as it does them by itself.
+std::unique_ptr<Primitives> make_paired_primitives(PairedDevice& pair, Device& a, Device& b);
+
+} // namespace argand
