@@ -23,7 +23,7 @@ using Sources = std::map<std::string, std::string>;
 inline const std::vector<std::vector<std::string>> levels = {
     {"base"},     {"image", "scene", "device"}, {"plan", "parallel"},
     {"accel"},    {"photon", "imagespace"},     {"methods"},
-    {"tradeoff"},
+    {"tradeoff", "compare"},
 };
 
 /// One include line; `target` is the file it names, "kernels/..." for a header generated from a kernel, or
@@ -97,7 +97,12 @@ inline std::string objection(const std::string& from, const std::string& to) {
     if (from == "shared")
         return "shaders/shared sees only itself";
     const std::string kind = from.substr(0, from.find('/'));
-    if (kind == "comp" || kind == "raster" || kind == "cuda")
+    // Twins are shared text on what is generated from the kernels that declare the same.
+    if (kind == "cuda")
+        return to == "shared" || to == "cuda" || to == "kernels" || to == "device"
+                   ? ""
+                   : "twins see only shaders/shared, shaders/cuda, device and generated kernels";
+    if (kind == "comp" || kind == "raster")
         return to == "shared" || to == "comp" ? "" : "kernels see only shaders/shared and their own folder";
     const int level = level_of(from);
     if (level < 0)

@@ -27,6 +27,9 @@ Sources good_tree() {
         {"shaders/comp/accel/trace.comp", "#include \"kernel.glsl\"\n#include \"accel/stack.glsl\"\n"},
         {"shaders/comp/accel/stack.glsl", ""},
         {"shaders/comp/photon/emit.comp", ""},
+        {"shaders/cuda/kernel.h", "#include \"device/twin.hpp\"\n#include \"shared/prelude.h\"\n"},
+        {"shaders/cuda/photon/emit.cu", "#include \"cuda/kernel.h\"\n#include \"kernels/emit.twin.h\"\n"},
+        {"engine/device/twin.hpp", ""},
         {"tools/argand/main.cpp", "#include \"methods/path.hpp\"\n#include \"options.hpp\"\n"},
         {"tools/argand/options.hpp", ""},
         {"tools/shader_compile/reflect.hpp", ""},
@@ -86,6 +89,9 @@ TEST(Layering, KeepsTheSharedMathsAndTheKernelsApart) {
     EXPECT_THAT(faults_with("shaders/comp/photon/emit.comp", "\"base/error.hpp\""),
                 ElementsAre(HasSubstr("their own folder")));
     EXPECT_THAT(faults_with("shaders/comp/photon/emit.comp", "\"shared/records.h\""), IsEmpty());
+    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"methods/path.hpp\""), ElementsAre(HasSubstr("twins see only")));
+    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"comp/kernel.glsl\""), ElementsAre(HasSubstr("twins see only")));
+    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"shared/records.h\""), IsEmpty());
 }
 
 TEST(Layering, FindsFilesThatIncludeEachOther) {

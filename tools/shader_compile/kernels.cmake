@@ -1,11 +1,12 @@
-# argand_add_kernels(target file.comp...): compiles each kernel at build time. NAME.comp becomes
-# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which becomes part of the target. Kernels that
-# only Vulkan needs are those under parallel/ and device/, for which other backends have libraries; all others must have
-# a twin of the same name (NAME_texels: NAME) under shaders/cuda/, for which NAME.twin.h is written.
+# argand_add_kernels(target [TWINS directory] file.comp...): compiles each kernel at build time. NAME.comp becomes
+# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which becomes part of the target. With TWINS,
+# FOLDER/NAME.comp and FOLDER/NAME_texels.comp must have a twin FOLDER/NAME.cu in that directory, for which NAME.twin.h is
+# written; but those in the folders parallel and device, which only Vulkan needs: other backends have libraries for them.
 function(argand_add_kernels target)
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" TWINS "")
     set(directory ${CMAKE_BINARY_DIR}/generated/kernels)
     file(MAKE_DIRECTORY ${directory})
-    foreach(file IN LISTS ARGN)
+    foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS)
         get_filename_component(name ${file} NAME_WE)
         get_property(earlier GLOBAL PROPERTY ARGAND_KERNEL_${name})
         if(earlier)
@@ -14,9 +15,11 @@ function(argand_add_kernels target)
         set_property(GLOBAL PROPERTY ARGAND_KERNEL_${name} ${file})
         set(twin)
         set(twin_header)
-        if(file MATCHES "/shaders/comp/" AND NOT file MATCHES "/comp/(parallel|device)/")
-            string(REPLACE "_texels" "" twin_name ${name})
-            string(REGEX REPLACE "/comp/(.*)/[^/]*$" "/cuda/\\1/${twin_name}.cu" twin_source ${file})
+        get_filename_component(folder ${file} DIRECTORY)
+        get_filename_component(folder ${folder} NAME)
+        if(ARG_TWINS AND NOT folder MATCHES "^(parallel|device)$")
+            string(REGEX REPLACE "_texels$" "" twin_name ${name})
+            set(twin_source ${ARG_TWINS}/${folder}/${twin_name}.cu)
             if(NOT EXISTS ${twin_source})
                 message(FATAL_ERROR "Kernel ${file} has no twin; write ${twin_source}")
             endif()
@@ -39,6 +42,8 @@ function(argand_add_kernels target)
         list(APPEND twin_headers ${twin_header})
     endforeach()
     target_include_directories(${target} PUBLIC ${CMAKE_BINARY_DIR}/generated)
-    # What the twins, which are targets of their own, wait for.
-    add_custom_target(${target}_twin_headers DEPENDS ${twin_headers})
+    if(ARG_TWINS)
+        # What the twins, which are targets of their own, wait for.
+        add_custom_target(${target}_twin_headers DEPENDS ${twin_headers})
+    endif()
 endfunction()

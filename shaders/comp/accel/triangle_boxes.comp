@@ -3,6 +3,7 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/accel_records.h"
 #include "shared/geometry_records.h"
+#include "shared/maths.h"
 
 layout(set = 0, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };
