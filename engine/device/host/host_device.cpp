@@ -40,6 +40,7 @@ DeviceInfo describe() {
     info.driver = fmt::format("{} threads", omp_get_max_threads());
     info.kind = DeviceKind::cpu;
     info.features.timestamps = true;
+    info.features.lane_serial = true;
     info.limits.memory = physical_memory();
     info.limits.storage_range = info.limits.memory;
     // No kernel works in groups here.
