@@ -16,6 +16,11 @@ struct UsageError : Error {
     using Error::Error;
 };
 
+/// A device that stopped working while it was used; another one may do.
+struct DeviceFault : Error {
+    using Error::Error;
+};
+
 /// Throws Error with a formatted message.
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {

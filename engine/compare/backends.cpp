@@ -1,5 +1,7 @@
 #include "compare/backends.hpp"
 
+#include "base/error.hpp"
+#include "compare/golden_device.hpp"
 #include "compare/paired_device.hpp"
 #include "image/metrics.hpp"
 
@@ -13,7 +15,7 @@ namespace argand {
 namespace {
 
 constexpr std::array<std::string_view, 17> exact_stages{
-    "sort",         "scan",          "segmented scan", "reduce",       "reduce boxes", "compact",
+    sort_stage,     scan_stage,       segmented_scan_stage, reduce_stage,    reduce_box_stage, compact_stage,
     "lbvh_codes",   "code_distances", "lbvh_fit",      "wide_roots",   "triangle_boxes", "photon_codes",
     "photon_count", "photon_leaves", "photon_order",   "photon_tally", "query_owners"};
 
@@ -50,18 +52,60 @@ bool must_be_equal(const StageComparison& stage) {
     return std::find(exact_stages.begin(), exact_stages.end(), stage.name) != exact_stages.end();
 }
 
-bool passes(const StageComparison& stage, double tolerance) {
+namespace {
+
+bool within(const StageComparison& stage, double tolerance) {
     return static_cast<double>(stage.diverged) <= tolerance * static_cast<double>(stage.items);
 }
 
+} // namespace
+
+bool passes_isolated(const StageComparison& stage) {
+    return must_be_equal(stage) ? stage.unequal == 0 : within(stage, isolated_tolerance);
+}
+
+bool passes_end_to_end(const StageComparison& stage) { return within(stage, end_to_end_tolerance); }
+
 bool passes(const BackendComparison& comparison) {
     return comparison.rel_mse <= picture_tolerance &&
-           std::all_of(comparison.isolated.begin(), comparison.isolated.end(),
-                       [](const StageComparison& stage) {
-                           return must_be_equal(stage) ? stage.unequal == 0 : passes(stage, isolated_tolerance);
-                       }) &&
-           std::all_of(comparison.end_to_end.begin(), comparison.end_to_end.end(),
-                       [](const StageComparison& stage) { return passes(stage, end_to_end_tolerance); });
+           std::all_of(comparison.isolated.begin(), comparison.isolated.end(), passes_isolated) &&
+           std::all_of(comparison.end_to_end.begin(), comparison.end_to_end.end(), passes_end_to_end);
+}
+
+GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings) {
+    host::HostDevice other(host::describe());
+    PairedDevice pair(device, other, Pairing::isolated);
+    GoldenCapture capture;
+    pair.record(capture);
+    render(pair, scene, settings, keep_going);
+    return capture;
+}
+
+RenderSettings settings_of(const Golden& golden, const std::string& method) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.width = golden.width;
+    settings.height = golden.height;
+    settings.samples = golden.samples;
+    settings.photons = golden.photons;
+    settings.seed = golden.seed;
+    return settings;
+}
+
+std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method, Device& device,
+                                                 const Scene& scene) {
+    const auto capture = golden.captures.find(method);
+    if (capture == golden.captures.end()) {
+        fail("comparing with a golden capture of '{}': it has none of method {}", golden.scene, method);
+    }
+    if (scene.name != golden.scene) {
+        fail("comparing '{}' with a golden capture: it is of '{}'; take that scene, or record it anew", scene.name,
+             golden.scene);
+    }
+    GoldenDevice recorded(golden, capture->second);
+    PairedDevice pair(recorded, device, Pairing::isolated);
+    render(pair, scene, settings_of(golden, method), keep_going);
+    return pair.comparisons();
 }
 
 } // namespace argand

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/comparison.hpp"
+#include "compare/golden.hpp"
 #include "device/device.hpp"
 #include "methods/render.hpp"
 #include "scene/scene.hpp"
@@ -20,6 +21,17 @@ struct BackendComparison {
 /// Renders the scene on both devices, by themselves and side by side.
 BackendComparison compare_backends(Device& a, Device& b, const Scene& scene, const RenderSettings& settings);
 
+/// What a device does while it renders the scene with these settings.
+GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings);
+
+/// The settings with which a capture was recorded.
+RenderSettings settings_of(const Golden& golden, const std::string& method);
+
+/// As BackendComparison::isolated, with the recorded device as the first one. Throws Error if the scene or this version
+/// takes other stages than were recorded, or there is no capture of that method.
+std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method, Device& device,
+                                                 const Scene& scene);
+
 /// Whether all of a stage's items must be equal to the bit: integers, and floats that are copied or compared only.
 bool must_be_equal(const StageComparison& stage);
 
@@ -30,7 +42,9 @@ inline constexpr double end_to_end_tolerance = 1e-2;
 /// Of the picture.
 inline constexpr double picture_tolerance = 1e-3;
 
-bool passes(const StageComparison& stage, double tolerance);
+/// Whether a stage is the same on both, within what it is allowed.
+bool passes_isolated(const StageComparison& stage);
+bool passes_end_to_end(const StageComparison& stage);
 bool passes(const BackendComparison& comparison);
 
 } // namespace argand

@@ -1,6 +1,7 @@
 #include "compare/paired_device.hpp"
 
 #include "compare/paired_primitives.hpp"
+#include "compare/stage.hpp"
 #include "compare/unordered.hpp"
 
 #include <algorithm>
@@ -34,37 +35,17 @@ double seconds_of(Device& device, const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<std::uint32_t> words_of(Device& device, const Buffer& buffer, const PairedDevice::Written& range) {
-    const std::uint64_t bytes = range.size > 0 ? range.size : buffer.size() - range.offset;
-    return download<std::uint32_t>(device, buffer, bytes / sizeof(std::uint32_t), range.offset / sizeof(std::uint32_t));
-}
-
-/// The stage that a kernel is: variants for texels are the same.
-std::string stage_name(const KernelInfo& kernel) {
-    std::string name = kernel.name;
-    constexpr std::string_view texels = "_texels";
-    if (name.ends_with(texels)) {
-        name.resize(name.size() - texels.size());
-    }
-    return name;
-}
-
-/// What a kernel's source declares as words although there are floats among them.
-std::string layout_of(const std::string& stage, const KernelBinding& binding) {
-    const std::string_view name = binding.name;
-    if (stage == "trace_closest" && name == "hits") {
-        return "ufff";
-    }
-    if (stage == "lbvh_fit" && (name == "nodes" || name == "costs")) {
-        return "fffu";
-    }
-    return binding.words;
+std::vector<std::uint32_t> words_of(Device& device, const BufferView& range) {
+    return download<std::uint32_t>(device, *range.buffer, range.size / sizeof(std::uint32_t),
+                                   range.offset / sizeof(std::uint32_t));
 }
 
 } // namespace
 
 PairedDevice::PairedDevice(Device& a, Device& b, Pairing pairing)
     : a_(a), b_(b), pairing_(pairing), info_(a.info()), primitives_(make_paired_primitives(*this, a, b)) {
+    // What kernels must do without on one of them, they do without on both.
+    info_.driver += " and " + b.info().driver;
     info_.limits.storage_range = std::min(a.info().limits.storage_range, b.info().limits.storage_range);
     info_.limits.memory = std::min(a.info().limits.memory, b.info().limits.memory);
 }
@@ -108,45 +89,48 @@ StageComparison& PairedDevice::comparison(const std::string& stage) {
 }
 
 void PairedDevice::run(const std::string& stage, const std::function<void()>& on_a, const std::function<void()>& on_b,
-                       std::span<const Written> written) {
+                       const std::vector<WrittenBinding>& written) {
+    std::vector<std::vector<std::uint32_t>> before;
+    if (recorder_) {
+        for (const WrittenBinding& binding : written) {
+            before.push_back(words_of(a_, view(binding.view, &PairedBuffer::a)));
+        }
+    }
     StageComparison& found = comparison(stage);
     ++found.runs;
     found.seconds_a += seconds_of(a_, on_a);
     found.seconds_b += seconds_of(b_, on_b);
-    for (const Written& range : written) {
-        const PairedBuffer& buffer = paired(*range.buffer);
-        std::vector<std::uint32_t> a = words_of(a_, buffer.a, range);
-        std::vector<std::uint32_t> b = words_of(b_, buffer.b, range);
+    GoldenStep step{stage, {}};
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        const WrittenBinding& binding = written[i];
+        const BufferView in_b = view(binding.view, &PairedBuffer::b);
+        std::vector<std::uint32_t> a = words_of(a_, view(binding.view, &PairedBuffer::a));
+        std::vector<std::uint32_t> b = words_of(b_, in_b);
+        if (recorder_) {
+            step.writes.push_back(changes(before[i], a));
+        }
         if (a == b) {
-            found.items += a.size() / range.layout.size();
+            found.items += a.size() / binding.layout.size();
             continue;
         }
         if (pairing_ == Pairing::isolated) {
-            b_.upload(buffer.b, range.offset, std::as_bytes(std::span(a)));
+            b_.upload(*in_b.buffer, in_b.offset, std::as_bytes(std::span(a)));
         }
-        if (!is_incidental(stage, range.name)) {
-            put_in_order(stage, range.name, a);
-            put_in_order(stage, range.name, b);
-            compare_items(a, b, range.layout, found);
+        if (!is_incidental(stage, binding.name)) {
+            put_in_order(stage, binding.name, a);
+            put_in_order(stage, binding.name, b);
+            compare_items(a, b, binding.layout, found);
         }
+    }
+    if (recorder_) {
+        recorder_->push_back(std::move(step));
     }
 }
 
 void PairedDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
-    const std::string stage = stage_name(kernel);
-    std::vector<Written> written;
-    for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
-        const KernelBinding& binding = kernel.bindings[i];
-        // What a kernel does not need is bound to a buffer that is bound anyway.
-        const bool again = std::find(arguments.buffers.begin(), arguments.buffers.begin() + i, arguments.buffers[i]) !=
-                           arguments.buffers.begin() + i;
-        if (binding.access != Access::read && !again) {
-            written.push_back({arguments.buffers[i], arguments.offsets[i], arguments.sizes[i], layout_of(stage, binding),
-                               binding.name});
-        }
-    }
-    run(stage, [&] { a_.dispatch(kernel, side_of(arguments, &PairedBuffer::a), threads); },
-        [&] { b_.dispatch(kernel, side_of(arguments, &PairedBuffer::b), threads); }, written);
+    run(stage_name(kernel), [&] { a_.dispatch(kernel, side_of(arguments, &PairedBuffer::a), threads); },
+        [&] { b_.dispatch(kernel, side_of(arguments, &PairedBuffer::b), threads); },
+        written_bindings(kernel, arguments));
 }
 
 void PairedDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "compare/comparison.hpp"
+#include "compare/golden.hpp"
+#include "compare/stage.hpp"
 #include "device/device.hpp"
 #include "device/primitives.hpp"
 
@@ -49,17 +51,12 @@ public:
     /// In the order of their first runs.
     const std::vector<StageComparison>& comparisons() const { return comparisons_; }
 
-    /// A buffer that a stage writes, and what its 32-bit words are.
-    struct Written {
-        const Buffer* buffer;
-        std::uint64_t offset;
-        std::uint64_t size;             ///< 0: to the end
-        std::string layout;
-        const char* name;
-    };
     /// Runs a stage on both devices, compares what it wrote, and if isolated gives the first one's to the second.
     void run(const std::string& stage, const std::function<void()>& on_a, const std::function<void()>& on_b,
-             std::span<const Written> written);
+             const std::vector<WrittenBinding>& written);
+
+    /// From now on, what the first device does is added to a capture.
+    void record(GoldenCapture& capture) { recorder_ = &capture; }
 
 private:
     StageComparison& comparison(const std::string& stage);
@@ -70,6 +67,7 @@ private:
     DeviceInfo info_;
     std::unique_ptr<Primitives> primitives_;
     std::vector<StageComparison> comparisons_;
+    GoldenCapture* recorder_ = nullptr;
 };
 
 } // namespace argand

@@ -37,11 +37,11 @@ public:
                 radix_sort(device, side_of(keys, side), n, bits);
             }
         };
-        std::vector<PairedDevice::Written> written{words(keys)};
+        std::vector<WrittenBinding> written{words(keys)};
         if (values) {
             written.push_back(words(values));
         }
-        run("sort", work, written);
+        run(sort_stage, work, written);
     }
 
     void scan(const Buffer& in, const Buffer& out, const Count& count, bool inclusive) override {
@@ -49,7 +49,7 @@ public:
             const auto scan = inclusive ? inclusive_scan : exclusive_scan;
             scan(device, side_of(in, side), side_of(out, side), side_of(count, side));
         };
-        run("scan", work, {words(out)});
+        run(scan_stage, work, {words(out)});
     }
 
     void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out, const Count& count) override {
@@ -57,7 +57,7 @@ public:
             argand::segmented_scan(device, side_of(in, side), side_of(heads, side), side_of(out, side),
                                    side_of(count, side));
         };
-        run("segmented scan", work, {words(out)});
+        run(segmented_scan_stage, work, {words(out)});
     }
 
     void reduce(const Buffer& in, const Buffer& out, std::uint32_t out_index, const Count& count,
@@ -66,14 +66,14 @@ public:
             const auto reduce = op == reduce_op_min ? reduce_min : op == reduce_op_max ? reduce_max : reduce_sum;
             reduce(device, side_of(in, side), side_of(out, side), out_index, side_of(count, side));
         };
-        run("reduce", work, {words(out)});
+        run(reduce_stage, work, {words(out)});
     }
 
     void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index, const Count& count) override {
         const auto work = [&](Device& device, Side side) {
             argand::reduce_box(device, side_of(boxes, side), side_of(out, side), out_index, side_of(count, side));
         };
-        run("reduce boxes", work, {words(out)});
+        run(reduce_box_stage, work, {words(out)});
     }
 
     void compact(const Buffer& flags, const Buffer& values, const Buffer& out, const Buffer& counts,
@@ -82,14 +82,14 @@ public:
             argand::compact(device, side_of(flags, side), side_of(values, side), side_of(out, side),
                             side_of(counts, side), count_index, side_of(count, side));
         };
-        run("compact", work, {words(out), words(counts)});
+        run(compact_stage, work, {words(out), words(counts)});
     }
 
 private:
-    static PairedDevice::Written words(const Buffer& buffer) { return {&buffer, 0, 0, "u", ""}; }
+    static WrittenBinding words(const Buffer& buffer) { return {buffer, "", "u"}; }
 
     template <class Work>
-    void run(const char* stage, const Work& work, const std::vector<PairedDevice::Written>& written) {
+    void run(const char* stage, const Work& work, const std::vector<WrittenBinding>& written) {
         pair_.run(stage, [&] { work(a_, &PairedBuffer::a); }, [&] { work(b_, &PairedBuffer::b); }, written);
     }
 

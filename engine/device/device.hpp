@@ -145,6 +145,9 @@ inline bool read_as_texels(const Device& device, const Buffer& a, const Buffer& 
 /// Backends that this build has, in the order in which they are preferred.
 const std::vector<std::string>& backend_names();
 
+/// Why a backend of this build offers no device; empty if it has one.
+std::string why_missing(const std::string& backend);
+
 /// Devices of all backends, suitable or not, in the order of their indices.
 std::vector<DeviceInfo> list_devices();
 

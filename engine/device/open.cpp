@@ -62,7 +62,8 @@ const DeviceInfo& choose(const Offer& offer, const std::string& choice, const st
         }
     }
     if (devices.empty()) {
-        fail("opening a device of backend {}: {}", backend, offer.missing.at(backend));
+        fail("opening a device of backend {}: {}; or try another backend, as `argand devices` lists them", backend,
+             offer.missing.at(backend));
     }
     if (choice.empty()) {
         const std::vector<std::string>& order = backend_names();
@@ -94,6 +95,12 @@ const std::vector<std::string>& backend_names() {
     static const std::vector<std::string> names{"vulkan", "cpu"};
 #endif
     return names;
+}
+
+std::string why_missing(const std::string& backend) {
+    const Offer offered = offer();
+    const auto found = offered.missing.find(backend);
+    return found == offered.missing.end() ? "" : found->second;
 }
 
 std::vector<DeviceInfo> list_devices() { return offer().devices; }

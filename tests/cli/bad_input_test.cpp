@@ -130,7 +130,7 @@ TEST_F(BadInput, DevicesThatAreNotThere) {
 TEST_F(BadInput, NoDriverAndNoLoader) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
     const std::string no_driver = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
-    for (const std::string& arguments : {scene, std::string("devices"), std::string("bench parallel")}) {
+    for (const std::string& arguments : {scene + "--backend vulkan", std::string("bench parallel --backend vulkan")}) {
         expect_failure(arguments, failure, "there is no device", no_driver);
         expect_failure(arguments, failure, "mesa-vulkan-drivers", no_driver);
         EXPECT_THAT(argand(arguments, no_driver).error, ::testing::Not(::testing::HasSubstr("code")));
@@ -139,8 +139,27 @@ TEST_F(BadInput, NoDriverAndNoLoader) {
     const ScratchDirectory libraries;
     write_text(libraries / "libvulkan.so.1", "");
     write_text(libraries / "libvulkan.so", "");
-    expect_failure(scene, failure, "Vulkan", "LD_LIBRARY_PATH='" + libraries.path().string() + "'");
-    expect_failure("devices", failure, "Vulkan", "LD_LIBRARY_PATH='" + libraries.path().string() + "'");
+    const std::string no_loader = "LD_LIBRARY_PATH='" + libraries.path().string() + "'";
+    expect_failure(scene + "--backend vulkan", failure, "no Vulkan loader", no_loader);
+    // Without a backend by name, what needs no Vulkan goes on without, and says so.
+    for (const std::string& environment : {no_driver, no_loader}) {
+        EXPECT_THAT(argand("devices", environment).out, ::testing::HasSubstr("backend cpu"));
+        const Outcome run = argand(scene + "--spp 1 -o a.png", environment);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        EXPECT_THAT(run.error, ::testing::HasSubstr("note: using backend cpu"));
+    }
+}
+
+TEST_F(BadInput, BackendsThatAreNotThere) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
+    expect_failure(scene + "--backend metal", usage, "'metal': this build has vulkan");
+    expect_failure(scene, usage, "'metal': this build has vulkan", "ARGAND_BACKEND=metal");
+    expect_failure(scene + "--backend cpu --device llvmpipe", failure, "of backend cpu");
+    const std::string compare = "compare-backends '" + asset("cornell_point.glb") + "' ";
+    expect_failure(compare + "--b golden", usage, "--golden");
+    expect_failure(compare + "--b golden --golden none.golden", failure, "none.golden");
+    expect_failure(compare + "--methods magic", usage, "magic");
+    expect_failure(compare + "--record /nonexistent/a.golden", failure, "/nonexistent");
 }
 
 TEST_F(BadInput, PicturesThatCannotBeCompared) {

@@ -187,6 +187,29 @@ TEST_F(Commands, DevicesListsWhatThereIs) {
     const Outcome run = argand("devices");
     EXPECT_EQ(run.exit_code, 0) << run.error;
     EXPECT_THAT(run.out, HasSubstr("0: "));
+    EXPECT_THAT(run.out, HasSubstr("backend cpu"));
+}
+
+TEST_F(Commands, BackendsDoTheSame) {
+    render("-q -o a.exr --backend vulkan");
+    render("-q -o b.exr --backend cpu");
+    const Outcome compared = argand("compare a.exr b.exr --json");
+    EXPECT_LT(nlohmann::json::parse(compared.out)["relMSE"].get<double>(), 1e-6);
+    const Outcome stages = argand("compare-backends '" + asset("cornell_glass.glb") +
+                                  "' --size 8x8 --spp 1 --photons 500 --methods footprints,path --json");
+    EXPECT_EQ(stages.exit_code, 0) << stages.error;
+    const nlohmann::json report = nlohmann::json::parse(stages.out);
+    EXPECT_GT(report["methods"]["footprints"]["isolated"].size(), 20u);
+    EXPECT_GT(report["methods"]["path"]["end_to_end"].size(), 10u);
+}
+
+TEST_F(Commands, CapturesAreRecordedAndComparedWith) {
+    const std::string compare = "compare-backends '" + asset("cornell_area.glb") + "' ";
+    const Outcome recorded = argand(compare + "--a cpu --record a.golden --size 6x6 --spp 1 --photons 200 --revision r1");
+    EXPECT_EQ(recorded.exit_code, 0) << recorded.error;
+    const Outcome compared = argand(compare + "--a vulkan --b golden --golden a.golden");
+    EXPECT_EQ(compared.exit_code, 0) << compared.error;
+    EXPECT_THAT(compared.out, HasSubstr("r1"));
 }
 
 TEST_F(Commands, DeviceByNameAndByIndex) {

@@ -19,8 +19,17 @@ TEST_F(Open, ListsDevicesByIndex) {
     for (std::size_t i = 0; i < devices.size(); ++i) {
         EXPECT_EQ(devices[i].index, i);
         EXPECT_FALSE(devices[i].name.empty());
-        EXPECT_EQ(devices[i].backend, "vulkan");
+        EXPECT_THAT(backend_names(), ::testing::Contains(devices[i].backend));
     }
+}
+
+TEST_F(Open, TheHostIsTheLastDevice) {
+    EXPECT_EQ(list_devices().back().backend, "cpu");
+    EXPECT_EQ(open_device("", "cpu")->info().backend, "cpu");
+    EXPECT_EQ(open_device("", "vulkan")->info().backend, "vulkan");
+    const ScopedEnvironment backend("ARGAND_BACKEND", "cpu");
+    EXPECT_EQ(open_device()->info().backend, "cpu");
+    EXPECT_THAT(error_of([] { open_device("", "metal"); }), AllOf(HasSubstr("'metal'"), HasSubstr("vulkan")));
 }
 
 TEST_F(Open, ByIndexByPartOfTheNameAndByEnvironment) {

@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include "backend_options.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "bench/bench.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 struct BenchOptions {
     std::vector<std::string> names;
+    std::string backend = "auto";
     std::string device;
     std::string paper;
     Fd09Settings fd09;
@@ -55,7 +57,7 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
 }
 
 void run_paper(const BenchOptions& options) {
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
     const std::vector<PaperTable> tables = bench_fd09(*device, options.fd09);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const PaperTable& table : tables) {
@@ -84,7 +86,7 @@ void run(const BenchOptions& options) {
                                          names()));
         }
     }
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const NamedBench& bench : benches) {
         if (!options.names.empty() &&
@@ -110,7 +112,7 @@ void add_bench_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure how fast the parts are on a device");
     auto options = std::make_shared<BenchOptions>();
     command->add_option("name", options->names, fmt::format("Any of {} (default: all)", names()));
-    command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
+    add_backend_options(*command, options->backend, options->device);
     Fd09Settings& fd09 = options->fd09;
     CLI::Option* paper =
         command->add_option("--paper", options->paper,

@@ -1,9 +1,11 @@
 #include "commands.hpp"
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "compare/backends.hpp"
 #include "numbers.hpp"
+#include "overwriting.hpp"
 #include "picture_size.hpp"
 #include "scene/gltf.hpp"
 
@@ -21,25 +23,25 @@ struct BackendOptions {
     std::vector<std::string> methods = method_names();
     std::string size = "64x64";
     RenderSettings settings{.samples = 4, .photons = 20'000};
+    std::string golden;
+    std::string record;
+    std::string revision = ARGAND_VERSION;
     bool json = false;
 };
 
-bool row_passes(const StageComparison& stage, bool isolated) {
-    return isolated && must_be_equal(stage) ? stage.unequal == 0
-                                            : passes(stage, isolated ? isolated_tolerance : end_to_end_tolerance);
-}
+using Passes = bool (*)(const StageComparison&);
 
-void print(const std::vector<StageComparison>& stages, bool isolated) {
-    fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12}{:>10}{:>10}  {}\n", isolated ? "isolated" : "end to end", "items",
+void print(const char* kind, const std::vector<StageComparison>& stages, Passes passes) {
+    fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12}{:>10}{:>10}  {}\n", kind, "items",
                "unequal", "diverged", "largest ULP", "relative", "A, ms", "B, ms", "verdict");
     for (const StageComparison& stage : stages) {
         fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12.2g}{:>10.2f}{:>10.2f}  {}\n", stage.name, stage.items,
                    stage.unequal, stage.diverged, stage.largest_ulp, stage.largest_relative, 1e3 * stage.seconds_a,
-                   1e3 * stage.seconds_b, row_passes(stage, isolated) ? "same" : "DIFFERENT");
+                   1e3 * stage.seconds_b, passes(stage) ? "same" : "DIFFERENT");
     }
 }
 
-nlohmann::ordered_json to_json(const std::vector<StageComparison>& stages, bool isolated) {
+nlohmann::ordered_json to_json(const std::vector<StageComparison>& stages, Passes passes) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const StageComparison& stage : stages) {
         rows.push_back({{"stage", stage.name},
@@ -51,39 +53,90 @@ nlohmann::ordered_json to_json(const std::vector<StageComparison>& stages, bool 
                         {"largest_relative", stage.largest_relative},
                         {"seconds_a", stage.seconds_a},
                         {"seconds_b", stage.seconds_b},
-                        {"same", row_passes(stage, isolated)}});
+                        {"same", passes(stage)}});
     }
     return rows;
 }
 
-void compare_on(const BackendOptions& options, Device& a, Device& b, const Scene& scene) {
-    nlohmann::ordered_json report = {{"scene", options.scene}, {"a", a.info().name}, {"b", b.info().name}};
+void fail_different(const BackendOptions& options) {
+    fail("comparing {} with {} on '{}': they differ by more than the tolerance; `same` tells in which stages", options.a,
+         options.b, options.scene);
+}
+
+void compare_live(const BackendOptions& options, const Scene& scene) {
+    const std::unique_ptr<Device> a = open_device("", options.a);
+    const std::unique_ptr<Device> b = open_device("", options.b);
+    nlohmann::ordered_json report = {{"scene", options.scene}, {"a", a->info().name}, {"b", b->info().name}};
     bool same = true;
     for (const std::string& method : options.methods) {
         RenderSettings settings = options.settings;
         settings.method = method;
-        const BackendComparison found = compare_backends(a, b, scene, settings);
+        const BackendComparison found = compare_backends(*a, *b, scene, settings);
         same = same && passes(found);
-        if (options.json) {
-            report["methods"][method] = {{"relMSE", found.rel_mse},
-                                         {"render_seconds_a", found.seconds_a},
-                                         {"render_seconds_b", found.seconds_b},
-                                         {"isolated", to_json(found.isolated, true)},
-                                         {"end_to_end", to_json(found.end_to_end, false)}};
-            continue;
+        report["methods"][method] = {{"relMSE", found.rel_mse},
+                                     {"render_seconds_a", found.seconds_a},
+                                     {"render_seconds_b", found.seconds_b},
+                                     {"isolated", to_json(found.isolated, passes_isolated)},
+                                     {"end_to_end", to_json(found.end_to_end, passes_end_to_end)}};
+        if (!options.json) {
+            fmt::print("{}, {}: A {} ({:.3f} s), B {} ({:.3f} s), relMSE of the pictures {:.3g}\n", options.scene, method,
+                       a->info().name, found.seconds_a, b->info().name, found.seconds_b, found.rel_mse);
+            print("isolated", found.isolated, passes_isolated);
+            print("end to end", found.end_to_end, passes_end_to_end);
         }
-        fmt::print("{}, {}: A {} ({:.3f} s), B {} ({:.3f} s), relMSE of the pictures {:.3g}\n", options.scene, method,
-                   a.info().name, found.seconds_a, b.info().name, found.seconds_b, found.rel_mse);
-        print(found.isolated, true);
-        print(found.end_to_end, false);
     }
     if (options.json) {
         fmt::print("{}", json_text(report));
     }
     if (!same) {
-        fail("comparing {} with {} on '{}': they differ by more than the tolerance; the stages are marked above",
-             options.a, options.b, options.scene);
+        fail_different(options);
     }
+}
+
+void compare_golden(const BackendOptions& options, const Scene& scene) {
+    const Golden golden = read_golden(options.golden);
+    const std::unique_ptr<Device> device = open_device("", options.a);
+    nlohmann::ordered_json report = {{"scene", options.scene},       {"a", device->info().name},
+                                     {"golden", options.golden},     {"golden_device", golden.device},
+                                     {"golden_driver", golden.driver}, {"golden_revision", golden.revision}};
+    bool same = true;
+    for (const auto& [method, capture] : golden.captures) {
+        const std::vector<StageComparison> found = compare_with_golden(golden, method, *device, scene);
+        same = same && std::all_of(found.begin(), found.end(), passes_isolated);
+        report["methods"][method] = {{"isolated", to_json(found, passes_isolated)}};
+        if (!options.json) {
+            fmt::print("{}, {}: A {} (recorded, {}, {}), B {}\n", options.scene, method, golden.device, golden.driver,
+                       golden.revision, device->info().name);
+            print("isolated", found, passes_isolated);
+        }
+    }
+    if (options.json) {
+        fmt::print("{}", json_text(report));
+    }
+    if (!same) {
+        fail_different(options);
+    }
+}
+
+void record(const BackendOptions& options, const Scene& scene) {
+    const std::unique_ptr<Device> device = open_device("", options.a);
+    Golden golden{.scene = scene.name,
+                  .device = device->info().name,
+                  .driver = device->info().driver,
+                  .revision = options.revision,
+                  .features = {.lane_serial = device->info().lane_serial()},
+                  .width = options.settings.width,
+                  .height = options.settings.height,
+                  .samples = options.settings.samples,
+                  .seed = options.settings.seed,
+                  .photons = options.settings.photons,
+                  .captures = {}};
+    for (const std::string& method : options.methods) {
+        RenderSettings settings = options.settings;
+        settings.method = method;
+        golden.captures[method] = record_golden(*device, scene, settings);
+    }
+    write_golden(options.record, golden);
 }
 
 void run(BackendOptions& options) {
@@ -93,13 +146,24 @@ void run(BackendOptions& options) {
             throw UsageError(fmt::format("choosing method '{}': choose from {}", method, fmt::join(known, ", ")));
         }
     }
+    if ((options.b == "golden") != !options.golden.empty()) {
+        throw UsageError("comparing with a golden capture: --b golden and --golden FILE belong together");
+    }
     const PictureSize size = parse_picture_size(options.size);
     options.settings.width = size.width;
     options.settings.height = size.height;
+    if (!options.record.empty()) {
+        check_overwrites_none(options.record, {options.scene});
+        check_writable(options.record);
+    }
     const Scene scene = load_gltf(options.scene);
-    const std::unique_ptr<Device> a = open_device("", options.a);
-    const std::unique_ptr<Device> b = open_device("", options.b);
-    compare_on(options, *a, *b, scene);
+    if (!options.record.empty()) {
+        record(options, scene);
+    } else if (!options.golden.empty()) {
+        compare_golden(options, scene);
+    } else {
+        compare_live(options, scene);
+    }
 }
 
 } // namespace
@@ -110,7 +174,10 @@ void add_compare_backends_command(CLI::App& app) {
     const std::string backends = fmt::format("{}", fmt::join(backend_names(), ", "));
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("--a", options->a, backends)->capture_default_str();
-    command->add_option("--b", options->b, backends)->capture_default_str();
+    command->add_option("--b", options->b, backends + ", golden (with --golden)")->capture_default_str();
+    command->add_option("--golden", options->golden, "With --b golden: the capture, which holds size, samples and photons");
+    command->add_option("--record", options->record, "Write a capture of what --a does to this file, and compare nothing");
+    command->add_option("--revision", options->revision, "With --record: what it is recorded from")->capture_default_str();
     command->add_option("--methods", options->methods, fmt::format("{}", fmt::join(method_names(), ",")))->delimiter(',');
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command->add_option("--spp", options->settings.samples, "Eye paths per pixel")
@@ -127,7 +194,8 @@ void add_compare_backends_command(CLI::App& app) {
         "Isolated: every stage of B starts from what A had before it; integers must be equal to the bit, and of floats one "
         "item in 10,000 may differ by more than 0.1 %. End to end: B goes on with its own results, and of the items one in "
         "100 may have diverged, as paths do that one rounding sends another way. Exit status 1 if they differ by more.\n\n"
-        "Example:\n  argand compare-backends assets/cornell_glass.glb --a vulkan --b cpu");
+        "Example:\n  argand compare-backends assets/cornell_glass.glb --a vulkan --b cpu\n"
+        "  argand compare-backends assets/cornell_glass.glb --a cuda --record glass.golden --size 8x8 --spp 1 --photons 200");
     command->callback([options] { run(*options); });
 }
 

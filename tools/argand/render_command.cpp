@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include "backend_options.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
@@ -117,17 +118,24 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         }
     }
     const Clock::time_point opened = Clock::now();
-    const std::unique_ptr<Device> device = open_device(options.device, options.backend == "auto" ? "" : options.backend);
+    std::unique_ptr<Device> device = open_backend(options.backend, options.device, options.quiet);
     times.open = seconds_since(opened);
 
-    const Clock::time_point rendering = Clock::now();
-    RenderResult result;
-    {
+    Clock::time_point rendering = Clock::now();
+    const auto render_on_device = [&] {
         Progress progress("rendering", options.quiet);
-        result = render(*device, scene, options.settings, [&](double done) {
+        return render(*device, scene, options.settings, [&](double done) {
             progress.update(done);
             return !interrupted();
         });
+    };
+    RenderResult result;
+    try {
+        result = render_on_device();
+    } catch (const DeviceFault& fault) {
+        device = open_after_fault(options.backend, options.device, fault);
+        rendering = Clock::now();
+        result = render_on_device();
     }
     times.render = seconds_since(rendering);
     const std::vector<std::string> notes = notes_on(options.settings, result.statistics, times.render);
@@ -219,9 +227,7 @@ void add_render_command(CLI::App& app) {
     command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")
         ->capture_default_str()
         ->check(number_between(-100, 100));
-    command->add_option("--backend", options->backend, "auto, " + fmt::format("{}", fmt::join(backend_names(), ", ")))
-        ->capture_default_str();
-    command->add_option("--device", options->device, "Device by index or part of its name (see `argand devices`)");
+    add_backend_options(*command, options->backend, options->device);
     command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");
     add_footprint_options(*command, settings.footprints);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");

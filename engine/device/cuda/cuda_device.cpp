@@ -26,8 +26,8 @@ std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size
 
 void check(cudaError_t result, const std::string& doing, const std::string& device) {
     if (result != cudaSuccess) {
-        fail("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver", doing, device,
-             cudaGetErrorString(result));
+        throw DeviceFault(fmt::format("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver", doing, device,
+                                      cudaGetErrorString(result)));
     }
 }
 

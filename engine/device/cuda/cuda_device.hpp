@@ -9,7 +9,7 @@
 
 namespace argand::cuda {
 
-/// Throws Error naming what was being done, to which device, unless the result is success.
+/// Throws DeviceFault naming what was being done, to which device, unless the result is success.
 void check(cudaError_t result, const std::string& doing, const std::string& device);
 
 /// A device's memory. The device is current again when it is freed.

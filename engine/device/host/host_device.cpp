@@ -33,6 +33,10 @@ TwinArguments twin_arguments(const KernelArguments& arguments) {
 
 } // namespace
 
+std::span<std::uint32_t> words_of(const BufferView& view) {
+    return {reinterpret_cast<std::uint32_t*>(host(*view.buffer).bytes + view.offset), size_of(view) / sizeof(std::uint32_t)};
+}
+
 DeviceInfo describe() {
     DeviceInfo info;
     info.backend = "cpu";
@@ -80,8 +84,7 @@ void HostDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const 
 }
 
 void HostDevice::fill(const BufferView& to, std::uint32_t value) {
-    auto* words = reinterpret_cast<std::uint32_t*>(host(*to.buffer).bytes + to.offset);
-    std::fill_n(words, size_of(to) / sizeof(std::uint32_t), value);
+    std::ranges::fill(words_of(to), value);
 }
 
 void HostDevice::copy(const BufferView& from, const BufferView& to) {

@@ -18,11 +18,14 @@ struct HostBuffer final : BufferStorage {
     ~HostBuffer() override;
 };
 
+/// The 32-bit words of a range of a HostBuffer.
+std::span<std::uint32_t> words_of(const BufferView& view);
+
 /// Describes the host's cores as a device.
 DeviceInfo describe();
 
 /// Runs the kernels' twins on the host's cores. Nothing is put off: what is recorded is done.
-class HostDevice final : public Device {
+class HostDevice : public Device {
 public:
     explicit HostDevice(DeviceInfo info) : info_(std::move(info)) {}
 

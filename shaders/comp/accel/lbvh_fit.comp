@@ -24,5 +24,8 @@ layout(constant_id = 1) const bool for_rays = false;
 // Whether the boxes are in the order of their codes; `order` then is only what leaves refer to.
 layout(constant_id = 2) const bool in_order = false;
 
-#define MEMORY_FENCE() memoryBarrierBuffer()
+#define MEMORY_FENCE() \
+    if (fences) {      \
+        memoryBarrierBuffer(); \
+    }
 #include "shared/kernels/accel/lbvh_fit.h"

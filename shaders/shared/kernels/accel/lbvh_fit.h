@@ -1,11 +1,5 @@
 #include "shared/kernels/count.h"
 
-FN void fence() {
-    if (fences) {
-        MEMORY_FENCE();
-    }
-}
-
 CONSTANT real triangle_cost = real(0.5);    // of a node's
 
 FN real half_area(vec3 low, vec3 high) {
@@ -88,12 +82,12 @@ FN void main() {
         }
         uint other = lbvh_end;
         if (!root) {
-            fence();    // the node above is seen before its end is
+            MEMORY_FENCE();     // the node above is seen before its end is
             other = atomicExchange(ends[is_left ? last : first - 1u], is_left ? first : last);
         }
         going = other != lbvh_end;
         if (going) {
-            fence();    // the sibling was written before its end was
+            MEMORY_FENCE();     // the sibling was written before its end was
             uint next = is_left ? last + 1u : first - 1u;
             uint sibling = 2u * next + (next == other ? 1u : 0u);
             vec3 sibling_low = bits_float(uvec3(nodes[2u * sibling]));

@@ -1,0 +1,102 @@
+#include "compare/backends.hpp"
+#include "compare/paired_device.hpp"
+#include "device/host/host_device.hpp"
+#include "device_fixture.hpp"
+#include "scene/gltf.hpp"
+
+#include <cstring>
+#include <filesystem>
+
+namespace argand {
+namespace {
+
+RenderSettings small(const std::string& method) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.width = 24;
+    settings.height = 24;
+    settings.samples = 2;
+    settings.photons = 5000;
+    return settings;
+}
+
+std::vector<std::string> scenes() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(ARGAND_SOURCE_DIR "/assets")) {
+        const std::string extension = entry.path().extension();
+        if (extension == ".glb" || extension == ".gltf") {
+            names.push_back(entry.path().filename());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+class Backends : public DeviceTest, public ::testing::WithParamInterface<std::string> {
+protected:
+    host::HostDevice host_{host::describe()};
+};
+
+TEST_P(Backends, DoTheSame) {
+    Device& device = open();
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/" + GetParam());
+    for (const std::string& method : method_names()) {
+        const BackendComparison found = compare_backends(device, host_, scene, small(method));
+        EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
+        EXPECT_GT(found.isolated.size(), 10u);
+        for (const StageComparison& stage : found.isolated) {
+            EXPECT_TRUE(passes_isolated(stage)) << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
+                                                << stage.diverged << " diverged of " << stage.items;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Assets, Backends, ::testing::ValuesIn(scenes()), [](const auto& scene) {
+    return scene.param.substr(0, scene.param.find('.'));
+});
+
+/// A device that writes a wrong word after one kernel.
+class FaultyDevice final : public host::HostDevice {
+public:
+    FaultyDevice(std::string kernel, std::size_t binding) : HostDevice(host::describe()), kernel_(std::move(kernel)), binding_(binding) {}
+
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override {
+        HostDevice::dispatch(kernel, arguments, threads);
+        if (kernel.name == kernel_) {
+            host::words_of(BufferView(*arguments.buffers[binding_])).front() ^= 0x00800000u;
+        }
+    }
+
+private:
+    std::string kernel_;
+    std::size_t binding_;
+};
+
+class Faults : public DeviceTest {};
+
+TEST_F(Faults, AreFoundInTheirStageAlone) {
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
+    const std::pair<const char*, std::size_t> faults[] = {{"photon_codes", 3}, {"photon_boxes", 4}};
+    for (const auto& [kernel, binding] : faults) {
+        host::HostDevice good(host::describe());
+        FaultyDevice bad(kernel, binding);
+        PairedDevice pair(good, bad, Pairing::isolated);
+        render(pair, scene, small("photons"), [](double) { return true; });
+        bool found = false;
+        for (const StageComparison& stage : pair.comparisons()) {
+            EXPECT_EQ(stage.unequal > 0, stage.name == kernel) << stage.name;
+            found = found || stage.name == kernel;
+        }
+        EXPECT_TRUE(found) << kernel;
+    }
+}
+
+TEST_F(Faults, ReachThePictureIfNothingIsPutRight) {
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
+    host::HostDevice good(host::describe());
+    FaultyDevice bad("film_add", 2);
+    EXPECT_FALSE(passes(compare_backends(good, bad, scene, small("path"))));
+}
+
+} // namespace
+} // namespace argand
