@@ -1,6 +1,5 @@
 #include "commands.hpp"
 
-#include "base/error.hpp"
 #include "device/device.hpp"
 
 #include <fmt/format.h>
@@ -11,13 +10,16 @@ namespace {
 
 void list() {
     const std::vector<DeviceInfo> devices = list_devices();
-    if (devices.empty()) {
-        fail("listing devices: there is no device; install a driver, for instance the package mesa-vulkan-drivers");
-    }
     for (const DeviceInfo& device : devices) {
         fmt::print("{}: {} ({}, {}, backend {}{}, {} MiB){}\n", device.index, device.name, to_string(device.kind),
                    device.driver, device.backend, device.api_version.empty() ? "" : " " + device.api_version, device.limits.memory >> 20,
                    device.unsuitable.empty() ? "" : "; cannot be used: " + device.unsuitable);
+    }
+    for (const std::string& backend : backend_names()) {
+        const std::string missing = why_missing(backend);
+        if (!missing.empty()) {
+            fmt::print("backend {}: no device, {}\n", backend, missing);
+        }
     }
 }
 
