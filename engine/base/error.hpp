@@ -16,9 +16,11 @@ struct UsageError : Error {
     using Error::Error;
 };
 
-/// A device that stopped working while it was used; another one may do.
+/// A device that stopped working while it was opened or used; one of another backend may do.
 struct DeviceFault : Error {
-    using Error::Error;
+    DeviceFault(std::string of, const std::string& message) : Error(message), backend(std::move(of)) {}
+
+    std::string backend;
 };
 
 /// Throws Error with a formatted message.

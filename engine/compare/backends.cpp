@@ -98,13 +98,14 @@ std::vector<StageComparison> compare_with_golden(const Golden& golden, const std
     if (capture == golden.captures.end()) {
         fail("comparing with a golden capture of '{}': it has none of method {}", golden.scene, method);
     }
-    if (scene.name != golden.scene) {
-        fail("comparing '{}' with a golden capture: it is of '{}'; take that scene, or record it anew", scene.name,
+    if (scene.name != golden.scene || fingerprint(scene) != golden.fingerprint) {
+        fail("comparing '{}' with a golden capture: it is of '{}' as that was; take that scene, or record it anew", scene.name,
              golden.scene);
     }
     GoldenDevice recorded(golden, capture->second);
     PairedDevice pair(recorded, device, Pairing::isolated);
     render(pair, scene, settings_of(golden, method), keep_going);
+    recorded.expect_end();
     return pair.comparisons();
 }
 

@@ -32,15 +32,15 @@ RenderSettings settings_of(const Golden& golden, const std::string& method);
 std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method, Device& device,
                                                  const Scene& scene);
 
-/// Whether all of a stage's items must be equal to the bit: integers, and floats that are copied or compared only.
+/// Whether all of a stage's items must be equal to the bit: integers, and floats with hardly any arithmetic.
 bool must_be_equal(const StageComparison& stage);
 
-/// Of a stage's items, the share that may have diverged where the second backend starts from the first one's input, and
-/// where it goes on by itself.
+/// Of a stage's items, the share that may have diverged where the second backend starts from the first one's input (they
+/// differ by more than 1e-5), and where it goes on by itself (1e-3).
 inline constexpr double isolated_tolerance = 1e-4;
 inline constexpr double end_to_end_tolerance = 1e-2;
 /// Of the picture.
-inline constexpr double picture_tolerance = 1e-3;
+inline constexpr double picture_tolerance = 1e-5;
 
 /// Whether a stage is the same on both, within what it is allowed.
 bool passes_isolated(const StageComparison& stage);

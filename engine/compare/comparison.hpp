@@ -21,12 +21,13 @@ struct StageComparison {
     double seconds_b = 0;
 };
 
-/// Floats of one item further apart than this share of the larger one, and of a thousandth of the item's largest, have
-/// diverged: a path has taken another way.
-inline constexpr double divergence_tolerance = 1e-3;
+/// What is in memory that nothing has been written to.
+inline constexpr std::uint32_t undefined_word = 0xcdcdcdcdu;
 
-/// Compares the items of two buffers. `layout`: an item's words, 'f' a float, 'u' any other.
+/// Compares the items of two buffers. `layout`: an item's words, 'f' a float, 'u' any other. Floats have diverged if they
+/// are further apart than `tolerance` of the larger one, or of a thousandth of the largest that the same word of any item
+/// holds: a direction's component may be as good as 0.
 void compare_items(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b, std::string_view layout,
-                   StageComparison& result);
+                   double tolerance, StageComparison& result);
 
 } // namespace argand

@@ -3,6 +3,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -14,74 +15,18 @@ namespace argand {
 namespace {
 
 using Json = nlohmann::json;
+using Words = std::vector<std::uint32_t>;
 
-constexpr int format = 1;
-constexpr std::uint64_t most_bytes = std::uint64_t(1) << 30;
+constexpr int format = 2;
+constexpr std::uint64_t most_bytes = std::uint64_t(64) << 20;
 
-template <class T>
-Json binary(const std::vector<T>& values) {
-    std::vector<std::uint8_t> bytes(values.size() * sizeof(T));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    return Json::binary(std::move(bytes));
-}
+/// A file is, packed by zlib: the number of bytes of a JSON text, the text (padded to a multiple of 4), and the words that
+/// it counts, in its order: of each write the runs, then what is in them.
+struct Unpacked {
+    Json header;
+    Words words;
+};
 
-template <class T>
-std::vector<T> values_of(const Json& json) {
-    const Json::binary_t& bytes = json.get_binary();
-    if (bytes.size() % sizeof(T) != 0) {
-        fail("its data are cut short");
-    }
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
-}
-
-Json to_json(const GoldenCapture& capture) {
-    Json steps = Json::array();
-    for (const GoldenStep& step : capture) {
-        Json writes = Json::array();
-        for (const GoldenWrite& write : step.writes) {
-            writes.push_back({binary(write.runs), binary(write.words)});
-        }
-        steps.push_back({step.stage, std::move(writes)});
-    }
-    return steps;
-}
-
-GoldenCapture capture_of(const Json& steps) {
-    GoldenCapture capture;
-    for (const Json& step : steps) {
-        GoldenStep& made = capture.emplace_back();
-        made.stage = step.at(0).get<std::string>();
-        for (const Json& write : step.at(1)) {
-            made.writes.push_back({values_of<GoldenWrite::Run>(write.at(0)), values_of<std::uint32_t>(write.at(1))});
-        }
-    }
-    return capture;
-}
-
-Golden golden_of(const Json& json) {
-    if (json.at("format").get<int>() != format) {
-        fail("it has another format than this version reads");
-    }
-    Golden golden;
-    golden.scene = json.at("scene").get<std::string>();
-    golden.device = json.at("device").get<std::string>();
-    golden.driver = json.at("driver").get<std::string>();
-    golden.revision = json.at("revision").get<std::string>();
-    golden.features.lane_serial = json.at("lane_serial").get<bool>();
-    golden.width = json.at("width").get<int>();
-    golden.height = json.at("height").get<int>();
-    golden.samples = json.at("samples").get<std::uint32_t>();
-    golden.seed = json.at("seed").get<std::uint32_t>();
-    golden.photons = json.at("photons").get<std::uint64_t>();
-    for (const auto& [method, steps] : json.at("captures").items()) {
-        golden.captures[method] = capture_of(steps);
-    }
-    return golden;
-}
-
-/// zlib's stream, behind the number of bytes that it holds.
 std::vector<std::uint8_t> packed(const std::vector<std::uint8_t>& bytes) {
     uLongf size = compressBound(bytes.size());
     std::vector<std::uint8_t> result(sizeof(std::uint64_t) + size);
@@ -92,28 +37,130 @@ std::vector<std::uint8_t> packed(const std::vector<std::uint8_t>& bytes) {
     return result;
 }
 
-std::vector<std::uint8_t> unpacked(const std::vector<std::uint8_t>& bytes) {
+Unpacked unpack(const std::vector<std::uint8_t>& bytes) {
     std::uint64_t size = 0;
     if (bytes.size() < sizeof(size)) {
         fail("it is cut short");
     }
     std::memcpy(&size, bytes.data(), sizeof(size));
-    if (size > most_bytes) {
+    if (size > most_bytes || size % sizeof(std::uint32_t) != 0) {
         fail("it is damaged");
     }
-    std::vector<std::uint8_t> result(size);
+    Words words(size / sizeof(std::uint32_t));
     uLongf written = size;
-    if (uncompress(result.data(), &written, bytes.data() + sizeof(size), bytes.size() - sizeof(size)) != Z_OK ||
-        written != size) {
+    if (uncompress(reinterpret_cast<Bytef*>(words.data()), &written, bytes.data() + sizeof(size),
+                   bytes.size() - sizeof(size)) != Z_OK ||
+        written != size || words.empty()) {
         fail("it is damaged");
     }
+    const std::uint64_t text_bytes = words.front();
+    const std::uint64_t text_words = (text_bytes + 3) / 4;
+    if (text_words > words.size() - 1) {
+        fail("it is damaged");
+    }
+    const auto* text = reinterpret_cast<const char*>(words.data() + 1);
+    Unpacked result{Json::parse(text, text + text_bytes), {}};
+    result.words.assign(words.begin() + 1 + static_cast<std::ptrdiff_t>(text_words), words.end());
     return result;
+}
+
+/// Takes words from the front.
+class Reader {
+public:
+    explicit Reader(const Words& words) : words_(words) {}
+
+    std::span<const std::uint32_t> take(std::uint64_t count) {
+        if (count > words_.size() - at_) {
+            fail("its data are cut short");
+        }
+        at_ += count;
+        return std::span(words_).subspan(at_ - count, count);
+    }
+    bool at_end() const { return at_ == words_.size(); }
+
+private:
+    const Words& words_;
+    std::size_t at_ = 0;
+};
+
+GoldenWrite read_write(const Json& counts, Reader& reader) {
+    GoldenWrite write;
+    write.size = counts.at(0).get<std::uint32_t>();
+    const std::span<const std::uint32_t> runs = reader.take(2 * counts.at(1).get<std::uint64_t>());
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i < runs.size(); i += 2) {
+        write.runs.push_back({runs[i], runs[i + 1]});
+        total += runs[i + 1];
+    }
+    const std::span<const std::uint32_t> words = reader.take(total);
+    write.words.assign(words.begin(), words.end());
+    return write;
+}
+
+template <class T>
+T within(const Json& value, std::uint64_t low, std::uint64_t high) {
+    const auto number = value.get<std::int64_t>();
+    if (number < 0 || static_cast<std::uint64_t>(number) < low || static_cast<std::uint64_t>(number) > high) {
+        fail("it asks for what cannot be rendered");
+    }
+    return static_cast<T>(number);
+}
+
+std::string line(const Json& value) { return one_line(value.get<std::string>(), 256); }
+
+Golden golden_of(const Unpacked& file) {
+    const Json& header = file.header;
+    if (header.at("format").get<int>() != format) {
+        fail("it has another format than this version reads");
+    }
+    Golden golden;
+    golden.scene = line(header.at("scene"));
+    golden.fingerprint = header.at("fingerprint").get<std::uint64_t>();
+    golden.device = line(header.at("device"));
+    golden.driver = line(header.at("driver"));
+    golden.revision = line(header.at("revision"));
+    golden.features.lane_serial = header.at("lane_serial").get<bool>();
+    golden.width = within<int>(header.at("width"), 1, 4096);
+    golden.height = within<int>(header.at("height"), 1, 4096);
+    golden.samples = within<std::uint32_t>(header.at("samples"), 1, 65536);
+    golden.seed = within<std::uint32_t>(header.at("seed"), 0, UINT32_MAX);
+    golden.photons = within<std::uint64_t>(header.at("photons"), 0, 100'000'000);
+    Reader reader(file.words);
+    for (const auto& [method, steps] : header.at("captures").items()) {
+        for (const Json& step : steps) {
+            GoldenStep& made = golden.captures[one_line(method, 64)].emplace_back();
+            made.stage = line(step.at(0));
+            for (const Json& counts : step.at(1)) {
+                made.writes.push_back(read_write(counts, reader));
+            }
+        }
+    }
+    if (golden.captures.empty() || !reader.at_end()) {
+        fail("it holds nothing, or more than it says");
+    }
+    return golden;
 }
 
 } // namespace
 
+std::uint64_t fingerprint(const Scene& scene) {
+    std::uint64_t hash = 0xcbf29ce484222325u;   // FNV-1a
+    const auto add = [&](const auto& values) {
+        const auto bytes = std::as_bytes(std::span(values));
+        for (const std::byte byte : bytes) {
+            hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+        }
+    };
+    add(scene.positions);
+    add(scene.normals);
+    add(scene.triangles);
+    add(scene.triangle_material);
+    return hash;
+}
+
 GoldenWrite changes(std::span<const std::uint32_t> before, std::span<const std::uint32_t> after) {
     GoldenWrite write;
+    write.size = static_cast<std::uint32_t>(after.size());
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (before[i] == after[i]) {
             continue;
@@ -131,7 +178,8 @@ GoldenWrite changes(std::span<const std::uint32_t> before, std::span<const std::
 void apply_changes(const GoldenWrite& write, std::span<std::uint32_t> words) {
     std::size_t from = 0;
     for (const GoldenWrite::Run& run : write.runs) {
-        if (run.count > words.size() || run.first > words.size() - run.count || run.count > write.words.size() - from) {
+        if (write.size != words.size() || run.count > words.size() || run.first > words.size() - run.count ||
+            run.count > write.words.size() - from) {
             fail("comparing with a golden capture: it is of another scene or version; record it anew");
         }
         std::copy_n(write.words.begin() + static_cast<std::ptrdiff_t>(from), run.count,
@@ -142,28 +190,54 @@ void apply_changes(const GoldenWrite& write, std::span<std::uint32_t> words) {
 
 void write_golden(const std::filesystem::path& file, const Golden& golden) {
     Json captures = Json::object();
+    Words words;
     for (const auto& [method, capture] : golden.captures) {
-        captures[method] = to_json(capture);
+        Json& steps = captures[method] = Json::array();
+        for (const GoldenStep& step : capture) {
+            Json writes = Json::array();
+            for (const GoldenWrite& write : step.writes) {
+                writes.push_back({write.size, write.runs.size()});
+                for (const GoldenWrite::Run& run : write.runs) {
+                    words.insert(words.end(), {run.first, run.count});
+                }
+                words.insert(words.end(), write.words.begin(), write.words.end());
+            }
+            steps.push_back({step.stage, std::move(writes)});
+        }
     }
-    const Json json = {{"format", format},
-                       {"scene", golden.scene},
-                       {"device", golden.device},
-                       {"driver", golden.driver},
-                       {"revision", golden.revision},
-                       {"lane_serial", golden.features.lane_serial},
-                       {"width", golden.width},
-                       {"height", golden.height},
-                       {"samples", golden.samples},
-                       {"seed", golden.seed},
-                       {"photons", golden.photons},
-                       {"captures", std::move(captures)}};
-    write_atomically(file, packed(Json::to_msgpack(json)));
+    const Json header = {{"format", format},
+                         {"scene", golden.scene},
+                         {"fingerprint", golden.fingerprint},
+                         {"device", golden.device},
+                         {"driver", golden.driver},
+                         {"revision", golden.revision},
+                         {"lane_serial", golden.features.lane_serial},
+                         {"width", golden.width},
+                         {"height", golden.height},
+                         {"samples", golden.samples},
+                         {"seed", golden.seed},
+                         {"photons", golden.photons},
+                         {"captures", std::move(captures)}};
+    const std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const auto text_bytes = static_cast<std::uint32_t>(text.size());
+    std::vector<std::uint8_t> bytes(sizeof(text_bytes) + (text.size() + 3) / 4 * 4);
+    std::memcpy(bytes.data(), &text_bytes, sizeof(text_bytes));
+    std::memcpy(bytes.data() + sizeof(text_bytes), text.data(), text.size());
+    const auto data = std::as_bytes(std::span(words));
+    const std::size_t head = bytes.size();
+    bytes.resize(head + data.size());
+    std::memcpy(bytes.data() + head, data.data(), data.size());
+    if (bytes.size() > most_bytes) {
+        fail("recording '{}': the capture is larger than {} MiB; take a smaller picture or fewer photons", file.string(),
+             most_bytes >> 20);
+    }
+    write_atomically(file, packed(bytes));
 }
 
 Golden read_golden(const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = read_file(file);
     try {
-        return golden_of(Json::from_msgpack(unpacked(bytes)));
+        return golden_of(unpack(bytes));
     } catch (const Json::exception&) {
         fail("reading golden capture '{}': it is not one; record it with `argand compare-backends --record`", file.string());
     } catch (const Error& error) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "device/info.hpp"
+#include "scene/scene.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,13 +17,14 @@ struct GoldenWrite {
     struct Run {
         std::uint32_t first, count;
     };
+    std::uint32_t size = 0;             ///< words of the buffer
     std::vector<Run> runs;              ///< ascending, apart
     std::vector<std::uint32_t> words;   ///< of all runs, one after another
 };
 
 /// The changed words between two states of a buffer.
 GoldenWrite changes(std::span<const std::uint32_t> before, std::span<const std::uint32_t> after);
-/// Makes them. Throws Error if they exceed the buffer.
+/// Makes them. Throws Error if the buffer is of another size or they exceed it.
 void apply_changes(const GoldenWrite& write, std::span<std::uint32_t> words);
 
 struct GoldenStep {
@@ -33,9 +35,10 @@ struct GoldenStep {
 /// All that a device did while it rendered a picture with one method.
 using GoldenCapture = std::vector<GoldenStep>;
 
-/// What a file holds.
+/// What a file holds. Like a program, a capture is to be trusted: what it says is read by kernels, which check no index.
 struct Golden {
     std::string scene;                  ///< its file's name
+    std::uint64_t fingerprint = 0;      ///< of its geometry
     std::string device, driver, revision;   ///< where and from what it was recorded
     Features features;                  ///< of that device; they decide which stages there are
     int width = 0, height = 0;
@@ -43,6 +46,9 @@ struct Golden {
     std::uint64_t photons = 0;
     std::map<std::string, GoldenCapture> captures;  ///< by method
 };
+
+/// Tells other geometry from that of a scene.
+std::uint64_t fingerprint(const Scene& scene);
 
 void write_golden(const std::filesystem::path& file, const Golden& golden);
 /// Throws Error if the file is missing, cut short or not a capture.

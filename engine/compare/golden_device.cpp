@@ -64,6 +64,14 @@ void GoldenDevice::play(const std::string& stage, std::span<const BufferView> wr
     ++next_;
 }
 
+void GoldenDevice::expect_end() const {
+    if (next_ != capture_.size()) {
+        fail("comparing with a golden capture: its step {}, {}, does not come; it is of another scene or version, record it "
+             "anew",
+             next_ + 1, capture_[next_].stage);
+    }
+}
+
 void GoldenDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t) {
     std::vector<BufferView> written;
     for (const WrittenBinding& binding : written_bindings(kernel, arguments)) {

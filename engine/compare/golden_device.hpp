@@ -14,6 +14,9 @@ public:
     void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
     Primitives* primitives() override { return primitives_.get(); }
 
+    /// Throws Error if there are steps that were recorded and have not been played.
+    void expect_end() const;
+
     /// The next step, which is to be this stage, on the buffers that it writes.
     void play(const std::string& stage, std::span<const BufferView> written);
 

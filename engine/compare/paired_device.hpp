@@ -60,6 +60,10 @@ public:
 
 private:
     StageComparison& comparison(const std::string& stage);
+    double tolerance() const;
+    /// Compares what query_cells found, whatever entries of its table the cells have.
+    void compare_cells(const std::vector<std::vector<std::uint32_t>>& before, const std::vector<WrittenBinding>& written,
+                       StageComparison& found);
 
     Device& a_;
     Device& b_;

@@ -1,6 +1,8 @@
 #include "compare/unordered.hpp"
 
 #include "shared/accel_records.h"
+#include "shared/query_cell.h"
+#include "shared/query_record.h"
 
 #include <algorithm>
 #include <vector>
@@ -42,9 +44,14 @@ void put_in_order(std::string_view stage, std::string_view buffer, std::span<std
     }
 }
 
+std::uint32_t owner_of(const CellTables& tables, std::size_t query) {
+    const std::uint32_t entry = tables.sources[query];
+    return entry < tables.owners.size() ? tables.owners[entry] : no_query;
+}
+
 bool is_incidental(std::string_view stage, std::string_view buffer) {
-    // Which entry of the table a cell of queries gets; query_owners makes the owner of it, which is compared.
-    const bool is_cell = stage == "query_cells" && (buffer == "table" || buffer == "owners" || buffer == "sources");
+    // Which entry of the table a cell of queries gets; its owner is compared.
+    const bool is_cell = stage == cells_stage && (buffer == "table" || buffer == "owners" || buffer == "sources");
     // Which of two children came first to their parent; the nodes are compared.
     return is_cell || (stage == "lbvh_fit" && buffer == "ends");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/error.hpp"
 #include "device/buffer.hpp"
 #include "device/info.hpp"
 #include "device/kernel.hpp"
@@ -97,7 +98,13 @@ public:
     StageScope(Device& device, std::string_view name) : device_(device) { device_.begin_stage(name); }
     StageScope(const StageScope&) = delete;
     StageScope& operator=(const StageScope&) = delete;
-    ~StageScope() { device_.end_stage(); }
+    ~StageScope() {
+        try {
+            device_.end_stage();
+        } catch (const Error&) {    // NOLINT(bugprone-empty-catch)
+            // The device has failed, which is on its way up already, or is said to whoever calls next.
+        }
+    }
 
 private:
     Device& device_;

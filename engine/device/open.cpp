@@ -112,7 +112,9 @@ std::unique_ptr<Device> open_device(const std::string& choice, const std::string
         throw UsageError(fmt::format("choosing backend '{}': this build has {}", wanted, fmt::join(names, ", ")));
     }
     const Offer offered = offer();
-    DeviceInfo info = choose(offered, choice.empty() ? environment("ARGAND_DEVICE") : choice, wanted);
+    // Who names a backend does not mean a device that the environment names of another.
+    const bool from_environment = choice.empty() && backend.empty();
+    DeviceInfo info = choose(offered, from_environment ? environment("ARGAND_DEVICE") : choice, wanted);
     apply_environment(info);
     if (info.unsuitable.empty()) {
         info.unsuitable = unmet_requirement(info.limits);

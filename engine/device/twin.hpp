@@ -27,4 +27,10 @@ struct TwinArguments {
     }
 };
 
+/// Twins index words with 32 bits.
+inline constexpr std::uint64_t most_addressable = std::uint64_t(4) << 30;
+
+/// Throws Error if a kernel's invocations cannot be numbered.
+void check_threads(const KernelInfo& kernel, std::uint64_t threads);
+
 } // namespace argand

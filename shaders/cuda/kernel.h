@@ -8,13 +8,27 @@
 #include "shared/prelude.h"
 
 #define THREAD_INDEX thread_index
-// Only Vulkan's devices have reason to read these as texels.
-#define NODES(i) nodes[i]
-#define PHOTONS(i) photons[i]
-#define FOOTPRINTS(i) footprints[i]
-#define TRIANGLES(i) triangles[i]
+// What is read at random and much: by 16 bytes at a time, which GLM's vectors, aligned to 4, do not tell nvcc.
+#define NODES(i) read4(nodes, i)
+#define PHOTONS(i) read4(photons, i)
+#define FOOTPRINTS(i) read4(footprints, i)
+#define TRIANGLES(i) read4(triangles, i)
 
 namespace argand {
+
+#ifdef __CUDA_ARCH__
+__device__ inline uvec4 read4(const uvec4* from, uint i) {
+    const uint4 v = reinterpret_cast<const uint4*>(from)[i];
+    return uvec4(v.x, v.y, v.z, v.w);
+}
+__device__ inline vec4 read4(const vec4* from, uint i) {
+    const float4 v = reinterpret_cast<const float4*>(from)[i];
+    return vec4(v.x, v.y, v.z, v.w);
+}
+#else
+template <class T>
+FN T read4(const T* from, uint i) { return from[i]; }
+#endif
 
 #ifdef __CUDA_ARCH__
 __device__ inline uint atomicAdd(uint& to, uint value) { return ::atomicAdd(&to, value); }

@@ -35,7 +35,7 @@ CONSTANT real nearest_trusted_samples = real(32);
 // A query for the nearest photons between two dispatches.
 struct NearestRecord {
     uint phase;             // nearest_counts, ...
-    uint low, high, shift;  // bits of squared distances, see nearest_gather.glsl
+    uint low, high, shift;  // bits of squared distances, see nearest_gather
     uint top;
     uint total;             // photons counted up to `top`; if done: taken
     uint node, start;

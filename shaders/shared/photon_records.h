@@ -90,7 +90,7 @@ struct GatherRecord {
     float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, pad1;
 };
 
-// Slots that one invocation counts (photon_tally.comp).
+// Slots that one invocation counts (photon_tally).
 CONSTANT uint slots_per_tally = 64u;
 
 // A leaf of the map: the place of its first photon, and above it how many more there are.

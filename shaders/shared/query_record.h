@@ -37,7 +37,7 @@ struct EstimateRecord {
     float32 caustic_r, caustic_g, caustic_b, pad1;
 };
 
-// How queries nearby share an answer (query_cells.comp).
+// How queries nearby share an answer (query_cells).
 struct QueryShareParams {
     float32 cell;               // edge of a cell at most [length]; 0: nothing is shared
     float32 pixel, pixel_slope; // a cell is no larger than pixel + pixel_slope × distance from the eye

@@ -64,7 +64,7 @@ TEST_F(BadInput, Usage) {
         expect_failure(scene + "--size " + size, usage, "--size");
     }
     expect_failure(scene + "--method rays", usage, "photons, ");
-    expect_failure(scene + "--backend cuda", usage, "vulkan");
+    expect_failure(scene + "--backend glide", usage, "vulkan");
     expect_failure("compare", usage, "a");
     expect_failure("inspect", usage, "scene");
 }
@@ -155,6 +155,8 @@ TEST_F(BadInput, BackendsThatAreNotThere) {
     expect_failure(scene + "--backend metal", usage, "'metal': this build has vulkan");
     expect_failure(scene, usage, "'metal': this build has vulkan", "ARGAND_BACKEND=metal");
     expect_failure(scene + "--backend cpu --device llvmpipe", failure, "of backend cpu");
+    // A device that the environment names is not meant for a backend that the user names.
+    EXPECT_EQ(argand(scene + "--backend cpu -q -o b.png", "ARGAND_DEVICE=llvmpipe").exit_code, 0);
     const std::string compare = "compare-backends '" + asset("cornell_point.glb") + "' ";
     expect_failure(compare + "--b golden", usage, "--golden");
     expect_failure(compare + "--b golden --golden none.golden", failure, "none.golden");

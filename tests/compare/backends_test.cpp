@@ -45,7 +45,9 @@ TEST_P(Backends, DoTheSame) {
         EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
         EXPECT_GT(found.isolated.size(), 10u);
         for (const StageComparison& stage : found.isolated) {
-            EXPECT_TRUE(passes_isolated(stage)) << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
+            // Lavapipe and the host round alike.
+            const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
+            EXPECT_TRUE(same_bits && passes_isolated(stage)) << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
                                                 << stage.diverged << " diverged of " << stage.items;
         }
     }
@@ -76,8 +78,9 @@ class Faults : public DeviceTest {};
 
 TEST_F(Faults, AreFoundInTheirStageAlone) {
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
-    const std::pair<const char*, std::size_t> faults[] = {{"photon_codes", 3}, {"photon_boxes", 4}};
+    const std::pair<const char*, std::size_t> faults[] = {{"photon_codes", 3}, {"photon_boxes", 4}, {"query_cells", 6}};
     for (const auto& [kernel, binding] : faults) {
+        SCOPED_TRACE(kernel);
         host::HostDevice good(host::describe());
         FaultyDevice bad(kernel, binding);
         PairedDevice pair(good, bad, Pairing::isolated);
@@ -88,6 +91,26 @@ TEST_F(Faults, AreFoundInTheirStageAlone) {
             found = found || stage.name == kernel;
         }
         EXPECT_TRUE(found) << kernel;
+    }
+}
+
+/// A device that breaks down.
+class BreakingDevice final : public host::HostDevice {
+public:
+    BreakingDevice() : HostDevice(host::describe()) {}
+
+    void dispatch(const KernelInfo&, const KernelArguments&, std::uint64_t) override { throw DeviceFault("test", "broken"); }
+    void end_stage() override { throw DeviceFault("test", "broken still"); }
+};
+
+TEST_F(Faults, OfADeviceAreToldOnce) {
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
+    BreakingDevice device;
+    try {
+        render(device, scene, small("photons"), [](double) { return true; });
+        ADD_FAILURE() << "no fault was told";
+    } catch (const DeviceFault& fault) {
+        EXPECT_STREQ(fault.what(), "broken");
     }
 }
 

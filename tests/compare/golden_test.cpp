@@ -23,6 +23,7 @@ TEST(GoldenChanges, AreAppliedAgain) {
     apply_changes(write, words);
     EXPECT_EQ(words, after);
     EXPECT_TRUE(changes(after, after).runs.empty());
+    EXPECT_EQ(write.size, 6u);
     words.resize(4);
     EXPECT_THAT(error_of([&] { apply_changes(write, words); }), HasSubstr("record it anew"));
 }
@@ -32,6 +33,7 @@ protected:
     /// A capture of a small picture, made now.
     Golden record(Device& device, const Scene& scene) {
         Golden golden{.scene = scene.name,
+                      .fingerprint = fingerprint(scene),
                       .device = device.info().name,
                       .driver = device.info().driver,
                       .revision = "test",
@@ -91,8 +93,16 @@ TEST_F(GoldenFile, OtherScenesAndMethodsAreErrors) {
     Device& device = open();
     const Golden golden = record(device, scene_);
     EXPECT_THAT(error_of([&] { compare_with_golden(golden, "path", device, scene_); }), HasSubstr("method path"));
-    const Scene other = load_gltf(ARGAND_SOURCE_DIR "/assets/ring.glb");
+    Scene other = load_gltf(ARGAND_SOURCE_DIR "/assets/ring.glb");
     EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }), HasSubstr("record it anew"));
+    other.name = golden.scene;
+    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }), HasSubstr("record it anew"));
+    // More, or less, than is done.
+    Golden longer = golden;
+    longer.captures["photons"].push_back({"sort", {}});
+    EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }), HasSubstr("does not come"));
+    longer.captures["photons"].resize(longer.captures["photons"].size() - 2);
+    EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }), HasSubstr("not film_add"));
 }
 
 TEST_F(GoldenFile, FilesThatAreNoneAreErrors) {
@@ -102,6 +112,14 @@ TEST_F(GoldenFile, FilesThatAreNoneAreErrors) {
         std::ofstream(directory / "bad.golden") << text;
         EXPECT_THAT(error_of([&] { read_golden(directory / "bad.golden"); }), HasSubstr("bad.golden")) << text;
     }
+    Golden none = record(open(), scene_);
+    none.captures.clear();
+    write_golden(directory / "none.golden", none);
+    EXPECT_THAT(error_of([&] { read_golden(directory / "none.golden"); }), HasSubstr("holds nothing"));
+    none = record(open(), scene_);
+    none.photons = std::uint64_t(1) << 62;
+    write_golden(directory / "huge.golden", none);
+    EXPECT_THAT(error_of([&] { read_golden(directory / "huge.golden"); }), HasSubstr("cannot be rendered"));
     write_golden(directory / "cut.golden", record(open(), scene_));
     std::filesystem::resize_file(directory / "cut.golden", std::filesystem::file_size(directory / "cut.golden") / 2);
     EXPECT_THAT(error_of([&] { read_golden(directory / "cut.golden"); }), HasSubstr("cut.golden"));

@@ -1,5 +1,7 @@
 #include "backend_options.hpp"
 
+#include "base/environment.hpp"
+
 #include <fmt/format.h>
 
 namespace argand {
@@ -13,8 +15,14 @@ std::unique_ptr<Device> open_backend(const std::string& backend, const std::stri
     if (backend != "auto") {
         return open_device(device, backend);
     }
-    std::unique_ptr<Device> opened = open_device(device);
-    const std::string missing = quiet || !device.empty() ? "" : why_missing(backend_names().front());
+    std::unique_ptr<Device> opened;
+    try {
+        opened = open_device(device);
+    } catch (const DeviceFault& fault) {
+        return open_after_fault(backend, device, fault);
+    }
+    const bool told = quiet || !device.empty() || !environment("ARGAND_BACKEND").empty();
+    const std::string missing = told ? "" : why_missing(backend_names().front());
     if (!missing.empty()) {
         fmt::print(stderr, "argand: note: using backend {} ({}): {}\n", opened->info().backend, opened->info().name, missing);
     }
@@ -22,10 +30,10 @@ std::unique_ptr<Device> open_backend(const std::string& backend, const std::stri
 }
 
 std::unique_ptr<Device> open_after_fault(const std::string& backend, const std::string& device, const DeviceFault& fault) {
-    const std::string other = why_missing("vulkan").empty() ? "vulkan" : "cpu";
     if (backend != "auto" || !device.empty()) {
         throw fault;
     }
+    const std::string other = fault.backend != "vulkan" && why_missing("vulkan").empty() ? "vulkan" : "cpu";
     fmt::print(stderr, "argand: note: {}; going on with backend {}\n", fault.what(), other);
     return open_device("", other);
 }

@@ -96,9 +96,10 @@ void compare_live(const BackendOptions& options, const Scene& scene) {
 void compare_golden(const BackendOptions& options, const Scene& scene) {
     const Golden golden = read_golden(options.golden);
     const std::unique_ptr<Device> device = open_device("", options.a);
-    nlohmann::ordered_json report = {{"scene", options.scene},       {"a", device->info().name},
-                                     {"golden", options.golden},     {"golden_device", golden.device},
-                                     {"golden_driver", golden.driver}, {"golden_revision", golden.revision}};
+    // The recorded device is the first, from whose results each stage starts.
+    nlohmann::ordered_json report = {{"scene", options.scene},   {"a", golden.device},
+                                     {"b", device->info().name}, {"golden", options.golden},
+                                     {"driver", golden.driver},  {"revision", golden.revision}};
     bool same = true;
     for (const auto& [method, capture] : golden.captures) {
         const std::vector<StageComparison> found = compare_with_golden(golden, method, *device, scene);
@@ -121,6 +122,7 @@ void compare_golden(const BackendOptions& options, const Scene& scene) {
 void record(const BackendOptions& options, const Scene& scene) {
     const std::unique_ptr<Device> device = open_device("", options.a);
     Golden golden{.scene = scene.name,
+                  .fingerprint = fingerprint(scene),
                   .device = device->info().name,
                   .driver = device->info().driver,
                   .revision = options.revision,
@@ -137,6 +139,7 @@ void record(const BackendOptions& options, const Scene& scene) {
         golden.captures[method] = record_golden(*device, scene, settings);
     }
     write_golden(options.record, golden);
+    fmt::print("{}: {} by {}\n", options.record, fmt::join(options.methods, ", "), golden.device);
 }
 
 void run(BackendOptions& options) {
@@ -175,8 +178,10 @@ void add_compare_backends_command(CLI::App& app) {
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("--a", options->a, backends)->capture_default_str();
     command->add_option("--b", options->b, backends + ", golden (with --golden)")->capture_default_str();
-    command->add_option("--golden", options->golden, "With --b golden: the capture, which holds size, samples and photons");
-    command->add_option("--record", options->record, "Write a capture of what --a does to this file, and compare nothing");
+    CLI::Option* golden =
+        command->add_option("--golden", options->golden, "With --b golden: the capture, which holds size, samples and photons");
+    CLI::Option* record =
+        command->add_option("--record", options->record, "Write a capture of what --a does to this file, and compare nothing");
     command->add_option("--revision", options->revision, "With --record: what it is recorded from")->capture_default_str();
     command->add_option("--methods", options->methods, fmt::format("{}", fmt::join(method_names(), ",")))->delimiter(',');
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
@@ -189,10 +194,14 @@ void add_compare_backends_command(CLI::App& app) {
     command->add_option("--seed", options->settings.seed, "Seed of the random numbers")
         ->capture_default_str()
         ->check(integer_between(0, 0xffffffff));
-    command->add_flag("--json", options->json, "Print JSON");
+    CLI::Option* json = command->add_flag("--json", options->json, "Print JSON");
+    record->excludes(golden)->excludes("--b")->excludes(json);
+    for (const char* held : {"--methods", "--size", "--spp", "--photons", "--seed"}) {
+        golden->excludes(held);
+    }
     command->footer(
         "Isolated: every stage of B starts from what A had before it; integers must be equal to the bit, and of floats one "
-        "item in 10,000 may differ by more than 0.1 %. End to end: B goes on with its own results, and of the items one in "
+        "item in 10,000 may differ by more than 1e-5. End to end: B goes on with its own results, and of the items one in "
         "100 may have diverged, as paths do that one rounding sends another way. Exit status 1 if they differ by more.\n\n"
         "Example:\n  argand compare-backends assets/cornell_glass.glb --a vulkan --b cpu\n"
         "  argand compare-backends assets/cornell_glass.glb --a cuda --record glass.golden --size 8x8 --spp 1 --photons 200");

@@ -4,6 +4,7 @@
 #include "device/twin.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 namespace argand::cuda {
 
@@ -20,13 +21,24 @@ std::byte* pointer_of(const Buffer& buffer, std::uint64_t offset) {
     return static_cast<std::byte*>(cuda(buffer).pointer) + offset;
 }
 
+/// The kernel driver's version and a space, where it is told.
+std::string driver_version() {
+    std::ifstream file("/proc/driver/nvidia/version");
+    for (std::string word; file >> word;) {
+        if (!word.empty() && word.find_first_not_of("0123456789.") == std::string::npos) {
+            return word + " ";
+        }
+    }
+    return "";
+}
+
 std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size : view.buffer->size() - view.offset; }
 
 } // namespace
 
 void check(cudaError_t result, const std::string& doing, const std::string& device) {
     if (result != cudaSuccess) {
-        throw DeviceFault(fmt::format("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver", doing, device,
+        throw DeviceFault("cuda", fmt::format("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver", doing, device,
                                       cudaGetErrorString(result)));
     }
 }
@@ -59,7 +71,10 @@ CudaDevice::~CudaDevice() {
     cudaStreamDestroy(stream_);
 }
 
+void CudaDevice::make_current() const { check(cudaSetDevice(ordinal_), "turning to a device", info_.name); }
+
 Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
+    make_current();
     check_allocation(info_, *ledger_, name, bytes);
     auto storage = std::make_shared<CudaBuffer>();
     storage->name = std::move(name);
@@ -80,16 +95,20 @@ Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
 }
 
 void CudaDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
+    make_current();
     check(cudaMemcpyAsync(pointer_of(to, offset), data.data(), data.size(), cudaMemcpyHostToDevice, stream_), "uploading",
           info_.name);
+    wait();     // the caller may change the data next
 }
 
 void CudaDevice::fill(const BufferView& to, std::uint32_t value) {
+    make_current();
     fill_words(pointer_of(*to.buffer, to.offset), size_of(to) / sizeof(std::uint32_t), value, stream_);
     check(cudaGetLastError(), "filling a buffer", info_.name);
 }
 
 void CudaDevice::copy(const BufferView& from, const BufferView& to) {
+    make_current();
     check(cudaMemcpyAsync(pointer_of(*to.buffer, to.offset), pointer_of(*from.buffer, from.offset),
                           std::min(size_of(from), size_of(to)), cudaMemcpyDeviceToDevice, stream_),
           "copying", info_.name);
@@ -103,6 +122,8 @@ void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& argumen
     if (threads == 0) {
         return;
     }
+    check_threads(kernel, threads);
+    make_current();
     TwinArguments twin;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
         twin.buffers[i] = pointer_of(*arguments.buffers[i], arguments.offsets[i]);
@@ -126,12 +147,14 @@ void CudaDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArgumen
 void CudaDevice::wait() { check(cudaStreamSynchronize(stream_), "running kernels", info_.name); }
 
 void CudaDevice::download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
+    make_current();
     check(cudaMemcpyAsync(data.data(), pointer_of(from, offset), data.size(), cudaMemcpyDeviceToHost, stream_),
           "downloading", info_.name);
     wait();
 }
 
 cudaEvent_t CudaDevice::stamp() {
+    make_current();
     cudaEvent_t event = nullptr;
     if (idle_events_.empty()) {
         check(cudaEventCreate(&event), "creating an event", info_.name);
@@ -166,10 +189,13 @@ void CudaDevice::end_stage() {
 void CudaDevice::collect() {
     wait();
     for (const StageRun& run : runs_) {
-        float milliseconds = 0;
-        check(cudaEventElapsedTime(&milliseconds, run.begin, run.end), "timing a stage", info_.name);
-        times_[run.stage].seconds += milliseconds * 1e-3;
-        idle_events_.insert(idle_events_.end(), {run.begin, run.end});
+        if (run.end != nullptr) {
+            float milliseconds = 0;
+            check(cudaEventElapsedTime(&milliseconds, run.begin, run.end), "timing a stage", info_.name);
+            times_[run.stage].seconds += milliseconds * 1e-3;
+            idle_events_.push_back(run.end);
+        }
+        idle_events_.push_back(run.begin);
     }
     runs_.clear();
 }
@@ -199,17 +225,23 @@ std::vector<DeviceInfo> list_devices(std::string& missing) {
     std::vector<DeviceInfo> devices;
     for (int i = 0; i < count; ++i) {
         cudaDeviceProp properties{};
-        check(cudaGetDeviceProperties(&properties, i), "describing a device", std::to_string(i));
         DeviceInfo info;
         info.backend = "cuda";
+        if (const cudaError_t described = cudaGetDeviceProperties(&properties, i); described != cudaSuccess) {
+            cudaGetLastError();
+            info.name = fmt::format("CUDA device {}", i);
+            info.unsuitable = fmt::format("CUDA says '{}'", cudaGetErrorString(described));
+            devices.push_back(std::move(info));
+            continue;
+        }
         info.name = properties.name;
-        info.driver = fmt::format("driver for CUDA {}.{}", driver / 1000, driver % 1000 / 10);
+        info.driver = fmt::format("NVIDIA {}for CUDA {}.{}", driver_version(), driver / 1000, driver % 1000 / 10);
         info.api_version = fmt::format("{}.{}", CUDART_VERSION / 1000, CUDART_VERSION % 1000 / 10);
         info.kind = properties.integrated != 0 ? DeviceKind::integrated : DeviceKind::discrete;
         info.subgroup_size = static_cast<std::uint32_t>(properties.warpSize);
         info.features.timestamps = true;
         info.limits.memory = properties.totalGlobalMem;
-        info.limits.storage_range = properties.totalGlobalMem;
+        info.limits.storage_range = std::min<std::uint64_t>(properties.totalGlobalMem, most_addressable);
         info.limits.invocations = static_cast<std::uint32_t>(properties.maxThreadsPerBlock);
         info.limits.shared_memory = static_cast<std::uint32_t>(properties.sharedMemPerBlock);
         info.limits.storage_buffers = max_bindings;

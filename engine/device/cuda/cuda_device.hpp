@@ -22,7 +22,7 @@ struct CudaBuffer final : BufferStorage {
     ~CudaBuffer() override;
 };
 
-/// CUDA's devices, in its own order; empty if there is no driver. `missing`: why there are none.
+/// CUDA's devices, in its own order; empty if there is no driver. `missing`: why there are none. Never throws.
 std::vector<DeviceInfo> list_devices(std::string& missing);
 
 /// Runs the kernels' twins on an NVIDIA GPU, in the order of one stream.
@@ -56,9 +56,10 @@ private:
     /// Events around one run of a stage.
     struct StageRun {
         std::size_t stage;
-        cudaEvent_t begin, end;
+        cudaEvent_t begin, end;         ///< end: null if a fault came first
     };
 
+    void make_current() const;
     cudaEvent_t stamp();
     void collect();
     void launch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads,

@@ -46,7 +46,7 @@ DeviceInfo describe() {
     info.features.timestamps = true;
     info.features.lane_serial = true;
     info.limits.memory = physical_memory();
-    info.limits.storage_range = info.limits.memory;
+    info.limits.storage_range = std::min(info.limits.memory, most_addressable);
     // No kernel works in groups here.
     info.limits.invocations = UINT32_MAX;
     info.limits.shared_memory = UINT32_MAX;
@@ -96,6 +96,7 @@ void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& argum
     if (kernel.host == nullptr) {
         fail("running kernel {}: it has no twin for backend cpu; please report this", kernel.name);
     }
+    check_threads(kernel, threads);
     const TwinArguments twin = twin_arguments(arguments);
     const auto chunks = static_cast<std::int64_t>((threads + chunk - 1) / chunk);
 #pragma omp parallel for schedule(dynamic) if (chunks > 1)

@@ -33,6 +33,9 @@ const char* in_words(VkResult result) {
 } // namespace
 
 void check(VkResult result, std::string_view doing) {
+    if (result == VK_ERROR_DEVICE_LOST) {
+        throw DeviceFault("vulkan", fmt::format("{}: {}", doing, in_words(result)));
+    }
     if (result < 0) {
         fail("{}: {}", doing, in_words(result));
     }

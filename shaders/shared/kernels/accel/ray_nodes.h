@@ -1,6 +1,6 @@
 #include "shared/kernels/accel/forest.h"
 
-// ranks: inclusive sums of what wide_roots.comp wrote.
+// ranks: inclusive sums of what wide_roots wrote.
 FN bool is_wide(uint node) { return ranks[node] != (node > 0u ? ranks[node - 1u] : 0u); }
 
 // The least power of two that `cells` cells of it reach over the extent, as a biased exponent.

@@ -7,7 +7,7 @@ FN void main() {
     if (node + 1u >= params.count.number) {
         return;
     }
-    // What the node is allowed if the ancestor that the loop is at is allowed 1, 2 or real(3.)
+    // What the node is allowed if the ancestor that the loop is at is allowed 1, 2 or 3.
     uvec3 allowed = uvec3(1u, 2u, 3u);
     uint ancestor = parents[node];
     while (ancestor != lbvh_end && !(allowed.x == allowed.y && allowed.y == allowed.z)) {

@@ -30,7 +30,7 @@ struct PhotonRange {
 };
 
 // The next leaf, from `node` on, that a ball about p reaches; empty at the tree's end or after `limit` steps. Apart from
-// the photons' loop, so that all lanes of a subgroup look for a leaf, and then go through theirs together: real(2.2) times as
+// the photons' loop, so that all lanes of a subgroup look for a leaf, and then go through theirs together: 2.2 times as
 // fast on lavapipe.
 FN PhotonRange next_leaf(vec3 p, real radius2, uint limit, INOUT(uint) node, INOUT(uint) steps) {
     PhotonRange range = PhotonRange(0u, 0u);

@@ -69,7 +69,7 @@ FN void main() {
     Frame frame = make_frame(surface.shading_normal);
     vec3 wo = to_local(frame, -direction);
     // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that with the shading normal
-    // (Veach 1997, §real(5.3)).
+    // (Veach 1997, §5.3).
     real geometric_in = -dot(direction, surface.geometric_normal);
     real arriving = geometric_in > real(0.0) ? wo.z / geometric_in : real(1.0);
 
