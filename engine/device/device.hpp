@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/error.hpp"
 #include "device/buffer.hpp"
 #include "device/info.hpp"
 #include "device/kernel.hpp"
@@ -98,13 +97,8 @@ public:
     StageScope(Device& device, std::string_view name) : device_(device) { device_.begin_stage(name); }
     StageScope(const StageScope&) = delete;
     StageScope& operator=(const StageScope&) = delete;
-    ~StageScope() {
-        try {
-            device_.end_stage();
-        } catch (const Error&) {    // NOLINT(bugprone-empty-catch)
-            // The device has failed, which is on its way up already, or is said to whoever calls next.
-        }
-    }
+    /// Throws nothing: that the device has failed is on its way up already, or is said to whoever calls next.
+    ~StageScope();
 
 private:
     Device& device_;
