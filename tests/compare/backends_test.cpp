@@ -1,3 +1,4 @@
+#include "base/error.hpp"
 #include "compare/backends.hpp"
 #include "compare/paired_device.hpp"
 #include "device/host/host_device.hpp"
