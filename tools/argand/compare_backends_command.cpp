@@ -20,6 +20,7 @@ struct BackendOptions {
     std::string scene;
     std::string a = "vulkan";
     std::string b = "cpu";
+    std::string device_a, device_b;
     std::vector<std::string> methods = method_names();
     std::string size = "64x64";
     RenderSettings settings{.samples = 4, .photons = 20'000};
@@ -64,8 +65,8 @@ void fail_different(const BackendOptions& options) {
 }
 
 void compare_live(const BackendOptions& options, const Scene& scene) {
-    const std::unique_ptr<Device> a = open_device("", options.a);
-    const std::unique_ptr<Device> b = open_device("", options.b);
+    const std::unique_ptr<Device> a = open_device(options.device_a, options.a);
+    const std::unique_ptr<Device> b = open_device(options.device_b, options.b);
     nlohmann::ordered_json report = {{"scene", options.scene}, {"a", a->info().name}, {"b", b->info().name}};
     bool same = true;
     for (const std::string& method : options.methods) {
@@ -95,7 +96,7 @@ void compare_live(const BackendOptions& options, const Scene& scene) {
 
 void compare_golden(const BackendOptions& options, const Scene& scene) {
     const Golden golden = read_golden(options.golden);
-    const std::unique_ptr<Device> device = open_device("", options.a);
+    const std::unique_ptr<Device> device = open_device(options.device_a, options.a);
     // The recorded device is the first, from whose results each stage starts.
     nlohmann::ordered_json report = {{"scene", options.scene},   {"a", golden.device},
                                      {"b", device->info().name}, {"golden", options.golden},
@@ -120,7 +121,7 @@ void compare_golden(const BackendOptions& options, const Scene& scene) {
 }
 
 void record(const BackendOptions& options, const Scene& scene) {
-    const std::unique_ptr<Device> device = open_device("", options.a);
+    const std::unique_ptr<Device> device = open_device(options.device_a, options.a);
     Golden golden{.scene = scene.name,
                   .fingerprint = fingerprint(scene),
                   .device = device->info().name,
@@ -178,6 +179,8 @@ void add_compare_backends_command(CLI::App& app) {
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("--a", options->a, backends)->capture_default_str();
     command->add_option("--b", options->b, backends + ", golden (with --golden)")->capture_default_str();
+    command->add_option("--device-a", options->device_a, "Device of --a by index or part of its name (see `argand devices`)");
+    CLI::Option* device_b = command->add_option("--device-b", options->device_b, "Device of --b");
     CLI::Option* golden =
         command->add_option("--golden", options->golden, "With --b golden: the capture, which holds size, samples and photons");
     CLI::Option* record =
@@ -195,7 +198,8 @@ void add_compare_backends_command(CLI::App& app) {
         ->capture_default_str()
         ->check(integer_between(0, 0xffffffff));
     CLI::Option* json = command->add_flag("--json", options->json, "Print JSON");
-    record->excludes(golden)->excludes("--b")->excludes(json);
+    record->excludes(golden)->excludes("--b")->excludes(device_b)->excludes(json);
+    golden->excludes(device_b);
     for (const char* held : {"--methods", "--size", "--spp", "--photons", "--seed"}) {
         golden->excludes(held);
     }
