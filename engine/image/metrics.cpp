@@ -55,6 +55,21 @@ double relative(double squared_difference, double squared_scale) {
     return squared_scale > 0 ? squared_difference / squared_scale : std::numeric_limits<double>::infinity();
 }
 
+/// Mean over pixels and channels of `square(pixel, channel, a, b)` over what relMSE divides by.
+template <class Square>
+double mean_relative(const Image& reference_a, const Image& reference_b, Square square) {
+    const double mean = mean_of_channels(0.5 * (mean_of(reference_a) + mean_of(reference_b)));
+    double sum = 0;
+    for (std::size_t i = 0; i < reference_a.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double a = reference_a.pixels[i][c];
+            const double b = reference_b.pixels[i][c];
+            sum += relative(square(i, c, a, b), 0.25 * (a + b) * (a + b) + dark_share * mean * mean);
+        }
+    }
+    return sum / (3 * static_cast<double>(reference_a.pixels.size()));
+}
+
 double decibels(double peak, double rmse) {
     if (rmse == 0) {
         return std::numeric_limits<double>::infinity();
@@ -67,17 +82,30 @@ double decibels(double peak, double rmse) {
 double rel_mse(const Image& image, const Image& reference_a, const Image& reference_b) {
     check_pair(image, reference_a, "the picture", "its reference");
     check_pair(reference_b, reference_a, "the second reference", "the first");
-    const double mean = mean_of_channels(0.5 * (mean_of(reference_a) + mean_of(reference_b)));
-    double sum = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const double a = reference_a.pixels[i][c];
-            const double b = reference_b.pixels[i][c];
-            const double squares = (image.pixels[i][c] - a) * (image.pixels[i][c] - b);
-            sum += relative(squares, 0.25 * (a + b) * (a + b) + dark_share * mean * mean);
-        }
+    return mean_relative(reference_a, reference_b, [&](std::size_t i, int c, double a, double b) {
+        return (image.pixels[i][c] - a) * (image.pixels[i][c] - b);
+    });
+}
+
+double rel_variance(std::span<const Image> images, const Image& reference_a, const Image& reference_b) {
+    if (images.size() < 2) {
+        fail("measuring the variance of {} pictures: it takes two; use more seeds", images.size());
     }
-    return sum / (3 * static_cast<double>(image.pixels.size()));
+    check_pair(reference_b, reference_a, "the second reference", "the first");
+    for (const Image& image : images) {
+        check_pair(image, reference_a, "the picture", "its reference");
+    }
+    const auto count = static_cast<double>(images.size());
+    return mean_relative(reference_a, reference_b, [&](std::size_t i, int c, double, double) {
+        double mean = 0, squares = 0;
+        for (const Image& image : images) {
+            mean += image.pixels[i][c] / count;
+        }
+        for (const Image& image : images) {
+            squares += (image.pixels[i][c] - mean) * (image.pixels[i][c] - mean);
+        }
+        return squares / (count - 1);
+    });
 }
 
 Metrics compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {

@@ -2,6 +2,7 @@
 
 #include "image/image.hpp"
 #include <glm/glm.hpp>
+#include <span>
 #include <string_view>
 
 namespace argand {
@@ -25,6 +26,10 @@ Metrics compare(const Image& a, const Image& b, std::string_view name_a = "A", s
 /// relMSE as in Metrics, of an image whose reference is known from two pictures of independent noise: theirs does not count,
 /// as its product is 0 on average. (What is divided by is their mean, whose noise should be small.) Errors as in `compare`.
 double rel_mse(const Image& image, const Image& reference_a, const Image& reference_b);
+
+/// Variance, without bias, of two or more independent pictures of one thing, divided pixel by pixel as in that relMSE: so
+/// the mean of their relMSE less this is their squared bias. Errors as in `compare`, and if there are fewer than two.
+double rel_variance(std::span<const Image> images, const Image& reference_a, const Image& reference_b);
 
 /// Mean structural similarity (Wang et al. 2004, "Image Quality Assessment: From Error Visibility to
 /// Structural Similarity") of the sRGB-encoded luminance, clamped to [0, 1]: Gaussian window of 11 × 11, σ

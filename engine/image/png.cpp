@@ -103,8 +103,8 @@ std::vector<float> decode_table() {
 
 } // namespace
 
-void write_png(const std::filesystem::path& path, const Image& image, float exposure_ev) {
-    check_size_to_write(path, image);
+std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev, const std::filesystem::path& name) {
+    check_size_to_write(name, image);
     const double scale = std::exp2(static_cast<double>(exposure_ev));
     std::vector<std::uint8_t> samples;
     samples.reserve(image.pixels.size() * rgb);
@@ -116,10 +116,14 @@ void write_png(const std::filesystem::path& path, const Image& image, float expo
     std::vector<std::uint8_t> bytes;
     if (samples.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
         stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(), 0) == 0) {
-        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr", path.string(),
+        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr", name.string(),
              image.width, image.height);
     }
-    write_atomically(path, bytes);
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image, float exposure_ev) {
+    write_atomically(path, png_bytes(image, exposure_ev, path));
 }
 
 Image read_png(const std::filesystem::path& path) try {

@@ -184,6 +184,14 @@ TEST(Ssim, FallsWithNoise) {
     }
 }
 
+TEST(Metrics, VarianceInTheUnitOfRelMse) {
+    const std::vector<Image> images{constant(3, 2, glm::vec3(1)), constant(3, 2, glm::vec3(3))};
+    const Image low = constant(3, 2, glm::vec3(1.5f)), high = constant(3, 2, glm::vec3(2.5f));
+    EXPECT_NEAR(rel_variance(images, low, high), 2 / (4 + 0.01 * 4), 1e-12);
+    EXPECT_THROW(rel_variance(std::span(images).first(1), low, high), Error);
+    EXPECT_THROW(rel_variance(images, low, constant(2, 3, glm::vec3(1))), Error);
+}
+
 TEST(Metrics, ErrorWithoutTheReferencesNoise) {
     // A picture that is off by 0.1 everywhere, of which there are two noisy references.
     std::mt19937 random(3);

@@ -65,6 +65,7 @@ int parse_and_run(int argc, char** argv) {
     add_render_command(app);
     add_compare_command(app);
     add_compare_backends_command(app);
+    add_tradeoff_command(app);
     add_inspect_command(app);
     add_devices_command(app);
     add_bench_command(app);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "tradeoff/measurement.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace argand {
+
+/// What is known of one scene, in one size, on one device, against one reference.
+struct Results {
+    nlohmann::ordered_json run;             ///< what it is of: another is not gone on with
+    std::uint64_t reference_samples = 0;    ///< per pixel; 0: not known
+    std::optional<double> reference_error;  ///< Reference::own_error
+    LearntWidths learnt;
+    std::vector<Measurement> measurements;
+    bool complete = false;                  ///< nothing of the sweep is missing
+};
+
+nlohmann::ordered_json to_json(const Results& results);
+/// Reads what was written as JSON. Error if the file is no such thing.
+Results read_results(const std::filesystem::path& file);
+
+/// Indices of the measurements on the Pareto front of median wall time and mean relMSE, the quickest first; errors that
+/// are not above 0 lie within the reference's noise and are left out.
+std::vector<std::size_t> front_of(const std::vector<Measurement>& measurements);
+
+/// One line for each measurement below one that names the columns; what is not known or not finite is empty.
+std::string to_csv(const Results& results);
+
+} // namespace argand

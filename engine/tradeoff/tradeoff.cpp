@@ -1,0 +1,199 @@
+#include "tradeoff/tradeoff.hpp"
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "base/fingerprint.hpp"
+#include "base/json.hpp"
+#include "base/read_file.hpp"
+#include "image/exr.hpp"
+#include "tradeoff/page.hpp"
+#include "tradeoff/parameters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace argand {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<std::uint32_t, 1> pilot_seed{0x40000000u};     // which no setting has
+
+fs::path results_file(const fs::path& folder) { return folder / "tradeoff.json"; }
+fs::path reference_file(const fs::path& folder) { return folder / "reference.exr"; }
+
+void make_folder(const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) {
+        fail("making the folder '{}': {}; name another one", folder.string(), failed.message());
+    }
+}
+
+nlohmann::ordered_json run_of(const TradeoffRequest& request) {
+    nlohmann::ordered_json run = request.run;
+    run["width"] = request.base.width;
+    run["height"] = request.base.height;
+    run["camera"] = request.base.camera;
+    run["seeds"] = request.seeds;
+    if (request.reference_files.empty()) {
+        run["reference_seconds"] = request.reference_seconds;
+    }
+    for (const fs::path& file : request.reference_files) {
+        run["references"].push_back(fmt::format("{:016x}", fingerprint(read_file(file))));
+    }
+    return run;
+}
+
+void save(const fs::path& folder, const Results& results) {
+    write_atomically(folder / "tradeoff.csv", to_csv(results));
+    write_json(results_file(folder), to_json(results));
+}
+
+/// What each method chooses for the base by itself; false if it was interrupted.
+bool learn_widths(const TradeoffRequest& request, const RenderTrials& render, LearntWidths& learnt) {
+    for (const std::string& method : request.methods) {
+        if (method == "path" || learnt.contains(method)) {
+            continue;
+        }
+        RenderSettings settings = request.base;
+        settings.method = method;
+        const std::optional<Trials> pilot = render(settings, pilot_seed);
+        if (!pilot) {
+            return false;
+        }
+        learnt[method] = pilot->trials[0].statistics;
+    }
+    return true;
+}
+
+/// Of each method, a picture of the setting that takes the most photons and samples: about the least errors that there
+/// are going to be. Nothing if it was interrupted.
+std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& settings, const RenderTrials& render) {
+    std::map<std::string, RenderSettings> largest;
+    for (const Setting& setting : settings) {
+        const auto work = [](const RenderSettings& s) { return std::pair(s.photons, s.samples); };
+        const auto [known, is_new] = largest.try_emplace(setting.render.method, setting.render);
+        if (!is_new && work(known->second) < work(setting.render)) {
+            known->second = setting.render;
+        }
+    }
+    std::vector<Image> pictures;
+    for (const auto& [method, render_settings] : largest) {
+        const std::optional<Trials> pilot = render(render_settings, pilot_seed);
+        if (!pilot) {
+            return std::nullopt;
+        }
+        pictures.push_back(pilot->trials[0].picture);
+    }
+    return pictures;
+}
+
+std::optional<Reference> make_reference(const TradeoffRequest& request, const std::vector<Setting>& settings,
+                                        const RenderTrials& render) {
+    const std::optional<std::vector<Image>> pilots = render_pilots(settings, render);
+    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds) : std::nullopt;
+}
+
+/// A setting's picture, by name so that a user finds it.
+std::string picture_file(const Setting& setting) {
+    const std::string turned = setting.value.empty() ? "" : "-" + setting.value;
+    return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.knob, turned);
+}
+
+bool measure_setting(const TradeoffRequest& request, const Setting& setting, const RenderTrials& render,
+                     const Reference& reference, Results& results) {
+    std::vector<std::uint32_t> seeds;
+    for (std::uint32_t seed = 0; seed < request.seeds; ++seed) {
+        seeds.push_back(seed);
+    }
+    const std::optional<Trials> trials = render(setting.render, seeds);
+    if (!trials) {
+        return false;
+    }
+    Measurement measurement = measure(setting, *trials, reference);
+    measurement.picture = picture_file(setting);
+    write_exr(request.folder / measurement.picture, std::array{Layer{"", trials->trials[0].picture}});
+    results.measurements.push_back(std::move(measurement));
+    return true;
+}
+
+/// The results so far, which are those of the same run. Nothing if there are none.
+std::optional<Results> results_before(const TradeoffRequest& request, const nlohmann::ordered_json& run) {
+    const fs::path file = results_file(request.folder);
+    if (!fs::exists(file)) {
+        return std::nullopt;
+    }
+    Results results = read_results(file);
+    if (results.run != run) {
+        fail("going on with '{}': it is of another scene, size, device, reference or number of seeds; name another folder, "
+             "or remove it", file.string());
+    }
+    std::erase_if(results.measurements,
+                  [&](const Measurement& m) { return !fs::exists(request.folder / m.picture); });
+    return results;
+}
+
+std::vector<Setting> not_measured(const std::vector<Setting>& settings, const Results& results) {
+    std::set<std::string> known;
+    for (const Measurement& measurement : results.measurements) {
+        known.insert(measurement.key);
+    }
+    std::vector<Setting> open;
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(open), [&](const Setting& setting) {
+        return !known.contains(parameter_key(setting.render));
+    });
+    return open;
+}
+
+} // namespace
+
+Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, const RenderTrials& render,
+                         const OnStep& on_step) {
+    const nlohmann::ordered_json run = run_of(request);
+    std::optional<Results> before = results_before(request, run);
+    std::optional<Reference> reference;
+    if (before) {
+        reference = reread_reference(reference_file(request.folder));
+    } else if (!request.reference_files.empty()) {
+        reference = read_reference(request.reference_files, request.base.width, request.base.height);
+    }
+    make_folder(request.folder / "pictures");
+    Results results = before.value_or(Results{.run = run});
+    results.complete = false;
+    on_step("rendering a reference", 0);
+    if (!learn_widths(request, render, results.learnt)) {
+        return results;
+    }
+    const std::vector<Setting> settings = sweep(scene, request.base, request.methods, results.learnt, request.extent);
+    if (!reference) {
+        reference = make_reference(request, settings, render);
+    }
+    if (!reference) {
+        return results;
+    }
+    if (!before) {
+        write_reference(reference_file(request.folder), *reference);
+        results.reference_samples = reference->samples;
+        results.reference_error = reference->own_error;
+        save(request.folder, results);
+    }
+    const std::vector<Setting> open = not_measured(settings, results);
+    std::size_t done = settings.size() - open.size();
+    for (const Setting& setting : open) {
+        on_step("measuring", static_cast<double>(done) / static_cast<double>(settings.size()));
+        if (!measure_setting(request, setting, render, *reference, results)) {
+            break;
+        }
+        ++done;
+        save(request.folder, results);
+    }
+    results.complete = done == settings.size();
+    save(request.folder, results);
+    draw_results(request.folder, results, *reference);
+    return results;
+}
+
+} // namespace argand

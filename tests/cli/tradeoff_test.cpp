@@ -1,0 +1,52 @@
+#include "argand_run.hpp"
+
+#include <fmt/format.h>
+
+namespace argand::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Tradeoff = ArgandTest;
+
+TEST_F(Tradeoff, MeasuresAndGoesOn) {
+    const std::string on_scene = fmt::format("tradeoff '{}' -o sweep --size 12x12 --quick --methods path --backend cpu "
+                                             "--reference-seconds 0", asset("cornell_area.glb"));
+    const std::string command = on_scene + " --seeds 2";
+    const Outcome first = argand(command);
+    ASSERT_EQ(first.exit_code, 0) << first.error;
+    EXPECT_THAT(first.out, HasSubstr("sweep/tradeoff.html"));
+    const std::string csv = read_text(file("sweep/tradeoff.csv"));
+    EXPECT_THAT(csv, HasSubstr("path,spp,32,"));
+    // Times would differ if anything were measured again.
+    const Outcome second = argand(command);
+    EXPECT_EQ(second.out, first.out);
+    EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
+    expect_failure(on_scene + " --seeds 3", 1, "another folder");
+}
+
+TEST_F(Tradeoff, BadInput) {
+    const std::string scene = fmt::format("tradeoff '{}' ", asset("cornell_area.glb"));
+    expect_failure("tradeoff", 2, "scene");
+    expect_failure("tradeoff missing.glb", 1, "missing.glb");
+    expect_failure(scene + "--size 8", 2, "--size");
+    expect_failure(scene + "--seeds 0", 2, "--seeds");
+    expect_failure(scene + "--methods rays", 2, "rays");
+    expect_failure(scene + "--reference-seconds -1", 2, "--reference-seconds");
+    expect_failure(scene + "--reference missing.exr", 1, "missing.exr");
+    expect_failure(scene + "--reference-2 missing.exr", 2, "--reference");
+    write_text(file("file"), "");
+    expect_failure(scene + "-o file", 1, "'file");
+    write_text(file("tradeoff.json"), "[]");
+    expect_failure(scene + "-o .", 1, "tradeoff.json");
+}
+
+TEST_F(Tradeoff, ReferenceOfAnotherSize) {
+    const Outcome rendered = argand(fmt::format("render '{}' --method path --spp 1 --size 8x8 -o reference.exr --backend cpu",
+                                                asset("cornell_area.glb")));
+    ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
+    expect_failure(fmt::format("tradeoff '{}' --reference reference.exr --backend cpu", asset("cornell_area.glb")), 1,
+                   "--size 8x8");
+}
+
+} // namespace
+} // namespace argand::testing

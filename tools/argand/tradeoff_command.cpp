@@ -1,0 +1,148 @@
+#include "commands.hpp"
+
+#include "backend_options.hpp"
+#include "base/error.hpp"
+#include "base/fingerprint.hpp"
+#include "base/interrupt.hpp"
+#include "base/progress.hpp"
+#include "base/read_file.hpp"
+#include "numbers.hpp"
+#include "picture_size.hpp"
+#include "scene/gltf.hpp"
+#include "tradeoff/tradeoff.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace argand {
+
+namespace {
+
+struct TradeoffOptions {
+    std::string scene;
+    std::string folder;
+    std::string size = "128x128";
+    std::string backend = "auto";
+    std::string device;
+    std::string reference, second_reference;
+    bool quick = false;
+    bool quiet = false;
+    TradeoffRequest request{.methods = method_names()};
+};
+
+template <class T>
+std::uint64_t fingerprint_of(const std::vector<T>& items, std::uint64_t before) {
+    return fingerprint({reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(T)}, before);
+}
+
+/// Of the file and of the geometry, which may lie in other files.
+std::uint64_t fingerprint_of(const std::string& file, const Scene& scene) {
+    std::uint64_t hash = fingerprint(read_file(file));
+    hash = fingerprint_of(scene.positions, hash);
+    hash = fingerprint_of(scene.normals, hash);
+    return fingerprint_of(scene.triangles, hash);
+}
+
+void check(const TradeoffOptions& options) {
+    const std::vector<std::string> known = method_names();
+    for (const std::string& method : options.request.methods) {
+        if (std::find(known.begin(), known.end(), method) == known.end()) {
+            throw UsageError(fmt::format("choosing method '{}': choose from {}", method, fmt::join(known, ", ")));
+        }
+    }
+    if (options.reference.empty() && !options.second_reference.empty()) {
+        throw UsageError("reading --reference-2: it goes with --reference, the other picture of the pair");
+    }
+}
+
+void summarise(const Results& results, const std::filesystem::path& folder) {
+    fmt::print("{:<11} {:<26} {:>8} {:>10}  {}\n", "method", "knob", "wall, s", "relMSE", "argand render ...");
+    for (const std::size_t i : front_of(results.measurements)) {
+        const Measurement& m = results.measurements[i];
+        fmt::print("{:<11} {:<26} {:>8.3g} {:>10.3g}  {}\n", m.method, m.knob + " " + m.value, m.wall_seconds,
+                   m.rel_mse.mean, m.options);
+    }
+    fmt::print("{}: {} settings measured, those on the Pareto front above\n", (folder / "tradeoff.html").string(),
+               results.measurements.size());
+}
+
+void run(TradeoffOptions& options) {
+    TradeoffRequest& request = options.request;
+    const PictureSize size = parse_picture_size(options.size);
+    request.base.width = size.width;
+    request.base.height = size.height;
+    request.extent = options.quick ? Extent::quick : Extent::full;
+    check(options);
+    for (const std::string& file : {options.reference, options.second_reference}) {
+        if (!file.empty()) {
+            request.reference_files.emplace_back(file);
+        }
+    }
+    request.folder = options.folder.empty()
+                         ? std::filesystem::path(options.scene).filename().replace_extension(".tradeoff")
+                         : std::filesystem::path(options.folder);
+    catch_interrupts();
+    const Scene scene = load_gltf(options.scene);
+    const DeviceInfo device = open_backend(options.backend, options.device, options.quiet)->info();
+    request.run = {{"scene", scene.name},
+                   {"contents", fmt::format("{:016x}", fingerprint_of(options.scene, scene))},
+                   {"argand", ARGAND_VERSION},
+                   {"backend", device.backend},
+                   {"device", device.name},
+                   {"driver", device.driver}};
+    const RenderTrials render = trials_on_device([&] { return open_backend(options.backend, options.device, true); },
+                                                 scene, [] { return !interrupted(); });
+    std::optional<Progress> progress;
+    std::string shown;
+    const Results results = measure_tradeoff(request, scene, render, [&](std::string_view work, double done) {
+        if (work != shown) {
+            progress.reset();
+            progress.emplace(std::string(work), options.quiet);
+            shown = work;
+        }
+        progress->update(done);
+    });
+    progress.reset();
+    if (!results.complete) {
+        fail("measuring '{}': interrupted; {} settings are measured, and the same command goes on", options.scene,
+             results.measurements.size());
+    }
+    if (!options.quiet) {
+        summarise(results, request.folder);
+    }
+}
+
+} // namespace
+
+void add_tradeoff_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("tradeoff", "Measure error against time of every method and knob on a scene");
+    auto options = std::make_shared<TradeoffOptions>();
+    TradeoffRequest& request = options->request;
+    command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
+    command->add_option("-o,--output", options->folder,
+                        "Folder for tradeoff.html, .png, .csv and .json, the reference and all pictures; what is measured "
+                        "there is not measured again (default: SCENE's name with .tradeoff)");
+    command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
+    command->add_option("--seeds", request.seeds, "Renders of each setting; bias and variance are told apart from 2 on")
+        ->capture_default_str()
+        ->check(integer_between(1, 1000));
+    command->add_option("--reference", options->reference,
+                        "Picture that counts as true (.exr) (default: two renders by the method path)");
+    command->add_option("--reference-2", options->second_reference,
+                        "Another one with independent noise, so that the noise of neither counts as error");
+    command
+        ->add_option("--reference-seconds", request.reference_seconds,
+                     "Time for rendering the reference, at most about so long")
+        ->capture_default_str()
+        ->check(number_between(0, 1e7));
+    command->add_option("--methods", request.methods, fmt::format("{}", fmt::join(method_names(), ",")))->delimiter(',');
+    command->add_flag("--quick", options->quick, "Numbers of photons and samples, and widths only");
+    add_backend_options(*command, options->backend, options->device);
+    command->add_flag("-q,--quiet", options->quiet, "Print errors only");
+    command->footer("docs/tradeoff.md says how to read the plot. An interrupted sweep goes on where it stopped.\n\n"
+                    "Example:\n  argand tradeoff assets/cornell_area.glb -o sweep --quick");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace argand
