@@ -98,6 +98,9 @@ std::string about(const Results& results) {
                 : std::string("reference: given");
     text += results.reference_error ? fmt::format(", relMSE of their mean {:.2g}.", *results.reference_error)
                                     : std::string(", its own error not known: it counts as the settings'.");
+    for (const Failure& failure : results.failures) {
+        text += fmt::format("<br>Not rendered: <code>{}</code>: {}.", escaped(failure.options), escaped(failure.why));
+    }
     return text + (results.complete ? "</p>\n" : " <strong>Not all settings are measured yet.</strong></p>\n");
 }
 

@@ -31,6 +31,9 @@ Results results_from(const Json& json) {
         statistics.neighbours = widths.at("k");
         statistics.smoothing = widths.at("smoothing");
     }
+    for (const Json& failure : json.at("failures")) {
+        results.failures.push_back({failure.at("options"), failure.at("why")});
+    }
     results.complete = json.at("complete");
     for (const Json& measurement : json.at("measurements")) {
         results.measurements.push_back(measurement_from(measurement));
@@ -49,11 +52,16 @@ Json to_json(const Results& results) {
     for (const Measurement& measurement : results.measurements) {
         measurements.push_back(to_json(measurement));
     }
+    Json failures = Json::array();
+    for (const Failure& failure : results.failures) {
+        failures.push_back({{"options", failure.options}, {"why", failure.why}});
+    }
     return {{"run", results.run},
             {"reference",
              {{"samples", results.reference_samples},
               {"own_error", results.reference_error ? Json(*results.reference_error) : Json()}}},
             {"learnt", learnt},
+            {"failures", failures},
             {"complete", results.complete},
             {"measurements", measurements}};
 }

@@ -9,6 +9,12 @@
 
 namespace argand {
 
+/// A setting that could not be rendered, for want of memory say.
+struct Failure {
+    std::string options;                    ///< of `argand render`
+    std::string why;
+};
+
 /// What is known of one scene, in one size, on one device, against one reference.
 struct Results {
     nlohmann::ordered_json run;             ///< what it is of: another is not gone on with
@@ -16,7 +22,8 @@ struct Results {
     std::optional<double> reference_error;  ///< Reference::own_error
     LearntWidths learnt;
     std::vector<Measurement> measurements;
-    bool complete = false;                  ///< nothing of the sweep is missing
+    std::vector<Failure> failures;          ///< of the last run; they are tried again in the next one
+    bool complete = false;                  ///< nothing of the sweep is missing but these
 };
 
 nlohmann::ordered_json to_json(const Results& results);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <set>
 
 namespace argand {
@@ -103,13 +104,18 @@ std::string picture_file(const Setting& setting) {
     return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.knob, turned);
 }
 
+/// Adds a measurement or a failure; false if it was interrupted.
 bool measure_setting(const TradeoffRequest& request, const Setting& setting, const RenderTrials& render,
                      const Reference& reference, Results& results) {
-    std::vector<std::uint32_t> seeds;
-    for (std::uint32_t seed = 0; seed < request.seeds; ++seed) {
-        seeds.push_back(seed);
+    std::vector<std::uint32_t> seeds(request.seeds);
+    std::iota(seeds.begin(), seeds.end(), 0u);
+    std::optional<Trials> trials;
+    try {
+        trials = render(setting.render, seeds);
+    } catch (const Error& error) {
+        results.failures.push_back({command_options(setting.render), error.what()});
+        return true;
     }
-    const std::optional<Trials> trials = render(setting.render, seeds);
     if (!trials) {
         return false;
     }
@@ -163,6 +169,7 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, con
     make_folder(request.folder / "pictures");
     Results results = before.value_or(Results{.run = run});
     results.complete = false;
+    results.failures.clear();
     on_step("rendering a reference", 0);
     if (!learn_widths(request, render, results.learnt)) {
         return results;

@@ -77,6 +77,24 @@ TEST_F(TradeoffTest, MeasuresAgainWhatLostItsPicture) {
     EXPECT_THAT(second.keys, ::testing::ElementsAre(results.measurements[1].key));
 }
 
+TEST_F(TradeoffTest, GoesOnAfterASettingThatFails) {
+    FakeRenderer renderer;
+    const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+        if (s.method == "photons" && s.photons == 10'000) {
+            fail("allocating 'photons': the device is out of memory");
+        }
+        return renderer.trials()(s, seeds);
+    };
+    const Results results = measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    EXPECT_TRUE(results.complete);
+    ASSERT_EQ(results.failures.size(), 1u);
+    EXPECT_EQ(results.failures[0].options, "--method photons --photons 10000");
+    EXPECT_THAT(text("a/tradeoff.html"), HasSubstr("out of memory"));
+    FakeRenderer again;
+    EXPECT_THAT(run(again, scene_, request("a")).failures, IsEmpty());
+    EXPECT_EQ(again.keys.size(), 1u);
+}
+
 TEST_F(TradeoffTest, DoesNotMixRuns) {
     FakeRenderer renderer;
     run(renderer, scene_, request("a"));

@@ -108,6 +108,9 @@ void run(TradeoffOptions& options) {
         fail("measuring '{}': interrupted; {} settings are measured, and the same command goes on", options.scene,
              results.measurements.size());
     }
+    for (const Failure& failure : results.failures) {
+        fmt::print(stderr, "argand: note: not rendered: {}: {}\n", failure.options, failure.why);
+    }
     if (!options.quiet) {
         summarise(results, request.folder);
     }
