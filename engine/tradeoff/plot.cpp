@@ -12,7 +12,7 @@ constexpr double left = 90, right = 170, top = 50, bottom = 70;     // margins
 constexpr std::uint32_t black = 0x222222, grid = 0xdddddd, front_color = 0x666666;
 
 /// Colours that stay apart to colour-blind eyes (Okabe and Ito 2008, "Color Universal Design").
-constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xd55e00, 0xcc79a7, 0x56b4e9, 0xf0e442};
+constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0xd55e00, 0x56b4e9, 0xf0e442};
 
 std::uint32_t color_of(const std::string& method) {
     const std::vector<std::string> methods = method_names();

@@ -37,11 +37,11 @@ TEST(Measurement, WithoutBiasFindsNone) {
 
 TEST(Measurement, TheNoiseOfThePairDoesNotCount) {
     const Trials trials = trials_of(0.1, 0, 2);
-    const Reference pair = reference(0.2);
+    const Reference pair = reference(0.05);
     const double with_pair = measure({"default", "", {}}, trials, pair).rel_mse.mean;
     const double with_one = measure({"default", "", {}}, trials, {.a = pair.a, .b = pair.a}).rel_mse.mean;
-    EXPECT_NEAR(with_pair, 0.01 / divisor, 0.15 * 0.01 / divisor);
-    EXPECT_NEAR(with_one, (0.01 + 0.04) / divisor, 0.15 * 0.05 / divisor);
+    EXPECT_NEAR(with_pair, 0.01 / divisor, 0.1 * 0.01 / divisor);
+    EXPECT_NEAR(with_one, (0.01 + 0.05 * 0.05) / divisor, 0.1 * 0.0125 / divisor);
 }
 
 TEST(Measurement, TakesTheMedianOfTimes) {

@@ -3,13 +3,13 @@
 #include "tradeoff/plot.hpp"
 
 #include <limits>
+#include <regex>
 
 namespace argand::testing {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 Measurement measurement(const std::string& method, double seconds, double error) {
     return {.method = method, .knob = "default", .options = "--method " + method, .wall_seconds = seconds,
@@ -59,8 +59,7 @@ TEST(Plot, LeavesOutWhatHasNoLogarithm) {
                                   measurement("path", 1, std::numeric_limits<double>::infinity())}};
     const Plot plot = lay_out(some);
     EXPECT_EQ(plot.points.size(), 1u) << "but for the legend's";
-    EXPECT_THAT(to_svg(plot), Not(HasSubstr("nan")));
-    EXPECT_THAT(to_svg(plot), Not(HasSubstr("inf")));
+    EXPECT_FALSE(std::regex_search(to_svg(plot), std::regex("\\b(nan|inf)\\b")));
 }
 
 TEST(Plot, SvgSaysWhatAPointIsWhereItIsPointedAt) {
