@@ -4,6 +4,7 @@
 #include "compare/golden_device.hpp"
 #include "compare/paired_device.hpp"
 #include "image/metrics.hpp"
+#include "scene/fingerprint.hpp"
 
 #include <algorithm>
 #include <array>

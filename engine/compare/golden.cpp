@@ -143,21 +143,6 @@ Golden golden_of(const Unpacked& file) {
 
 } // namespace
 
-std::uint64_t fingerprint(const Scene& scene) {
-    std::uint64_t hash = 0xcbf29ce484222325u;   // FNV-1a
-    const auto add = [&](const auto& values) {
-        const auto bytes = std::as_bytes(std::span(values));
-        for (const std::byte byte : bytes) {
-            hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
-        }
-    };
-    add(scene.positions);
-    add(scene.normals);
-    add(scene.triangles);
-    add(scene.triangle_material);
-    return hash;
-}
-
 GoldenWrite changes(std::span<const std::uint32_t> before, std::span<const std::uint32_t> after) {
     GoldenWrite write;
     write.size = static_cast<std::uint32_t>(after.size());

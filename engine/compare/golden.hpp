@@ -38,7 +38,7 @@ using GoldenCapture = std::vector<GoldenStep>;
 /// What a file holds. Like a program, a capture is to be trusted: what it says is read by kernels, which check no index.
 struct Golden {
     std::string scene;                  ///< its file's name
-    std::uint64_t fingerprint = 0;      ///< of its geometry
+    std::uint64_t fingerprint = 0;      ///< of its geometry, see scene/fingerprint.hpp
     std::string device, driver, revision;   ///< where and from what it was recorded
     Features features;                  ///< of that device; they decide which stages there are
     int width = 0, height = 0;
@@ -46,9 +46,6 @@ struct Golden {
     std::uint64_t photons = 0;
     std::map<std::string, GoldenCapture> captures;  ///< by method
 };
-
-/// Tells other geometry from that of a scene.
-std::uint64_t fingerprint(const Scene& scene);
 
 void write_golden(const std::filesystem::path& file, const Golden& golden);
 /// Throws Error if the file is missing, cut short or not a capture.

@@ -108,6 +108,23 @@ double rel_variance(std::span<const Image> images, const Image& reference_a, con
     });
 }
 
+std::vector<double> rel_products(const Image& a, const Image& b, const Image& c, const Image& d, const Image& reference) {
+    for (const Image* image : {&a, &b, &c, &d}) {
+        check_pair(*image, reference, "the picture", "its reference");
+    }
+    const double mean = mean_of_channels(mean_of(reference));
+    std::vector<double> products(reference.pixels.size());
+    for (std::size_t i = 0; i < products.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double scale = reference.pixels[i][k];
+            const double first = a.pixels[i][k] - b.pixels[i][k];
+            const double second = c.pixels[i][k] - d.pixels[i][k];
+            products[i] += relative(first * second, scale * scale + dark_share * mean * mean) / 3;
+        }
+    }
+    return products;
+}
+
 Metrics compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
     check_pair(a, b, name_a, name_b);
     Metrics metrics;

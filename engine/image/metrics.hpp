@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace argand {
 
@@ -30,6 +31,10 @@ double rel_mse(const Image& image, const Image& reference_a, const Image& refere
 /// Variance, without bias, of two or more independent pictures of one thing, divided pixel by pixel as in that relMSE: so
 /// the mean of their relMSE less this is their squared bias. Errors as in `compare`, and if there are fewer than two.
 double rel_variance(std::span<const Image> images, const Image& reference_a, const Image& reference_b);
+
+/// (a − b)(c − d) of each pixel, the mean of its channels, divided as in relMSE by what follows from `reference`: where the
+/// two differences have independent noise, it counts as 0 on average. Errors as in `compare`.
+std::vector<double> rel_products(const Image& a, const Image& b, const Image& c, const Image& d, const Image& reference);
 
 /// Mean structural similarity (Wang et al. 2004, "Image Quality Assessment: From Error Visibility to
 /// Structural Similarity") of the sRGB-encoded luminance, clamped to [0, 1]: Gaussian window of 11 × 11, σ

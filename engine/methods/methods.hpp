@@ -4,15 +4,21 @@
 
 namespace argand {
 
-using Method = RenderResult (*)(Device& device, const Scene& scene, const RenderSettings& settings,
-                                const OnProgress& progress);
+/// Who hears of a render, and may end it.
+struct Listeners {
+    const OnProgress& progress;
+    const OnPass& on_pass;      ///< may be empty
+};
 
-RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress);
+using Method = RenderResult (*)(Device& device, const Scene& scene, const RenderSettings& settings,
+                                const Listeners& listeners);
+
+RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings, const Listeners& listeners);
 RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
-                            const OnProgress& progress);
+                            const Listeners& listeners);
 RenderResult render_nearest(Device& device, const Scene& scene, const RenderSettings& settings,
-                            const OnProgress& progress);
+                            const Listeners& listeners);
 RenderResult render_footprints(Device& device, const Scene& scene, const RenderSettings& settings,
-                               const OnProgress& progress);
+                               const Listeners& listeners);
 
 } // namespace argand

@@ -3,6 +3,7 @@
 #include "methods/budget.hpp"
 #include "methods/eye_paths.hpp"
 #include "methods/methods.hpp"
+#include "methods/streams.hpp"
 #include "photon/gather.hpp"
 #include "photon/nearest.hpp"
 #include "plan/radius.hpp"
@@ -60,11 +61,11 @@ struct Picture {
 };
 
 /// Photons of each pass, whose number repeats if there is time for more.
-PhotonPass emission_of(const Picture& p, std::uint64_t pass, std::uint64_t photons) {
-    const std::uint64_t round = pass / p.passes.passes;
-    const std::uint64_t in_round = pass % p.passes.passes;
+PhotonPass emission_of(const Picture& p, const PassNumbers& numbers, std::uint64_t photons) {
+    const std::uint64_t round = numbers.index / p.passes.passes;
+    const std::uint64_t in_round = numbers.index % p.passes.passes;
     const std::uint64_t first = photons * in_round / p.passes.passes;
-    return {.seed = p.settings.seed, .first = round * photons + first,
+    return {.seed = numbers.seed, .first = round * photons + first,
             .count = photons * (in_round + 1) / p.passes.passes - first, .bounces = p.settings.bounces};
 }
 
@@ -96,7 +97,7 @@ StoredPhotons trace_first(Picture& p, std::uint64_t photons, Budget& budget) {
     for (;;) {
         make_photons(p);
         budget.start_pass();
-        const std::optional<StoredPhotons> stored = trace(p, emission_of(p, 0, photons));
+        const std::optional<StoredPhotons> stored = trace(p, emission_of(p, {.seed = p.settings.seed}, photons));
         const bool has_room = stored && stored->slots <= max_stored_photons(p.device) / 10 * 9;
         if (has_room || p.passes.photons == 1) {
             return stored_or_fail(p, stored);
@@ -106,7 +107,7 @@ StoredPhotons trace_first(Picture& p, std::uint64_t photons, Budget& budget) {
 }
 
 /// Builds the map over the pass's photons, and traces eye paths that ask it. Returns false if `progress` did.
-bool render_pass(Picture& p, const StoredPhotons& stored, std::uint64_t pass, const Bandwidth& bandwidth,
+bool render_pass(Picture& p, const StoredPhotons& stored, const PassNumbers& numbers, const Bandwidth& bandwidth,
                  RenderStatistics& statistics, const OnProgress& progress) {
     Device& device = p.device;
     const bool nearest = p.estimator == Estimator::nearest;
@@ -117,7 +118,7 @@ bool render_pass(Picture& p, const StoredPhotons& stored, std::uint64_t pass, co
     }
     const PhotonMap map = build_photon_map(device, p.on_device, p.photons, stored,
                                            {.area_samples = area_samples(p.on_device.surface_area, sampled),
-                                            .seed = p.settings.seed + static_cast<std::uint32_t>(pass),
+                                            .seed = numbers.seed + static_cast<std::uint32_t>(numbers.index),
                                             .leaf_size = p.settings.footprints.leaf_size,
                                             .wide_codes = p.settings.wide_codes,
                                             .footprints = statistics.footprint_scale});
@@ -147,14 +148,16 @@ bool render_pass(Picture& p, const StoredPhotons& stored, std::uint64_t pass, co
             gather_photons(device, p.on_device, map, target, p.eye.traversal, bandwidth.radii, asking);
         }
     };
-    const auto first_sample = static_cast<std::uint32_t>(pass * p.passes.samples);
-    return trace_eye_paths(device, p.on_device, p.eye, p.settings, first_sample, p.passes.samples, gather, progress);
+    const auto first_sample = static_cast<std::uint32_t>(numbers.index * p.passes.samples);
+    RenderSettings settings = p.settings;
+    settings.seed = numbers.seed;
+    return trace_eye_paths(device, p.on_device, p.eye, settings, first_sample, p.passes.samples, gather, progress);
 }
 
 /// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at least once, density
 /// estimation where eye rays meet estimated lobes, direct light by shadow rays. Each pass has its own photons and its
 /// own eye paths, so that memory is bounded.
-RenderResult render_map(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
+RenderResult render_map(Device& device, const Scene& scene, const RenderSettings& settings, const Listeners& listeners,
                         Estimator estimator) {
     Budget budget(settings.budget);
     Picture p{.device = device, .scene = scene, .settings = settings, .estimator = estimator,
@@ -172,18 +175,31 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
             sample_queries(device, p.on_device, p.eye, settings, scene.cameras[settings.camera]);
         return learn_bandwidth(device, p.on_device, p.photons, stored, queries, settings, estimator, learnt_for);
     });
-    Bandwidth bandwidth = learnt;
 
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
-    bool more = true;
-    for (std::uint64_t pass = 0; more; ++pass) {
-        const PhotonPass emission = emission_of(p, pass, photons);
+    /// The next pass, after so many are done; none: no more.
+    const auto plan_next = [&](std::uint64_t done) -> std::optional<PassPlan> {
+        if (listeners.on_pass) {
+            return listeners.on_pass({done, [&] { return resolve_film(device, p.eye, settings, statistics); }});
+        }
+        if (done > 0 && !budget.another(done, passes)) {
+            return std::nullopt;
+        }
+        return PassPlan{.expected = done > 0 && settings.budget ? budget.expected(done) : learnt_for};
+    };
+    Streams streams(settings.seed);
+    std::optional<PassPlan> plan = plan_next(0);
+    for (std::uint64_t pass = 0; plan; ++pass) {
+        const Bandwidth bandwidth = for_passes(learnt, learnt_for, plan->expected, settings);
+        const PassNumbers numbers = streams.next(plan->stream);
+        const PhotonPass emission = emission_of(p, numbers, photons);
         if (pass > 0) {
             stored = stored_or_fail(p, trace(p, emission));
         }
-        statistics.interrupted = !render_pass(p, stored, pass, bandwidth, statistics, [&](double part) {
-            return progress(budget.share(pass, part, passes));
+        statistics.interrupted = !render_pass(p, stored, numbers, bandwidth, statistics, [&](double part) {
+            return listeners.progress(listeners.on_pass ? (static_cast<double>(pass) + part) / plan->expected
+                                                        : budget.share(pass, part, passes));
         });
         statistics.photons_emitted += emission.count;
         statistics.photons_stored += stored.photons;
@@ -192,13 +208,10 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
         add_flux_sums(statistics.flux, download<std::int64_t>(device, p.photons.flux_sums, 12),
                       p.flux_unit / static_cast<double>(statistics.passes));
         // Photons have numbers of 32 bits, beyond which they would be the same again.
-        const PhotonPass next = emission_of(p, pass + 1, photons);
+        const PhotonPass next = emission_of(p, {.index = numbers.index + 1}, photons);
         const bool has_numbers =
-            next.first + next.count <= 0xffffffffu && has_sample_numbers(pass + 1, p.passes.samples);
-        more = budget.another(pass + 1, passes) && has_numbers && !statistics.interrupted;
-        if (settings.budget) {
-            bandwidth = for_passes(learnt, learnt_for, budget.expected(pass + 1), settings);
-        }
+            next.first + next.count <= 0xffffffffu && has_sample_numbers(numbers.index + 1, p.passes.samples);
+        plan = has_numbers && !statistics.interrupted ? plan_next(pass + 1) : std::nullopt;
     }
     result.layers = resolve_film(device, p.eye, settings, statistics);
     return result;
@@ -208,20 +221,20 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
 
 /// Over a fixed radius, as gathers of progressive photon mapping (Hachisuka et al. 2008).
 RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
-                            const OnProgress& progress) {
-    return render_map(device, scene, settings, progress, Estimator::radius);
+                            const Listeners& listeners) {
+    return render_map(device, scene, settings, listeners, Estimator::radius);
 }
 
 /// Over each photon's own footprint (Fabianowski and Dingliana 2009).
 RenderResult render_footprints(Device& device, const Scene& scene, const RenderSettings& settings,
-                               const OnProgress& progress) {
-    return render_map(device, scene, settings, progress, Estimator::footprints);
+                               const Listeners& listeners) {
+    return render_map(device, scene, settings, listeners, Estimator::footprints);
 }
 
 /// Over the k nearest (Jensen 1996).
 RenderResult render_nearest(Device& device, const Scene& scene, const RenderSettings& settings,
-                            const OnProgress& progress) {
-    return render_map(device, scene, settings, progress, Estimator::nearest);
+                            const Listeners& listeners) {
+    return render_map(device, scene, settings, listeners, Estimator::nearest);
 }
 
 } // namespace argand

@@ -27,14 +27,15 @@ std::vector<std::string> method_names() {
     return names;
 }
 
-RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress) {
+RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
+                    const OnPass& on_pass) {
     const auto named = std::find_if(std::begin(methods), std::end(methods),
                                     [&](const NamedMethod& m) { return settings.method == m.name; });
     if (named == std::end(methods)) {
         throw UsageError(fmt::format("rendering '{}': there is no method '{}'; choose from {}", scene.name,
                                      settings.method, fmt::join(method_names(), ", ")));
     }
-    return named->method(device, scene, settings, progress);
+    return named->method(device, scene, settings, {progress, on_pass});
 }
 
 } // namespace argand

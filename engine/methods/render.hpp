@@ -86,10 +86,27 @@ struct RenderResult {
 /// Told the share of the work that is done; returns false to stop after the current batch.
 using OnProgress = std::function<bool(double)>;
 
+/// A picture of which more passes may follow.
+struct PictureSoFar {
+    std::uint64_t passes = 0;                   ///< whose mean it is; 0: it is still black
+    std::function<std::vector<Layer>()> layers; ///< as in RenderResult; waits for the device
+};
+
+/// The next pass.
+struct PassPlan {
+    double expected = 1;                        ///< passes in all, as far as is known: from it follow widths of estimation
+    std::uint32_t stream = 0;                   ///< passes of different streams have independent noise; the first pass: 0
+};
+
+/// Asked before the first pass and after each for the next one; none: no more.
+using OnPass = std::function<std::optional<PassPlan>(const PictureSoFar&)>;
+
 /// Names of the methods, the default first.
 std::vector<std::string> method_names();
 
-/// Renders the scene. Throws UsageError on an unknown method, Error if the device cannot do it.
-RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress);
+/// Renders the scene. With `on_pass` samples and photons are those of one pass, and it decides, not a budget, how often
+/// there is another. Throws UsageError on an unknown method, Error if the device cannot do it.
+RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
+                    const OnPass& on_pass = nullptr);
 
 } // namespace argand

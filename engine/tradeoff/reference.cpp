@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "image/exr.hpp"
 #include "image/files.hpp"
+#include "image/mean.hpp"
 #include "image/metrics.hpp"
 
 #include <algorithm>
@@ -47,13 +48,7 @@ void add(Image& mean, double before, const Image& more, double samples) {
 
 } // namespace
 
-Image Reference::mean() const {
-    Image mean = a;
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-        mean.pixels[i] = 0.5f * (a.pixels[i] + b.pixels[i]);
-    }
-    return mean;
-}
+Image Reference::mean() const { return mean_of(a, b); }
 
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
                                           std::span<const Image> pilots, double seconds) {

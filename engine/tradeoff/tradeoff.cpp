@@ -43,7 +43,8 @@ nlohmann::ordered_json run_of(const TradeoffRequest& request) {
         run["reference_seconds"] = request.reference_seconds;
     }
     for (const fs::path& file : request.reference_files) {
-        run["references"].push_back(fmt::format("{:016x}", fingerprint(read_file(file))));
+        const std::vector<std::uint8_t> bytes = read_file(file);
+        run["references"].push_back(fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes)))));
     }
     return run;
 }

@@ -1,5 +1,6 @@
 #include "compare/backends.hpp"
 #include "device_fixture.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
 #include "support/expect_error.hpp"
 #include "support/scratch_directory.hpp"

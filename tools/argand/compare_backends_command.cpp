@@ -7,6 +7,7 @@
 #include "numbers.hpp"
 #include "overwriting.hpp"
 #include "picture_size.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
 
 #include <algorithm>

@@ -15,6 +15,7 @@
 #include "picture_size.hpp"
 #include "report.hpp"
 #include "scene/gltf.hpp"
+#include "tradeoff/aim.hpp"
 
 #include <charconv>
 #include <chrono>
@@ -39,7 +40,14 @@ struct RenderOptions {
     double radius = 0;
     float exposure = 0;
     bool quiet = false;
+    std::optional<double> target_error;
     RenderSettings settings;
+};
+
+/// A render, and how it was aimed at an error or a time, if it was.
+struct Rendered {
+    RenderResult result;
+    std::optional<AimedRender> aimed;
 };
 
 std::size_t find_camera(const Scene& scene, const std::string& choice) {
@@ -60,10 +68,36 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
          choice, scene.name, scene.cameras.size());
 }
 
+/// Whether the method or the numbers of photons and samples are for Argand to choose.
+bool is_aimed(const RenderOptions& options, const CLI::App& command) {
+    return options.target_error || (options.settings.budget && command.get_option("--method")->count() == 0);
+}
+
+/// Options that decide what Argand is asked to choose.
+void check_aimed(const RenderOptions& options, const CLI::App& command) {
+    if (command.get_option("--method")->count() == 0) {
+        // Those of one method have no effect with all others.
+        for (const std::string& method : method_names()) {
+            if (method != "path") {
+                check_method_options(command, method);
+            }
+        }
+    }
+    for (const char* name : {"--radius", "--k", "--fixed-smoothing"}) {
+        if (options.target_error && command.get_option(name)->count() > 0) {
+            throw UsageError(fmt::format("reading {}: with --target-error widths of estimation follow from the error; leave one "
+                                         "of the two out", name));
+        }
+    }
+}
+
 void check(const RenderOptions& options, const CLI::App& command) {
     const std::vector<std::string> methods = method_names();
     if (std::find(methods.begin(), methods.end(), options.method) == methods.end()) {
         throw UsageError(fmt::format("choosing method '{}': choose from {}", options.method, fmt::join(methods, ", ")));
+    }
+    if (is_aimed(options, command)) {
+        check_aimed(options, command);
     }
     check_method_options(command, options.method);
     std::vector<std::string> files{options.scene};
@@ -78,15 +112,50 @@ void check(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
-/// What the user should know of how the render went. seconds: that it took.
-std::vector<std::string> notes_on(const RenderSettings& settings, const RenderStatistics& statistics, double seconds) {
-    constexpr double clearly_more = 1.2;
-    if (!settings.budget || seconds <= clearly_more * *settings.budget) {
-        return {};
+Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, const CLI::App& command) {
+    Progress progress("rendering", options.quiet);
+    const OnProgress on_progress = [&](double done) {
+        progress.update(done);
+        return !interrupted();
+    };
+    if (!is_aimed(options, command)) {
+        return {render(device, scene, options.settings, on_progress), std::nullopt};
     }
-    return {fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of --budget; passes are shorter with a "
-                        "lower --spp{}", seconds, statistics.passes, statistics.passes == 1 ? "" : "es", *settings.budget,
-                        settings.method == "path" ? "" : " or fewer --photons")};
+    const Aim aim{.error = options.target_error, .seconds = options.settings.budget};
+    const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
+    const Chosen chosen{.method = is_given("--method"), .samples = is_given("--spp"), .photons = is_given("--photons")};
+    const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
+        return render(device, scene, settings, on_progress, on_pass);
+    };
+    AimedRender aimed = render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
+        if (!options.quiet) {
+            progress.erase();
+            fmt::print(stderr, "argand: picked {}\n", describe_pick(picked, aim));
+        }
+    });
+    if (!aimed.prospects.empty()) {
+        options.settings = aimed.prospects.front().settings;
+        options.settings.budget = aim.seconds;
+    }
+    RenderResult result = std::move(aimed.result);
+    return {std::move(result), std::move(aimed)};
+}
+
+/// What the user should know of how the render went. seconds: that it took.
+std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& rendered, double seconds) {
+    constexpr double clearly_more = 1.2;
+    const RenderSettings& settings = options.settings;
+    const std::uint64_t passes = rendered.result.statistics.passes;
+    std::vector<std::string> notes;
+    if (rendered.aimed) {
+        notes.push_back(describe_outcome(*rendered.aimed, {.error = options.target_error, .seconds = settings.budget}));
+    }
+    if (settings.budget && seconds > clearly_more * *settings.budget) {
+        notes.push_back(fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of --budget; passes are shorter "
+                                    "with a lower --spp{}", seconds, passes, passes == 1 ? "" : "es", *settings.budget,
+                                    settings.method == "path" ? "" : " or fewer --photons"));
+    }
+    return notes;
 }
 
 void render_file(RenderOptions& options, const CLI::App& command) {
@@ -122,23 +191,17 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     times.open = seconds_since(opened);
 
     Clock::time_point rendering = Clock::now();
-    const auto render_on_device = [&] {
-        Progress progress("rendering", options.quiet);
-        return render(*device, scene, options.settings, [&](double done) {
-            progress.update(done);
-            return !interrupted();
-        });
-    };
-    RenderResult result;
+    Rendered rendered;
     try {
-        result = render_on_device();
+        rendered = render_on(*device, scene, options, command);
     } catch (const DeviceFault& fault) {
         device = open_after_fault(options.backend, options.device, fault);
         rendering = Clock::now();
-        result = render_on_device();
+        rendered = render_on(*device, scene, options, command);
     }
+    const RenderResult& result = rendered.result;
     times.render = seconds_since(rendering);
-    const std::vector<std::string> notes = notes_on(options.settings, result.statistics, times.render);
+    const std::vector<std::string> notes = notes_on(options, rendered, times.render);
     if (result.statistics.samples == 0) {
         fail("rendering '{}': interrupted before the first pass was finished; nothing is written", options.scene);
     }
@@ -153,6 +216,9 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         for (const std::string& note : notes) {
             report["notes"].push_back(note);
         }
+        if (rendered.aimed) {
+            report["aim"] = aim_report(*rendered.aimed, {.error = options.target_error, .seconds = options.settings.budget});
+        }
         write_json(options.report, report);
     }
     if (result.statistics.non_finite > 0) {
@@ -163,7 +229,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         for (const std::string& note : notes) {
             fmt::print(stderr, "argand: note: {}\n", note);
         }
-        fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "), options.method,
+        fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "), options.settings.method,
                    options.settings.width, options.settings.height, device->info().name,
                    seconds_since(start), result.statistics.interrupted ? " (interrupted: the passes so far)" : "");
     }
@@ -190,8 +256,14 @@ void add_render_command(CLI::App& app) {
         ->check(integer_between(0, 4'000'000'000));
     command
         ->add_option("--budget", settings.budget,
-                     "Seconds: so many photons and eye paths again and again, as often as there is time for")
+                     "Seconds to render in: with --method, so many photons and eye paths again and again, as often as there "
+                     "is time for; without, the method and the numbers that come nearest to the truth, told from pilots")
         ->check(number_between(1e-3, 1e7));
+    command
+        ->add_option("--target-error", options->target_error,
+                     "relMSE to render to (see `argand compare`), with the method and the numbers that get there soonest; with "
+                     "--budget, as near as there is time for")
+        ->check(number_between(1e-9, 1e3));
     command
         ->add_option("--bounces", settings.bounces,
                      "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")

@@ -99,4 +99,24 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
             {"notes", scene.notes}};
 }
 
+Json aim_report(const AimedRender& render, const Aim& aim) {
+    Json ways = Json::array();
+    for (const Prospect& p : render.prospects) {
+        ways.push_back({{"method", p.settings.method},
+                        {"spp_a_pass", p.settings.samples},
+                        {"photons_a_pass", p.settings.method == "path" ? Json() : Json(p.settings.photons)},
+                        {"passes", p.passes},
+                        {"seconds", p.seconds},
+                        {"relMSE", p.error},
+                        {"squared_bias", bias_after(p.model, p.passes).value}});
+    }
+    return {{"target_error", aim.error ? Json(*aim.error) : Json()},
+            {"budget", aim.seconds ? Json(*aim.seconds) : Json()},
+            {"expected", ways},
+            {"pilot_seconds", render.pilot_seconds},
+            {"noise", render.noise},
+            {"squared_bias", render.bias},
+            {"reached", aim.error ? Json(render.reached) : Json()}};
+}
+
 } // namespace argand

@@ -2,6 +2,7 @@
 
 #include "device/device.hpp"
 #include "methods/render.hpp"
+#include "tradeoff/aim.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -18,5 +19,8 @@ struct ReportTimes {
 nlohmann::ordered_json render_report(Device& device, const Scene& scene, const RenderSettings& settings, float exposure,
                                      const std::vector<std::string>& outputs, const RenderStatistics& statistics,
                                      const ReportTimes& times);
+
+/// What was asked for, what was picked, what was expected of it and of all else, and what came of it.
+nlohmann::ordered_json aim_report(const AimedRender& render, const Aim& aim);
 
 } // namespace argand

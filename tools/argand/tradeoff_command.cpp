@@ -2,12 +2,12 @@
 
 #include "backend_options.hpp"
 #include "base/error.hpp"
-#include "base/fingerprint.hpp"
 #include "base/interrupt.hpp"
 #include "base/progress.hpp"
 #include "base/read_file.hpp"
 #include "numbers.hpp"
 #include "picture_size.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
 #include "tradeoff/tradeoff.hpp"
 
@@ -30,19 +30,6 @@ struct TradeoffOptions {
     bool quiet = false;
     TradeoffRequest request{.methods = method_names()};
 };
-
-template <class T>
-std::uint64_t fingerprint_of(const std::vector<T>& items, std::uint64_t before) {
-    return fingerprint({reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(T)}, before);
-}
-
-/// Of the file and of the geometry, which may lie in other files.
-std::uint64_t fingerprint_of(const std::string& file, const Scene& scene) {
-    std::uint64_t hash = fingerprint(read_file(file));
-    hash = fingerprint_of(scene.positions, hash);
-    hash = fingerprint_of(scene.normals, hash);
-    return fingerprint_of(scene.triangles, hash);
-}
 
 void check(const TradeoffOptions& options) {
     const std::vector<std::string> known = method_names();
@@ -84,9 +71,11 @@ void run(TradeoffOptions& options) {
                          : std::filesystem::path(options.folder);
     catch_interrupts();
     const Scene scene = load_gltf(options.scene);
+    const std::vector<std::uint8_t> file = read_file(options.scene);
+    const std::uint64_t contents = fingerprint(scene, fingerprint(std::as_bytes(std::span(file))));
     const DeviceInfo device = open_backend(options.backend, options.device, options.quiet)->info();
     request.run = {{"scene", scene.name},
-                   {"contents", fmt::format("{:016x}", fingerprint_of(options.scene, scene))},
+                   {"contents", fmt::format("{:016x}", contents)},
                    {"argand", ARGAND_VERSION},
                    {"backend", device.backend},
                    {"device", device.name},

@@ -1,0 +1,46 @@
+#include "tradeoff/aim.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace argand {
+
+namespace {
+
+std::string counted(double count, const char* one, const char* many) {
+    return fmt::format("{:L} {}", std::round(count), count < 1.5 ? one : many);
+}
+
+std::string name_of(const RenderSettings& settings) {
+    if (settings.method == "path") {
+        return fmt::format("path, {} a pixel in a pass", counted(settings.samples, "sample", "samples"));
+    }
+    return fmt::format("{}, {} photons and {} a pixel in a pass", settings.method, settings.photons,
+                       counted(settings.samples, "sample", "samples"));
+}
+
+} // namespace
+
+std::string describe_pick(const AimedRender& render, const Aim& aim) {
+    const Prospect& best = render.prospects.front();
+    std::string text = fmt::format("{}: relMSE {:.2g} expected after {} in {:.2g} s", name_of(best.settings), best.error,
+                                   counted(best.passes, "pass", "passes"), best.seconds);
+    for (std::size_t i = 1; i < render.prospects.size(); ++i) {
+        const Prospect& other = render.prospects[i];
+        text += i == 1 ? "; not " : ", ";
+        text += other.settings.method == best.settings.method
+                    ? fmt::format("{} photons a pass", other.settings.photons)
+                    : other.settings.method;
+        const bool by_time = aim.error && best.error <= 1.01 * *aim.error && other.error <= 1.01 * *aim.error;
+        text += by_time ? fmt::format(" ({:.2g} s)", other.seconds) : fmt::format(" (relMSE {:.2g})", other.error);
+    }
+    return text + fmt::format("; pilots took {:.2g} s", render.pilot_seconds);
+}
+
+std::string describe_outcome(const AimedRender& render, const Aim& aim) {
+    const bool missed = aim.error && !render.reached;
+    return fmt::format("relMSE about {:.2g}: noise {:.2g}, squared bias {:.2g}{}", render.noise + render.bias, render.noise,
+                       render.bias, missed ? fmt::format("; the {:.2g} asked for is not reached", *aim.error) : "");
+}
+
+} // namespace argand

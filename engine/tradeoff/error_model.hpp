@@ -1,0 +1,31 @@
+#pragma once
+
+#include "tradeoff/estimate.hpp"
+
+namespace argand {
+
+/// relMSE of a picture of n passes. Widths of estimation shrink as n^(-1/6) (plan/radius.hpp), areas as n^(-1/3), and noise of
+/// density estimation grows with one over the area. Squared bias falls as n^(-2/3) where it goes with the area, on smooth
+/// surfaces; but most of it lies along edges, in bands as wide as the widths: n^(-1/6). Together about n^(-1/4), as measured
+/// (docs/results/targets.md):
+///   E(n) = (fixed + density n^(1/3)) / n + bias n^(-1/4).
+struct ErrorModel {
+    double fixed = 0;       ///< variance of one pass that widths do not change: eye paths, direct light
+    double density = 0;     ///< variance of one pass at the widths for one pass: photons
+    Estimate bias{0, 0};    ///< squared, at the widths for one pass
+};
+
+double noise_after(const ErrorModel& model, double passes);
+/// Squared bias after so many passes over that at the widths for one.
+double bias_share(double passes);
+Estimate bias_after(const ErrorModel& model, double passes);
+double error_after(const ErrorModel& model, double passes);
+
+/// Passes, at least 1 and not rounded, after which the error is at most `error`; infinite beyond 10^9.
+double passes_for(const ErrorModel& model, double error);
+
+/// The model, but for bias, from the variance of one pass at the widths for one pass and for `passes` > 1. Without negative
+/// terms: estimates may be.
+ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes);
+
+} // namespace argand

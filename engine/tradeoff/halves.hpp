@@ -1,0 +1,42 @@
+#pragma once
+
+#include "image/image.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace argand {
+
+/// The passes of a picture, half of them of one stream and half of another, whose difference tells its noise while it is
+/// being rendered. The streams take turns of more and more passes, so that a long render is rarely looked at.
+class Halves {
+public:
+    /// Of the next pass.
+    std::uint32_t stream() const { return turn_ % 2; }
+
+    /// Passes in all at the end of this turn.
+    std::uint64_t next() const { return done_ + length_; }
+
+    /// Told the mean of all passes at the end of each turn.
+    void add(const Image& mean_so_far);
+
+    /// Whether the halves have as many passes, and some.
+    bool are_equal() const { return stream() == 0 && done_ > 0; }
+
+    /// relMSE of the mean that is due to noise, where the halves are equal. reference: what relMSE divides by.
+    double noise(const Image& reference) const;
+
+    const std::array<Image, 2>& means() const { return means_; }
+
+private:
+    std::uint32_t turn_ = 0;
+    std::uint64_t length_ = 1, done_ = 0;
+    std::array<Image, 2> means_;
+    std::array<double, 2> passes_{};
+    Image mean_;            ///< of all
+};
+
+/// The mean of what came between two means: that of `passes_before` and that of `passes_after`.
+Image part_of(const Image& before, double passes_before, const Image& after, double passes_after);
+
+} // namespace argand
