@@ -164,6 +164,18 @@ TEST_F(BadInput, BackendsThatAreNotThere) {
     expect_failure(compare + "--record /nonexistent/a.golden", failure, "/nonexistent");
 }
 
+TEST_F(BadInput, ErrorsThatCannotBeAimedAt) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
+    expect_failure(scene + "--target-error 0", usage, "--target-error");
+    expect_failure(scene + "--target-error nan", usage, "--target-error");
+    expect_failure(scene + "--target-error 0.01 --radius 0.1", usage, "--radius");
+    expect_failure(scene + "--target-error 0.01 --method footprints --fixed-smoothing", usage, "--fixed-smoothing");
+    expect_failure(scene + "--target-error 0.01 --flatness 0.5", usage, "--flatness");
+    expect_failure("render '" + asset("ring.glb") + "' --size 8x8 --target-error 0.01 --method path", failure,
+                   "leave --method out");
+    expect_failure(scene + "--target-error 1e-9", failure, "ask for more error");
+}
+
 TEST_F(BadInput, PicturesThatCannotBeCompared) {
     const std::string render = "render '" + asset("cornell_point.glb") + "' -q --spp 1 --photons 0 ";
     ASSERT_EQ(argand(render + "--size 4x4 -o a.exr").exit_code, 0);

@@ -138,6 +138,34 @@ TEST_F(Commands, BudgetThatAPassExceedsIsNoted) {
     EXPECT_THAT(report.at("notes").back().get<std::string>(), HasSubstr("not the 0.001 s"));
 }
 
+TEST_F(Commands, TargetErrorIsMetAndReported) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 48x48 ";
+    const Outcome run = argand(scene + "--target-error 0.01 --seed 3 -o a.exr --json report.json");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("argand: picked "));
+    EXPECT_THAT(run.error, HasSubstr("relMSE about"));
+    const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
+    const nlohmann::json& aim = report.at("aim");
+    EXPECT_EQ(aim.at("target_error"), 0.01);
+    EXPECT_EQ(aim.at("reached"), true);
+    EXPECT_EQ(aim.at("expected").at(0).at("method"), report.at("parameters").at("method"));
+    EXPECT_LE(aim.at("noise").get<double>() + aim.at("squared_bias").get<double>(), 0.01);
+    ASSERT_EQ(argand(scene + "-q --method path --spp 512 -o truth.exr").exit_code, 0);
+    const double error = nlohmann::json::parse(argand("compare a.exr truth.exr --json").out).at("relMSE");
+    EXPECT_LT(error, 1.5 * 0.01);
+    EXPECT_GT(error, 0.0005);
+}
+
+TEST_F(Commands, BudgetWithoutMethodPicksOne) {
+    const Outcome run = argand("render '" + asset("cornell_point.glb") + "' --size 32x32 --budget 1 -o a.png --json report.json");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("argand: picked "));
+    const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
+    EXPECT_TRUE(report.at("aim").at("reached").is_null());
+    EXPECT_EQ(report.at("parameters").at("budget"), 1);
+    EXPECT_GT(report.at("passes"), 1);
+}
+
 TEST_F(Commands, CompareMeasuresAndDrawsTheDifference) {
     render("-q -o a.exr --seed 1");
     render("-q -o b.exr --seed 2");

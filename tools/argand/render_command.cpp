@@ -113,25 +113,31 @@ void check(const RenderOptions& options, const CLI::App& command) {
 }
 
 Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, const CLI::App& command) {
-    Progress progress("rendering", options.quiet);
+    std::optional<Progress> progress;
     const OnProgress on_progress = [&](double done) {
-        progress.update(done);
+        progress->update(done);
         return !interrupted();
     };
     if (!is_aimed(options, command)) {
+        progress.emplace("rendering", options.quiet);
         return {render(device, scene, options.settings, on_progress), std::nullopt};
     }
+    // How long pilots take shows only as they run.
+    progress.emplace("trying methods", options.quiet);
+    bool picked_one = false;
     const Aim aim{.error = options.target_error, .seconds = options.settings.budget};
     const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
     const Chosen chosen{.method = is_given("--method"), .samples = is_given("--spp"), .photons = is_given("--photons")};
     const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
-        return render(device, scene, settings, on_progress, on_pass);
+        return render(device, scene, settings, [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass);
     };
     AimedRender aimed = render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
+        progress.reset();
         if (!options.quiet) {
-            progress.erase();
             fmt::print(stderr, "argand: picked {}\n", describe_pick(picked, aim));
         }
+        progress.emplace("rendering", options.quiet);
+        picked_one = true;
     });
     if (!aimed.prospects.empty()) {
         options.settings = aimed.prospects.front().settings;

@@ -1,0 +1,197 @@
+#include "fake.hpp"
+#include "image/metrics.hpp"
+#include "support/expect_error.hpp"
+#include "tradeoff/aim.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+#include <thread>
+
+namespace argand {
+namespace {
+
+using testing::noisy;
+using testing::true_radiance;
+
+/// Stands in for the renderer: each pass has noise of its own; all methods but `path` have bias as well, that shrinks as
+/// ErrorModel says, and take longer.
+class FakePasses {
+public:
+    double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
+    double path_seconds = 0.002, map_seconds = 0.004;
+    std::uint64_t interrupted_after = 1'000'000;
+
+    RenderPasses passes() {
+        return [this](const RenderSettings& settings, const OnPass& on_pass) {
+            const bool is_path = settings.method == "path";
+            RenderResult result;
+            result.layers = {{"", Image{settings.width, settings.height, {}}}};
+            Image& mean = result.layers[0].image;
+            mean.pixels.resize(static_cast<std::size_t>(settings.width * settings.height));
+            std::uint64_t done = 0;
+            const auto layers = [&] { return result.layers; };
+            while (const std::optional<PassPlan> plan = on_pass({done, layers})) {
+                streams.insert(plan->stream);
+                const double bias = is_path ? 0 : map_bias * std::pow(plan->expected, -0.125);
+                const double deviation = (is_path ? path_deviation : map_deviation) / std::sqrt(settings.samples);
+                const Image pass = noisy(settings.width, settings.height, bias, deviation, ++seed_);
+                ++done;
+                for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+                    mean.pixels[i] += (pass.pixels[i] - mean.pixels[i]) / static_cast<float>(done);
+                }
+                std::this_thread::sleep_for(
+                    std::chrono::duration<double>(settings.samples * (is_path ? path_seconds : map_seconds)));
+                if (++total == interrupted_after) {
+                    result.statistics.interrupted = true;
+                    break;
+                }
+            }
+            result.statistics.passes = done;
+            methods.push_back(settings.method);
+            return result;
+        };
+    }
+
+    std::vector<std::string> methods;   ///< of all renders, the last is the picture's
+    std::set<std::uint32_t> streams;
+    std::uint64_t total = 0;
+
+private:
+    std::uint32_t seed_ = 0;
+};
+
+Scene box() {
+    Scene scene;
+    scene.name = "box";
+    scene.materials.resize(1);
+    scene.cameras.resize(1);
+    return scene;
+}
+
+RenderSettings small() {
+    RenderSettings settings;
+    settings.width = settings.height = 48;
+    return settings;
+}
+
+double true_error(const Image& picture) {
+    const Image truth = noisy(picture.width, picture.height, 0, 0, 0);
+    return rel_mse(picture, truth, truth);
+}
+
+AimedRender aim_at(FakePasses& fake, const Scene& scene, const Aim& aim, const Chosen& chosen = {},
+                   const RenderSettings& settings = small()) {
+    return render_aimed(fake.passes(), scene, settings, chosen, aim, [](const AimedRender&) {});
+}
+
+TEST(Aim, ErrorIsMetByTheQuickestMethod) {
+    FakePasses fake;
+    fake.map_bias = 0.01;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0003, .seconds = {}});
+    EXPECT_TRUE(aimed.reached);
+    EXPECT_NE(fake.methods.back(), "path");
+    EXPECT_EQ(fake.methods.back(), aimed.prospects.front().settings.method);
+    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.0003, 1, 0.33);
+    EXPECT_EQ(fake.streams.size(), 2u);
+}
+
+TEST(Aim, BiasIsPartOfTheError) {
+    FakePasses fake;
+    fake.map_bias = 0.1;
+    fake.path_deviation = 0.3;
+    // Squared bias is 0.0025 at the widths for one pass, and takes 10^5 passes to be this small.
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0003, .seconds = {}});
+    EXPECT_TRUE(aimed.reached);
+    EXPECT_EQ(fake.methods.back(), "path");
+    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.0003, 1, 0.33);
+}
+
+TEST(Aim, TimeIsKeptWithPilotsIncluded) {
+    FakePasses fake;
+    const auto start = std::chrono::steady_clock::now();
+    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.6});
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_GT(seconds, 0.45);
+    EXPECT_LT(seconds, 0.75);
+    EXPECT_GT(aimed.noise, 0);
+    EXPECT_GT(aimed.result.statistics.passes, 20u);
+}
+
+TEST(Aim, ErrorThatTheTimeDoesNotAllowIsSaid) {
+    FakePasses fake;
+    const Aim aim{.error = 1e-6, .seconds = 0.3};
+    const AimedRender aimed = aim_at(fake, box(), aim);
+    EXPECT_FALSE(aimed.reached);
+    EXPECT_THAT(describe_outcome(aimed, aim), ::testing::HasSubstr("is not reached"));
+}
+
+TEST(Aim, ErrorThatTakesTooLongIsRefused) {
+    FakePasses fake;
+    EXPECT_THAT(testing::error_of([&] { aim_at(fake, box(), {.error = 1e-9, .seconds = {}}); }),
+                ::testing::HasSubstr("ask for more error"));
+}
+
+TEST(Aim, ChosenMethodAndNumbersAreKept) {
+    FakePasses fake;
+    RenderSettings settings = small();
+    settings.method = "knn";
+    settings.samples = 2;
+    settings.photons = 1234;
+    const AimedRender aimed =
+        aim_at(fake, box(), {.error = 0.002, .seconds = {}}, {.method = true, .samples = true, .photons = true}, settings);
+    EXPECT_EQ(fake.methods.back(), "knn");
+    EXPECT_EQ(aimed.prospects.front().settings.photons, 1234u);
+    EXPECT_EQ(aimed.prospects.front().settings.samples, 2u);
+}
+
+TEST(Aim, InterruptedPilotsMakeNoPicture) {
+    FakePasses fake;
+    fake.interrupted_after = 2;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.001, .seconds = {}});
+    EXPECT_TRUE(aimed.result.statistics.interrupted);
+    EXPECT_EQ(aimed.result.statistics.samples, 0u);
+    EXPECT_TRUE(aimed.prospects.empty());
+}
+
+Scene with_lamp_and_mirror() {
+    Scene scene = box();
+    scene.lights.push_back(Light{});
+    scene.triangle_material = {0};
+    scene.materials[0].metallic = 1;
+    scene.materials[0].roughness = 0;
+    return scene;
+}
+
+TEST(Aim, PathsAreBlindToCausticsOfLampsWithoutExtent) {
+    Scene scene = with_lamp_and_mirror();
+    EXPECT_TRUE(is_blind_to_caustics(scene));
+    FakePasses fake;
+    aim_at(fake, scene, {.error = 0.002, .seconds = {}});
+    EXPECT_EQ(std::count(fake.methods.begin(), fake.methods.end(), "path"), 0);
+    RenderSettings settings = small();
+    settings.method = "path";
+    EXPECT_THAT(testing::error_of([&] { aim_at(fake, scene, {.error = 0.002, .seconds = {}}, {.method = true}, settings); }),
+                ::testing::HasSubstr("leave --method out"));
+    scene.materials[0].roughness = 1;
+    EXPECT_FALSE(is_blind_to_caustics(scene));
+    scene = with_lamp_and_mirror();
+    scene.lights.clear();
+    EXPECT_FALSE(is_blind_to_caustics(scene));
+}
+
+TEST(Aim, PickIsExplained) {
+    FakePasses fake;
+    const Aim aim{.error = 1e-4, .seconds = {}};
+    std::string pick;
+    render_aimed(fake.passes(), box(), small(), {}, aim,
+                 [&](const AimedRender& picked) { pick = describe_pick(picked, aim); });
+    EXPECT_THAT(pick, ::testing::HasSubstr("expected after"));
+    EXPECT_THAT(pick, ::testing::HasSubstr("pilots took"));
+    EXPECT_THAT(pick, ::testing::HasSubstr("not "));
+}
+
+} // namespace
+} // namespace argand
