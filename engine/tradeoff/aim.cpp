@@ -24,7 +24,7 @@ constexpr double share_of_truth = 0.1;
 // What sweeps find on the front (docs/results/tradeoff_*.csv): one sample a pass, with photons few or many.
 constexpr std::uint64_t few_photons = 50'000;
 constexpr std::uint64_t many_photons = 200'000;
-const std::vector<std::string> tried_methods{"photons", "footprints", "path"};
+const std::vector<std::string> tried_methods{"photons", "path", "footprints"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -108,6 +108,7 @@ public:
     bool has(const std::string& method) const { return find(method) != nullptr; }
 
     double seconds() const { return seconds_; }
+    double seconds_each() const { return seconds_ / static_cast<double>(pilots_.size()); }
 
     /// Best first.
     std::vector<Prospect> prospects() const {
@@ -226,10 +227,11 @@ private:
 
 /// Runs the pilots that are worth their time. Returns false if it was interrupted.
 bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, const Aim& aim, bool path_is_true) {
+    // One more pilot will take about as long as those before.
     const auto is_worth = [&](double share) {
-        const std::vector<Prospect> prospects = pilots.prospects();
-        const double ahead = prospects.empty() ? pilots.seconds() / share : prospects.front().seconds;
-        return pilots.seconds() <= share * (aim.seconds ? *aim.seconds : ahead + pilots.seconds());
+        const double one_more = pilots.seconds() + pilots.seconds_each();
+        const double ahead = pilots.prospects().front().seconds;
+        return one_more <= share * (aim.seconds ? *aim.seconds : ahead + one_more);
     };
     if (!pilots.run(settings_of_pass(base, chosen, tried_methods.front(), few_photons))) {
         return false;
@@ -238,14 +240,14 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
     numbers.method = false;
     for (const std::string& method : tried_methods) {
         // Paths tell the bias of the others as well, but for what they cannot find.
-        const bool wanted = method == "path" ? path_is_true : !chosen.method;
-        if (wanted && !pilots.has(method) && is_worth(share_of_pilots) &&
+        const bool wanted = method == "path" ? path_is_true : !chosen.method && is_worth(share_of_pilots);
+        if (wanted && !pilots.has(method) &&
             !pilots.run(settings_of_pass(base, numbers, method, few_photons))) {
             return false;
         }
     }
     const std::vector<Prospect> prospects = pilots.prospects();
-    if (!chosen.photons && !prospects.empty() && prospects.front().settings.method != "path" && is_worth(share_of_refinement)) {
+    if (!chosen.photons && prospects.front().settings.method != "path" && is_worth(share_of_refinement)) {
         RenderSettings many = prospects.front().settings;
         many.photons = many.photons_per_pass = many_photons;
         if (!pilots.run(many)) {

@@ -118,7 +118,7 @@ void turn_photons(MethodSweep& sweep, Extent extent) {
     if (extent == Extent::full) {
         sweep.turn<std::uint64_t>("photons", {10'000, 30'000, 100'000, 300'000, 1'000'000}, set);
     } else {
-        sweep.turn<std::uint64_t>("photons", {10'000, 50'000}, set);
+        sweep.turn<std::uint64_t>("photons", {10'000, 50'000, 1'000'000}, set);
     }
 }
 

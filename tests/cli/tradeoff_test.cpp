@@ -1,6 +1,7 @@
 #include "argand_run.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace argand::testing {
 namespace {
@@ -22,6 +23,12 @@ TEST_F(Tradeoff, MeasuresAndGoesOn) {
     EXPECT_EQ(second.out, first.out);
     EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
     expect_failure(on_scene + " --seeds 3", 1, "another folder");
+    // The reference's halves are what `compare` takes its noise out with.
+    const Outcome compared = argand("compare sweep/pictures/path-spp-2.exr sweep/reference.exr --json");
+    ASSERT_EQ(compared.exit_code, 0) << compared.error;
+    const nlohmann::json metrics = nlohmann::json::parse(compared.out);
+    EXPECT_TRUE(metrics.at("relMSE_without_reference_noise").is_number());
+    EXPECT_NE(metrics.at("relMSE_without_reference_noise"), metrics.at("relMSE"));
 }
 
 TEST_F(Tradeoff, BadInput) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace argand {
 
@@ -31,6 +32,15 @@ Image read_layer(const std::string& path, const std::string& name) {
     return *image;
 }
 
+/// relMSE of `a` against the two halves that the reference of a sweep (`argand tradeoff`) has as layers, whose noise then does
+/// not count; none if B is no such reference.
+std::optional<double> rel_mse_of_pair(const Image& a, const CompareOptions& options) {
+    const std::vector<Layer> layers = options.layer.empty() ? read_image(options.b) : std::vector<Layer>();
+    const Image* first = find_layer(layers, "a");
+    const Image* second = find_layer(layers, "b");
+    return first && second ? std::optional(rel_mse(a, *first, *second)) : std::nullopt;
+}
+
 void compare_files(const CompareOptions& options) {
     if (!options.output.empty()) {
         check_overwrites_none(options.output, {options.a, options.b});
@@ -43,11 +53,13 @@ void compare_files(const CompareOptions& options) {
         const std::array<Layer, 1> picture{Layer{"", difference_picture(a, b, options.a, options.b)}};
         write_image(options.output, picture);
     }
+    const std::optional<double> of_pair = rel_mse_of_pair(a, options);
     if (options.json) {
         fmt::print("{}", json_text({{"a", options.a},
                                     {"b", options.b},
                                     {"layer", options.layer},
                                     {"relMSE", metrics.rel_mse},
+                                    {"relMSE_without_reference_noise", of_pair ? nlohmann::ordered_json(*of_pair) : nullptr},
                                     {"RMSE", metrics.rmse},
                                     {"MAE", metrics.mae},
                                     {"PSNR", metrics.psnr},
@@ -58,6 +70,9 @@ void compare_files(const CompareOptions& options) {
     }
     fmt::print("relMSE {:.6g}\nRMSE   {:.6g}\nMAE    {:.6g}\nPSNR   {:.4g} dB\nSSIM   {:.5f}\n", metrics.rel_mse,
                metrics.rmse, metrics.mae, metrics.psnr, metrics.ssim);
+    if (of_pair) {
+        fmt::print("relMSE without the reference's noise {:.6g}\n", *of_pair);
+    }
     fmt::print("mean A {:.6g} {:.6g} {:.6g}\nmean B {:.6g} {:.6g} {:.6g}\n", metrics.mean_a.r, metrics.mean_a.g,
                metrics.mean_a.b, metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b);
 }
