@@ -1,7 +1,6 @@
 #include "accel/device_scene.hpp"
 
-#include "shared/bsdf.h"
-#include "shared/follow.h"
+#include "scene/material_record.hpp"
 #include "shared/lights.h"
 
 #include <algorithm>
@@ -95,23 +94,20 @@ std::vector<glm::vec4> padded(const std::vector<glm::vec3>& vectors) {
     return result;
 }
 
+/// What kernels get for a buffer that they do not read.
+Buffer nothing(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }
+
 } // namespace
 
-DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughness) {
+DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     const StageScope stage(device, "upload scene");
     DeviceScene result;
+    result.plan = plan;
     result.surface_area = surface_area(scene);
 
     std::vector<MaterialRecord> materials;
     for (const Material& material : scene.materials) {
         materials.push_back(material_record(material));
-        const MaterialRecord& record = materials.back();
-        result.lobes |= bsdf_lobes(record);
-        result.has_blended = result.has_blended || (bsdf_lobes(record) & LOBE_PASS) != 0;
-        result.has_phong = result.has_phong || is_phong(record);
-        result.has_followed = result.has_followed || followed_lobes(record, follow_roughness) != 0;
-        const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
-        result.has_glossy = result.has_glossy || (estimated != 0 && !is_lambertian(record));
     }
 
     const Bounds box = bounds(scene);
@@ -125,7 +121,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     double sky_weight = 0;
     double emitter_weight = 0;
     for (const LightRecord& light : lights) {
-        const glm::vec3 power = light_power(light, radius);
+        const glm::vec3 power = light_power(light, all_light_kinds, radius);
         result.power += glm::dvec3(power);
         weights.push_back((double(power.r) + power.g + power.b) / 3);
         total_weight += weights.back();
@@ -149,7 +145,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     record.sky_probability = total_weight > 0 ? static_cast<float>(sky_weight / total_weight) : 0;
     result.emitter_probability = total_weight > 0 ? emitter_weight / total_weight : 0;
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
-    record.follow_roughness = follow_roughness;
+    record.follow_roughness = plan.request.follow_roughness;
 
     std::vector<glm::uvec4> triangles;
     triangles.reserve(scene.triangles.size());
@@ -158,35 +154,18 @@ DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughn
     }
     result.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
     result.positions = upload(device, "positions", padded(scene.positions));
-    result.normals = upload(device, "normals", padded(scene.normals));
+    result.normals =
+        plan.needs(Feature::smooth_normals) ? upload(device, "normals", padded(scene.normals)) : nothing(device);
     result.triangles = upload(device, "triangles", triangles);
     result.materials = upload(device, "materials", materials);
     result.lights = upload(device, "lights", lights);
-    result.area_sums = upload(device, "area sums", area_sums(scene, result.surface_area));
-    result.light_choices = upload(device, "light choices", alias_table(weights));
+    result.area_sums = plan.needs(Feature::photon_map)
+                           ? upload(device, "area sums", area_sums(scene, result.surface_area))
+                           : nothing(device);
+    result.light_choices =
+        plan.needs(Feature::several_lights) ? upload(device, "light choices", alias_table(weights)) : nothing(device);
     result.bvh = build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
     return result;
-}
-
-MaterialRecord material_record(const Material& m) {
-    MaterialRecord record{m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
-                          m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
-                          m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
-                          m.roughness,        m.transmission,     m.ior,              m.thickness,
-                          m.coverage,         -1,                 0,                  0};
-    if (m.phong) {
-        const glm::vec3& specular = m.phong->specular;
-        record.metallic = 0;
-        record.transmission = 0;
-        record.thickness = 0;
-        record.specular_r = specular.r;
-        record.specular_g = specular.g;
-        record.specular_b = specular.b;
-        record.specular = specular == glm::vec3(0) ? 0.0f : 1.0f;
-        record.exponent = m.phong->exponent;
-        record.roughness = roughness_of_phong(record.exponent);
-    }
-    return record;
 }
 
 CameraRecord camera_record(const Camera& camera, int width, int height) {

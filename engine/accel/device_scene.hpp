@@ -1,9 +1,9 @@
 #pragma once
 
 #include "accel/triangle_bvh.hpp"
+#include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "shared/camera.h"
-#include "shared/material_record.h"
 #include "shared/scene_records.h"
 
 namespace argand {
@@ -23,18 +23,11 @@ struct DeviceScene {
     double surface_area = 0;    ///< of all triangles
     glm::dvec3 power{0};        ///< of all lights, per channel [lm-like: candela × steradian]
     double emitter_probability = 0; ///< that a choice of light gives an emissive triangle
-    std::uint32_t lobes = 0;    ///< LOBE_* of all materials
-    bool has_blended = false;   ///< light passes some surface by alpha
-    bool has_phong = false;     ///< some material is modified Phong
-    bool has_followed = false;  ///< some material has lobes that are followed: there may be caustics
-    bool has_glossy = false;    ///< some material has a glossy lobe beside or instead of the Lambertian one
+    Plan plan;                  ///< what of it kernels need; buffers that they do not need are empty
 };
 
-/// Uploads the scene and builds its acceleration structure. Records only.
-DeviceScene upload_scene(Device& device, const Scene& scene, float follow_roughness);
-
-/// A material as the kernels see it, which decides its lobes (shared/bsdf.h).
-MaterialRecord material_record(const Material& material);
+/// Uploads of the scene what the plan needs, and builds its acceleration structure. Records only.
+DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan);
 
 /// The camera for a picture of this size; the vertical angle is kept whatever the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);

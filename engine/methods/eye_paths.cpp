@@ -87,6 +87,7 @@ void ask(Device& device, EyeWorkspace& w, const Count& active, std::uint32_t ask
 /// Traces the paths of a batch to their end.
 void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera, const EyeBatch& batch,
                  const Gather& gather) {
+    const Plan& plan = scene.plan;
     const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
     device.fill(w.traversal.unfinished, 0);
     {
@@ -116,13 +117,16 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                                                   .shadow_rays = w.shadow_rays, .shadows = w.shadows,
                                                   .queries = w.queries, .alive = w.alive, .asks = w.asks, .batch = batch,
                                                   .constants = {.photon_map = gather != nullptr,
-                                                                .blended = scene.has_blended,
-                                                                .phong = scene.has_phong,
                                                                 .final_gather = w.final_gather,
-                                                                .caustics = scene.has_followed}},
+                                                                .followed_paths = plan.needs(Feature::followed_paths),
+                                                                .direct_light = plan.needs(Feature::direct_light),
+                                                                .smooth_normals = plan.needs(Feature::smooth_normals),
+                                                                .several_lights = plan.needs(Feature::several_lights),
+                                                                .light_kinds = plan.light_kinds(),
+                                                                .material_features = plan.material_features()}},
                               w.counts);
         }
-        if (scene.record.light_count > 0) {
+        if (plan.needs(Feature::direct_light)) {
             {
                 const StageScope stage(device, "trace shadow rays");
                 trace_any(device, scene.bvh, w.traversal, w.shadow_rays, w.active, w.occluded, active);
@@ -140,7 +144,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
             ask(device, w, active, asks_map, apart ? map_indirect : map_whole, sharing.cell, sharing.pixel_sized, gather);
             if (apart) {
                 ask(device, w, active, asks_map, map_caustic, caustic_cell, true, gather);
-            } else if (w.final_gather && scene.has_followed) {
+            } else if (w.final_gather && plan.needs(Feature::caustics)) {
                 const std::uint32_t part = sharing.caustics_apart ? map_caustic : map_whole;
                 ask(device, w, active, asks_caustics, part, caustic_cell, true, gather);
             }
@@ -174,14 +178,20 @@ void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
 
 } // namespace
 
-EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, const CameraRecord& camera,
-                                bool queries) {
+EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
+                                const CameraRecord& camera) {
     const std::uint64_t pixels = std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
     EyeWorkspace w;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, pixels * settings.samples);
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(GatherRecord));    // the largest per slot
     const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
-    w.final_gather = queries && settings.final_gather;
+    // A kernel takes at least an element of each of its buffers.
+    const auto per_slot_if = [&](bool needed, const char* name, std::uint64_t bytes) {
+        return device.allocate(name, (needed ? w.slots : 1) * bytes);
+    };
+    const bool queries = plan.needs(Feature::photon_map);
+    const bool direct = plan.needs(Feature::direct_light);
+    w.final_gather = plan.needs(Feature::final_gather);
     w.view = camera;
     w.camera = upload<CameraRecord>(device, "camera", std::span(&camera, 1));
     w.rays = per_slot("eye rays", sizeof(RayRecord));
@@ -191,11 +201,11 @@ EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, 
     w.active = per_slot("active eye paths", 4);
     w.next_active = per_slot("active eye paths", 4);
     w.alive = per_slot("eye path flags", 4);
-    w.shadow_rays = per_slot("shadow rays", sizeof(RayRecord));
-    w.shadows = per_slot("shadow contributions", sizeof(ShadowRecord));
-    w.occluded = per_slot("shadow ray flags", 4);
-    w.queries = device.allocate("photon map queries", queries ? w.slots * sizeof(QueryRecord) : sizeof(QueryRecord));
-    w.asks = device.allocate("eye path flags", queries ? w.slots * 4 : 4);
+    w.shadow_rays = per_slot_if(direct, "shadow rays", sizeof(RayRecord));
+    w.shadows = per_slot_if(direct, "shadow contributions", sizeof(ShadowRecord));
+    w.occluded = per_slot_if(direct, "shadow ray flags", 4);
+    w.queries = per_slot_if(queries, "photon map queries", sizeof(QueryRecord));
+    w.asks = per_slot_if(queries, "eye path flags", 4);
     if (queries) {
         w.chosen = per_slot("eye path flags", 4);
         w.asking = per_slot("asking eye paths", 4);

@@ -33,9 +33,9 @@ struct EyeWorkspace {
     std::uint64_t film_pixels = 0;  ///< to a buffer
 };
 
-/// `queries`: whether a photon map is going to be asked.
-EyeWorkspace make_eye_workspace(Device& device, const RenderSettings& settings, const CameraRecord& camera,
-                                bool queries);
+/// As far as the plan needs it.
+EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
+                                const CameraRecord& camera);
 
 /// Answers the queries of the so many slots in EyeWorkspace::asking (see query_target) from a part of the map; counts those
 /// it could not finish in EyeWorkspace::traversal.unfinished.

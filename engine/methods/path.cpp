@@ -12,10 +12,10 @@ namespace argand {
 RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings,
                          const Listeners& listeners) {
     Budget budget(settings.budget);
-    const DeviceScene on_device = upload_scene(device, scene, settings.follow_roughness);
+    const DeviceScene on_device = upload_scene(device, scene, plan_render(scene, settings));
     EyeWorkspace workspace =
-        make_eye_workspace(device, settings,
-                           camera_record(scene.cameras[settings.camera], settings.width, settings.height), false);
+        make_eye_workspace(device, on_device.plan, settings,
+                           camera_record(scene.cameras[settings.camera], settings.width, settings.height));
     RenderResult result;
     std::uint64_t& passes = result.statistics.passes;
     /// The next pass; none: no more.

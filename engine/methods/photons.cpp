@@ -71,7 +71,8 @@ PhotonPass emission_of(const Picture& p, const PassNumbers& numbers, std::uint64
 
 void make_photons(Picture& p) {
     p.photons = PhotonWorkspace();      // the old one's memory is free before the new one's is taken
-    p.photons = make_photon_workspace(p.device, p.passes.photons, p.estimator == Estimator::footprints);
+    p.photons = make_photon_workspace(p.device, p.passes.photons,
+                                      p.on_device.plan.needs(Feature::differentials));
     p.photons.quasi_random = p.settings.photon_sampling == Sampling::sobol;
     p.photons.reemission = p.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     const double power = std::max({p.on_device.power.r, p.on_device.power.g, p.on_device.power.b});
@@ -161,10 +162,10 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
                         Estimator estimator) {
     Budget budget(settings.budget);
     Picture p{.device = device, .scene = scene, .settings = settings, .estimator = estimator,
-              .on_device = upload_scene(device, scene, settings.follow_roughness), .eye = {}, .photons = {},
+              .on_device = upload_scene(device, scene, plan_render(scene, settings)), .eye = {}, .photons = {},
               .passes = {}};
-    p.eye = make_eye_workspace(device, settings,
-                               camera_record(scene.cameras[settings.camera], settings.width, settings.height), true);
+    p.eye = make_eye_workspace(device, p.on_device.plan, settings,
+                               camera_record(scene.cameras[settings.camera], settings.width, settings.height));
     // Without indirect light no photon is ever looked up.
     const std::uint64_t photons = settings.bounces > 0 && p.on_device.record.light_count > 0 ? settings.photons : 0;
     StoredPhotons stored = trace_first(p, photons, budget);

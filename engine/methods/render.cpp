@@ -27,6 +27,14 @@ std::vector<std::string> method_names() {
     return names;
 }
 
+Plan plan_render(const Scene& scene, const RenderSettings& settings) {
+    return make_plan(scene, {.follow_roughness = settings.follow_roughness,
+                             .photon_map = settings.method != "path",
+                             .footprints = settings.method == "footprints",
+                             .final_gather = settings.final_gather,
+                             .everything = settings.everything});
+}
+
 RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
                     const OnPass& on_pass) {
     const auto named = std::find_if(std::begin(methods), std::end(methods),

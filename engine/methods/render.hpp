@@ -2,6 +2,7 @@
 
 #include "device/device.hpp"
 #include "image/image.hpp"
+#include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "shared/footprint_records.h"
 
@@ -51,6 +52,7 @@ struct RenderSettings {
     bool wide_codes = false;                    ///< Morton codes of 63 bits for photons, not of 30
     Sampling photon_sampling = Sampling::sobol;
     bool final_gather = false;                  ///< the photon map is asked one bounce later, but for caustics
+    bool everything = false;                    ///< also code, buffers and passes that the scene does not require
     FootprintSettings footprints;
 };
 
@@ -103,6 +105,9 @@ using OnPass = std::function<std::optional<PassPlan>(const PictureSoFar&)>;
 
 /// Names of the methods, the default first.
 std::vector<std::string> method_names();
+
+/// What the scene and the settings require.
+Plan plan_render(const Scene& scene, const RenderSettings& settings);
 
 /// Renders the scene. With `on_pass` samples and photons are those of one pass, and it decides, not a budget, how often
 /// there is another. Throws UsageError on an unknown method, Error if the device cannot do it.

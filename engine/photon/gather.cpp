@@ -29,9 +29,10 @@ template <class Kernel> void run_radius(const Work& work, const Buffer& unfinish
                              .queries = work.target.queries, .materials = work.scene.materials,
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .params = work.params,
-                             .constants = {.glossy = work.scene.has_glossy, .blended = work.scene.has_blended,
-                                           .phong = work.scene.has_phong,
-                                           .final_gather = work.target.final_gather}},
+                             .constants = {.glossy = work.scene.plan.needs(Feature::glossy_estimates),
+                                           .final_gather = work.target.final_gather,
+                                           .caustics = work.scene.plan.needs(Feature::caustics),
+                                           .material_features = work.scene.plan.material_features()}},
                       work.asking.buffer, work.asking.index);
 }
 
@@ -42,9 +43,11 @@ template <class Kernel> void run_footprints(const Work& work, const Buffer& unfi
                              .queries = work.target.queries, .materials = work.scene.materials,
                              .gathers = work.target.partial, .unfinished = unfinished, .estimates = work.target.estimates,
                              .footprints = work.map.footprints, .params = work.params,
-                             .constants = {.glossy = work.scene.has_glossy, .uniform_kernel = work.uniform_kernel,
-                                           .blended = work.scene.has_blended, .phong = work.scene.has_phong,
-                                           .final_gather = work.target.final_gather}},
+                             .constants = {.glossy = work.scene.plan.needs(Feature::glossy_estimates),
+                                           .uniform_kernel = work.uniform_kernel,
+                                           .final_gather = work.target.final_gather,
+                                           .caustics = work.scene.plan.needs(Feature::caustics),
+                                           .material_features = work.scene.plan.material_features()}},
                       work.asking.buffer, work.asking.index);
 }
 

@@ -16,8 +16,9 @@ Kernel make_kernel(const DeviceScene& scene, const PhotonMap& map, const GatherT
     return {.nodes = map.lbvh.nodes, .photons = map.photons, .counters = map.counters, .active_slots = target.slots,
             .counts = target.counts, .queries = target.queries, .materials = scene.materials, .states = states,
             .unfinished = unfinished, .estimates = target.estimates, .suspended_words = words, .params = params,
-            .constants = {.glossy = scene.has_glossy, .blended = scene.has_blended, .phong = scene.has_phong,
-                          .final_gather = target.final_gather}};
+            .constants = {.glossy = scene.plan.needs(Feature::glossy_estimates), .final_gather = target.final_gather,
+                          .caustics = scene.plan.needs(Feature::caustics),
+                          .material_features = scene.plan.material_features()}};
 }
 
 } // namespace

@@ -16,7 +16,6 @@
 #include "parallel/compact.hpp"
 #include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"
-#include "shared/bsdf.h"
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
@@ -69,6 +68,7 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
 bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const PhotonBatch& batch) {
+    const Plan& plan = scene.plan;
     device.fill(w.traversal.unfinished, 0);
     {
         const StageScope stage(device, "emit photons");
@@ -78,7 +78,10 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                       .lights = scene.lights, .light_choices = scene.light_choices, .rays = w.rays,
                                       .paths = w.paths, .ledgers = w.ledgers, .active_slots = w.active,
                                       .differentials = w.differentials, .batch = batch,
-                                      .constants = {.footprints = w.footprints, .quasi_random = w.quasi_random}},
+                                      .constants = {.footprints = w.footprints, .quasi_random = w.quasi_random,
+                                                    .smooth_normals = plan.needs(Feature::smooth_normals),
+                                                    .several_lights = plan.needs(Feature::several_lights),
+                                                    .light_kinds = plan.light_kinds()}},
                  batch.count);
         device.upload(w.counters, counter_active * 4, std::as_bytes(std::span(&batch.count, 1)));
     }
@@ -99,12 +102,12 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
                                                   .alive = w.alive, .differentials = w.differentials,
                                                   .offsets = w.offsets, .batch = batch,
                                                   .constants = {.footprints = w.footprints,
-                                                                .specular = (scene.lobes & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0,
-                                                                .glossy = (scene.lobes & LOBE_GLOSSY) != 0,
                                                                 .reemission = w.reemission,
-                                                                .blended = scene.has_blended,
-                                                                .phong = scene.has_phong,
-                                                                .quasi_random = w.quasi_random}},
+                                                                .quasi_random = w.quasi_random,
+                                                                .followed_paths = plan.needs(Feature::followed_paths),
+                                                                .smooth_normals = plan.needs(Feature::smooth_normals),
+                                                                .several_lights = plan.needs(Feature::several_lights),
+                                                                .material_features = plan.material_features()}},
                           w.counters, counter_active);
         compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
         std::swap(w.active, w.next_active);

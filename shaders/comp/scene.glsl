@@ -13,3 +13,8 @@ layout(set = 0, binding = 3) readonly buffer Triangles { uvec4 triangles[]; };
 layout(set = 0, binding = 4) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 5) readonly buffer Lights { LightRecord lights[]; };
 layout(set = 0, binding = 6) readonly buffer LightChoices { LightChoice light_choices[]; };
+
+// What the scene has (engine/plan/plan.hpp); without it buffers may be empty.
+layout(constant_id = 16) const bool smooth_normals = true;      // else `normals` is not read
+layout(constant_id = 17) const bool several_lights = true;      // else `light_choices` is not
+layout(constant_id = 18) const uint light_kinds = 31u;          // 1u << light_*

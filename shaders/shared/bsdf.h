@@ -27,6 +27,14 @@ CONSTANT uint LOBE_PASS = 16u;
 CONSTANT uint LOBES_DELTA = 28u;    // mirror, transmit and pass
 CONSTANT uint LOBES_ALL = 31u;
 
+// What a scene's materials may have besides: glossy lobes by GGX, by Phong, solids that refract.
+CONSTANT uint MATERIAL_GGX = 32u;
+CONSTANT uint MATERIAL_PHONG = 64u;
+CONSTANT uint MATERIAL_SOLID = 128u;
+CONSTANT uint MATERIAL_ALL = 255u;
+// What a metal or a dielectric's layer needs.
+CONSTANT uint MATERIAL_LAYER = 36u;     // GGX or mirror
+
 // Below, single precision cannot tell GGX from a mirror.
 CONSTANT real SMALLEST_ALPHA = real(1e-3);
 
@@ -39,20 +47,35 @@ struct BsdfSample {
     real eta_scale;     // by which refraction scales radiance: (index on wo's side / index on wi's side)²
 };
 
+// Whether some material of the scene has any of these. Kernels know it when they are specialised: of what no material has
+// there is no code left. For materials of the scene it never changes what comes out.
+FN bool may_have(IN(MaterialRecord) m, uint bits) { return (m.absent & bits) != bits; }
+FN bool asks_for(IN(MaterialRecord) m, uint lobes, uint lobe) { return may_have(m, lobe) && (lobes & lobe) != 0u; }
+
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
 // Modified Phong: no metal, nothing transparent, and a roughness as wide as the lobe.
-FN bool is_phong(IN(MaterialRecord) m) { return m.exponent >= float32(0.0); }
-FN vec3 phong_specular(IN(MaterialRecord) m) { return vec3(m.specular_r, m.specular_g, m.specular_b) * real(m.coverage); }
-FN bool roughness_is_delta(IN(MaterialRecord) m) { return ggx_alpha(m) < SMALLEST_ALPHA; }
+FN bool is_phong(IN(MaterialRecord) m) { return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0); }
+FN real coverage(IN(MaterialRecord) m) { return may_have(m, LOBE_PASS) ? real(m.coverage) : real(1.0); }
+FN real metallic(IN(MaterialRecord) m) { return may_have(m, MATERIAL_LAYER) ? real(m.metallic) : real(0.0); }
+FN real transmission(IN(MaterialRecord) m) {
+    return may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID) ? real(m.transmission) : real(0.0);
+}
+FN vec3 phong_specular(IN(MaterialRecord) m) { return vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m); }
+// It matters only for what a layer, metal or Phong's lobe reflects.
+FN bool roughness_is_delta(IN(MaterialRecord) m) {
+    return may_have(m, LOBE_MIRROR) && (!may_have(m, LOBE_GLOSSY) || ggx_alpha(m) < SMALLEST_ALPHA);
+}
 
 // Shares of the surface: what is not there; metal; what is not metal, split by the transmission factor.
-FN real pass_share(IN(MaterialRecord) m) { return real(1.0) - real(m.coverage); }
-FN real metal_share(IN(MaterialRecord) m) { return real(m.coverage) * real(m.metallic); }
-FN real dielectric_share(IN(MaterialRecord) m) { return real(m.coverage) * (real(1.0) - real(m.metallic)); }
-FN real opaque_share(IN(MaterialRecord) m) { return dielectric_share(m) * (real(1.0) - real(m.transmission)); }
-FN real clear_share(IN(MaterialRecord) m) { return dielectric_share(m) * real(m.transmission); }
-FN bool is_solid(IN(MaterialRecord) m) { return clear_share(m) > real(0.0) && m.thickness > float32(0.0); }
+FN real pass_share(IN(MaterialRecord) m) { return real(1.0) - coverage(m); }
+FN real metal_share(IN(MaterialRecord) m) { return coverage(m) * metallic(m); }
+FN real dielectric_share(IN(MaterialRecord) m) { return coverage(m) * (real(1.0) - metallic(m)); }
+FN real opaque_share(IN(MaterialRecord) m) { return dielectric_share(m) * (real(1.0) - transmission(m)); }
+FN real clear_share(IN(MaterialRecord) m) { return dielectric_share(m) * transmission(m); }
+FN bool is_solid(IN(MaterialRecord) m) {
+    return may_have(m, MATERIAL_SOLID) && clear_share(m) > real(0.0) && m.thickness > float32(0.0);
+}
 
 // Reflectance of the dielectric's layer, by Schlick. An index of 0 gives an f0 of 1, as KHR_materials_ior wants.
 FN vec3 dielectric_f0(IN(MaterialRecord) m) {
@@ -62,6 +85,9 @@ FN vec3 dielectric_f0(IN(MaterialRecord) m) {
 }
 
 FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
+    if (!may_have(m, MATERIAL_LAYER)) {
+        return vec3(real(0.0));
+    }
     return fresnel_schlick(dielectric_f0(m), real(m.specular), cosine);
 }
 
@@ -69,6 +95,9 @@ FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
 FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
     if (is_phong(m)) {
         return phong_specular(m) * phong_albedo(real(m.exponent), cosine);
+    }
+    if (!may_have(m, MATERIAL_LAYER)) {
+        return vec3(real(0.0));
     }
     real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
     return fresnel_schlick(base_color(m), real(1.0), cosine) * metal_share(m) +
@@ -97,6 +126,10 @@ FN Border bsdf_border(IN(MaterialRecord) m, real cosine, bool front) {
     border.eta = real(1.0);
     border.cosine_refracted = cosine;
     border.reflected = roughness_is_delta(m) ? layer_reflectance(m, cosine) : vec3(real(0.0));
+    border.transmitted = vec3(real(0.0));
+    if (!may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID)) {
+        return border;
+    }
     if (!is_solid(m)) {
         border.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
         return border;
@@ -118,20 +151,22 @@ FN Border bsdf_border(IN(MaterialRecord) m, real cosine, bool front) {
 FN uint bsdf_lobes(IN(MaterialRecord) m) {
     uint lobes = 0u;
     bool colored = max_component(base_color(m)) > real(0.0);
-    if (colored && opaque_share(m) > real(0.0)) {
+    if (may_have(m, LOBE_DIFFUSE) && colored && opaque_share(m) > real(0.0)) {
         lobes |= LOBE_DIFFUSE;
     }
-    real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
-    if (metal_share(m) > real(0.0) || (m.specular > float32(0.0) && layer_share > real(0.0))) {
-        lobes |= roughness_is_delta(m) ? LOBE_MIRROR : LOBE_GLOSSY;
+    if (may_have(m, LOBE_GLOSSY | LOBE_MIRROR)) {
+        real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
+        if (metal_share(m) > real(0.0) || (m.specular > float32(0.0) && layer_share > real(0.0))) {
+            lobes |= roughness_is_delta(m) ? LOBE_MIRROR : LOBE_GLOSSY;
+        }
     }
-    if (colored && clear_share(m) > real(0.0)) {
+    if (may_have(m, LOBE_TRANSMIT) && colored && clear_share(m) > real(0.0)) {
         lobes |= LOBE_TRANSMIT;
     }
     if (is_solid(m)) {
         lobes |= LOBE_MIRROR;
     }
-    if (pass_share(m) > real(0.0)) {
+    if (may_have(m, LOBE_PASS) && pass_share(m) > real(0.0)) {
         lobes |= LOBE_PASS;
     }
     return lobes;
@@ -144,18 +179,18 @@ FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS
 // from which the triangle's vertices run counter-clockwise, the outside of a solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
-    if ((lobes & LOBE_DIFFUSE) != 0u) {
+    if (asks_for(m, lobes, LOBE_DIFFUSE)) {
         // Between wo and most of the hemisphere the half vector is never far from either: little more than f0.
         albedo += diffuse_reflectance(m, real(1.0));
     }
-    if ((lobes & LOBE_GLOSSY) != 0u && !roughness_is_delta(m)) {
+    if (asks_for(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
         albedo += layer_reflectance(m, wo.z);
     }
-    if ((lobes & LOBES_DELTA) != 0u) {
+    if (asks_for(m, lobes, LOBES_DELTA)) {
         Border border = bsdf_border(m, wo.z, front);
-        albedo += (lobes & LOBE_MIRROR) != 0u ? border.reflected : vec3(real(0.0));
-        albedo += (lobes & LOBE_TRANSMIT) != 0u ? border.transmitted : vec3(real(0.0));
-        albedo += vec3((lobes & LOBE_PASS) != 0u ? pass_share(m) : real(0.0));
+        albedo += asks_for(m, lobes, LOBE_MIRROR) ? border.reflected : vec3(real(0.0));
+        albedo += asks_for(m, lobes, LOBE_TRANSMIT) ? border.transmitted : vec3(real(0.0));
+        albedo += vec3(asks_for(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0));
     }
     return albedo;
 }
@@ -167,19 +202,19 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec3 p = vec3(real(0.0));
     vec3 layer = layer_reflectance(m, cosine);
-    if ((present & LOBE_DIFFUSE) != 0u) {
+    if (asks_for(m, present, LOBE_DIFFUSE)) {
         p.x = mean_component(diffuse_reflectance(m, real(1.0)));
     }
-    if ((present & LOBE_GLOSSY) != 0u) {
+    if (asks_for(m, present, LOBE_GLOSSY)) {
         p.y = mean_component(layer);
     }
-    if ((present & LOBE_MIRROR) != 0u && roughness_is_delta(m)) {
+    if (asks_for(m, present, LOBE_MIRROR) && roughness_is_delta(m)) {
         p.z = mean_component(layer);
     }
-    if ((present & (LOBE_MIRROR | LOBE_TRANSMIT)) != 0u && (is_solid(m) || (present & LOBE_TRANSMIT) != 0u)) {
+    if (asks_for(m, present, LOBE_MIRROR | LOBE_TRANSMIT) && (is_solid(m) || asks_for(m, present, LOBE_TRANSMIT))) {
         p.z += clear_share(m) * max(mean_component(base_color(m)), real(0.04));
     }
-    if ((present & LOBE_PASS) != 0u) {
+    if (asks_for(m, present, LOBE_PASS)) {
         p.z += pass_share(m);
     }
     real sum = p.x + p.y + p.z;
@@ -196,12 +231,12 @@ FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, ve
         return f;
     }
     real cosine = min(real(0.5) * sqrt(h2), real(1.0));     // between wo (or wi) and the half vector
-    if ((lobes & LOBE_DIFFUSE) != 0u) {
+    if (asks_for(m, lobes, LOBE_DIFFUSE)) {
         f = diffuse_reflectance(m, cosine) * INV_PI;
         pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
     }
-    if ((lobes & LOBE_GLOSSY) != 0u && !roughness_is_delta(m)) {
-        if (is_phong(m)) {
+    if (asks_for(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
+        if (!may_have(m, MATERIAL_GGX) || is_phong(m)) {
             real power = phong_power(real(m.exponent), wo, wi);
             pdf += probabilities.y * phong_pdf(real(m.exponent), power);
             return f + phong_specular(m) * phong_lobe(real(m.exponent), power);
@@ -230,28 +265,28 @@ FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
 FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u, real probability,
                       INOUT(BsdfSample) s) {
     Border border = bsdf_border(m, wo.z, front);
-    real reflected = (lobes & LOBE_MIRROR) != 0u ? mean_component(border.reflected) : real(0.0);
-    real transmitted = (lobes & LOBE_TRANSMIT) != 0u ? mean_component(border.transmitted) : real(0.0);
-    real passed = (lobes & LOBE_PASS) != 0u ? pass_share(m) : real(0.0);
+    real reflected = asks_for(m, lobes, LOBE_MIRROR) ? mean_component(border.reflected) : real(0.0);
+    real transmitted = asks_for(m, lobes, LOBE_TRANSMIT) ? mean_component(border.transmitted) : real(0.0);
+    real passed = asks_for(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0);
     real sum = reflected + transmitted + passed;
     if (!(sum > real(0.0))) {
         return false;
     }
-    if (passed > real(0.0) && u * sum >= reflected + transmitted) {
+    if (may_have(m, LOBE_PASS) && passed > real(0.0) && u * sum >= reflected + transmitted) {
         s.lobe = LOBE_PASS;
         s.wi = -wo;
         s.probability = passed * probability / sum;
         s.weight = vec3(sum / probability);
         return true;
     }
-    if (u * sum < reflected) {
+    if (may_have(m, LOBE_MIRROR) && u * sum < reflected) {
         s.lobe = LOBE_MIRROR;
         s.wi = vec3(-wo.x, -wo.y, wo.z);
         s.probability = reflected * probability / sum;
         s.weight = border.reflected * (sum / (reflected * probability));
         return true;
     }
-    if (!(transmitted > real(0.0))) {
+    if (!may_have(m, LOBE_TRANSMIT) || !(transmitted > real(0.0))) {
         return false;
     }
     s.lobe = LOBE_TRANSMIT;
@@ -276,19 +311,19 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         return false;
     }
     real rough = p.x + p.y;
-    if (p.z > real(0.0) && u.x >= rough) {
+    if (may_have(m, LOBES_DELTA) && p.z > real(0.0) && u.x >= rough) {
         // What is left of u.x is uniform again.
         real left = min((u.x - rough) / p.z, real(0.99999994));
         return sample_smooth(m, wo, front, lobes, left, p.z, s);
     }
-    if (u.x < p.x || !(p.y > real(0.0))) {
+    if (!may_have(m, LOBE_GLOSSY) || u.x < p.x || !(p.y > real(0.0))) {
         s.lobe = LOBE_DIFFUSE;
         s.probability = p.x;
         s.wi = sample_cosine_hemisphere(vec2(u.y, u.z));
     } else {
         s.lobe = LOBE_GLOSSY;
         s.probability = p.y;
-        if (is_phong(m)) {
+        if (!may_have(m, MATERIAL_GGX) || is_phong(m)) {
             s.wi = phong_sample(real(m.exponent), wo, vec2(u.y, u.z));
         } else {
             vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));

@@ -11,16 +11,16 @@ ARGAND_SHARED_BEGIN
 // make up the same emitter (all emissive triangles, where nobody knows better), so that an emitter cut into many
 // triangles spreads its light no wider than one; for other lights not used. direction, normal: what light_emit gave;
 // radius: of the scene's bounding sphere.
-FN PhotonDifferential light_differential(IN(LightRecord) l, vec3 direction, vec3 normal, real radius, real photons,
-                                         real emitter_photons) {
+FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 direction, vec3 normal, real radius,
+                                         real photons, real emitter_photons) {
     PhotonDifferential d = no_differential();
-    if (l.kind == light_point || l.kind == light_spot) {
+    if (is_light(l, kinds, light_point) || is_light(l, kinds, light_spot)) {
         Frame f;
         f.x = vec3(real(1.0), real(0.0), real(0.0));
         f.y = vec3(real(0.0), real(1.0), real(0.0));
         f.z = vec3(real(0.0), real(0.0), real(1.0));
         real density = UNIFORM_SPHERE_PDF;
-        if (l.kind == light_spot) {
+        if (is_light(l, kinds, light_spot)) {
             f = make_frame(light_direction(l));
             real cos_inner = real(l.cos_inner);
             real cos_outer = real(l.cos_outer);
@@ -40,9 +40,9 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, vec3 direction, vec3
     Frame f = make_frame(direction);
     real side = radius * sqrt(PI / max(photons, real(1.0)));        // of the disc that photons start on
     real spread = real(0.0);
-    if (l.kind == light_sky) {
+    if (is_light(l, kinds, light_sky)) {
         spread = sqrt(PI / max(photons, real(1.0)));
-    } else if (l.kind == light_triangle) {
+    } else if (is_light(l, kinds, light_triangle)) {
         real area;
         light_normal(l, area);
         real cosine = max(abs(dot3(direction, normal)), SMALLEST_EMISSION_COSINE);

@@ -11,6 +11,11 @@ CONSTANT uint light_directional = 2u;
 CONSTANT uint light_triangle = 3u;
 CONSTANT uint light_sky = 4u;           // the same radiance from all directions
 
+// A bit for each, 1u << light_*.
+CONSTANT uint all_light_kinds = 31u;
+CONSTANT uint light_kinds_at_a_point = 3u;      // point and spot
+CONSTANT uint light_kinds_from_outside = 20u;   // directional and sky
+
 // A light of any kind. Lanes of 16 bytes.
 struct LightRecord {
     float32 x, y, z;            // position (point, spot) or first vertex (triangle)

@@ -18,6 +18,13 @@ struct LightSample {
     bool delta;         // a light without extent, which no other way of sampling finds
 };
 
+// Whether the light is of this kind, `kinds` (1u << light_*) being those that the scene has: where kernels know them, no
+// code is left of others.
+FN bool is_light(IN(LightRecord) l, uint kinds, uint kind) {
+    uint bit = 1u << kind;
+    return kinds == bit || ((kinds & bit) != 0u && l.kind == kind);
+}
+
 FN vec3 light_color(IN(LightRecord) l) { return vec3(l.r, l.g, l.b); }
 FN vec3 light_position(IN(LightRecord) l) { return vec3(l.x, l.y, l.z); }
 FN vec3 light_direction(IN(LightRecord) l) { return vec3(l.dx, l.dy, l.dz); }
@@ -56,18 +63,18 @@ FN vec3 light_normal(IN(LightRecord) l, OUT(real) area) {
 FN real light_sides(IN(LightRecord) l) { return l.double_sided != 0u ? real(2.0) : real(1.0); }
 
 // Power that a light sends into a scene with this bounding sphere: I times solid angle, E·pi r², pi L A, 4 pi·pi r²·L.
-FN vec3 light_power(IN(LightRecord) l, real radius) {
-    real factor;
-    if (l.kind == light_point) {
+FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
+    real factor = real(0.0);
+    if (is_light(l, kinds, light_point)) {
         factor = real(4.0) * PI;
-    } else if (l.kind == light_spot) {
+    } else if (is_light(l, kinds, light_spot)) {
         real ramp, ramp_share;
         factor = spot_solid_angles(real(l.cos_inner), real(l.cos_outer), ramp, ramp_share);
-    } else if (l.kind == light_directional) {
+    } else if (is_light(l, kinds, light_directional)) {
         factor = PI * radius * radius;
-    } else if (l.kind == light_sky) {
+    } else if (is_light(l, kinds, light_sky)) {
         factor = real(39.478417604357434) * radius * radius;    // 4 pi²
-    } else {
+    } else if (is_light(l, kinds, light_triangle)) {
         real area;
         light_normal(l, area);
         factor = PI * area * light_sides(l);
@@ -112,31 +119,34 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
 // Samples a direction towards the light from p, the very origin of the shadow ray: seen from the surface's point the
 // emitter lies elsewhere, by the offset of the origin, which on a large floor is more than the rounding allowed for here.
 // False where none of its light arrives.
-FN bool light_sample(IN(LightRecord) l, vec3 p, vec2 u, OUT(LightSample) s) {
+FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSample) s) {
     s.wi = -light_direction(l);
     s.distance = real(far_away);
     s.radiance = light_color(l);
     s.pdf = real(0.0);
     s.delta = true;
-    if (l.kind == light_directional) {
+    if (is_light(l, kinds, light_directional)) {
         return true;
     }
-    if (l.kind == light_sky) {
+    if (is_light(l, kinds, light_sky)) {
         s.wi = sample_sphere(u);
         s.radiance = light_color(l) * (real(4.0) * PI);
         s.pdf = UNIFORM_SPHERE_PDF;
         s.delta = false;
         return true;
     }
-    if (l.kind == light_triangle) {
+    if (is_light(l, kinds, light_triangle)) {
         return sample_emitter(l, p, u, s);
+    }
+    if ((kinds & light_kinds_at_a_point) == 0u) {
+        return false;
     }
     s.wi = unit_and_length(light_position(l) - p, s.distance);
     if (!(s.distance > real(0.0))) {
         return false;
     }
     real share = real(1.0);
-    if (l.kind == light_spot) {
+    if (is_light(l, kinds, light_spot)) {
         share = spot_falloff(-dot3(s.wi, light_direction(l)), real(l.cos_inner), real(l.cos_outer));
     }
     s.radiance = light_color(l) * share / s.distance / s.distance;
@@ -165,21 +175,21 @@ FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
 // Emits a photon. flux: what it carries if it is the light's only one, the light's power. normal: of the emitting surface
 // on the photon's side, (0,0,0) if it does not leave one; the origin has then been moved off the surface already.
 // Directional light and the sky start on a disc that covers the bounding sphere, outside of it.
-FN bool light_emit(IN(LightRecord) l, vec4 u, vec4 v, vec3 center, real radius, OUT(vec3) origin, OUT(vec3) direction,
-                   OUT(vec3) normal, OUT(vec3) flux) {
+FN bool light_emit(IN(LightRecord) l, uint kinds, vec4 u, vec4 v, vec3 center, real radius, OUT(vec3) origin,
+                   OUT(vec3) direction, OUT(vec3) normal, OUT(vec3) flux) {
     origin = light_position(l);
     direction = light_direction(l);
     normal = vec3(real(0.0));
-    flux = light_power(l, radius);
-    if (l.kind == light_point) {
+    flux = light_power(l, kinds, radius);
+    if (is_light(l, kinds, light_point)) {
         direction = sample_sphere(vec2(u.x, u.y));
         return true;
     }
-    if (l.kind == light_spot) {
+    if (is_light(l, kinds, light_spot)) {
         direction = sample_spot(l, u, vec2(u.w, v.x));
         return true;
     }
-    if (l.kind == light_triangle) {
+    if (is_light(l, kinds, light_triangle)) {
         real area;
         normal = light_normal(l, area);
         normal = l.double_sided != 0u && v.x < real(0.5) ? -normal : normal;
@@ -190,7 +200,10 @@ FN bool light_emit(IN(LightRecord) l, vec4 u, vec4 v, vec3 center, real radius, 
         origin = offset_ray_origin(origin, error, normal, direction);
         return area > real(0.0);
     }
-    if (l.kind == light_sky) {
+    if ((kinds & light_kinds_from_outside) == 0u) {
+        return false;
+    }
+    if (is_light(l, kinds, light_sky)) {
         direction = sample_sphere(vec2(u.x, u.y));
     }
     Frame f = make_frame(direction);

@@ -14,7 +14,8 @@ struct MaterialRecord {
     float32 roughness, transmission, ior, thickness;
     float32 coverage;       // glTF's alpha: the share of the surface that is there
     float32 exponent;       // of modified Phong, whose specular colour is in specular_r, _g, _b; below 0: not Phong
-    uint pad0, pad1;
+    uint absent;            // MATERIAL_* and LOBE_* (bsdf.h) that no material of the scene has: kernels set it, 0 in buffers
+    uint pad;
 };
 
 ARGAND_SHARED_END

@@ -21,13 +21,20 @@ FN vec3 normalize_or(vec3 v, vec3 fallback) {
     return size > real(0.0) ? unit : fallback;
 }
 
-// The normals of the vertices are (0,0,0) where the file gives none.
-FN Surface make_surface(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, real u, real v, vec3 ray_direction) {
+// A surface whose vertices have no normals.
+FN Surface make_flat_surface(vec3 v0, vec3 v1, vec3 v2, real u, real v, vec3 ray_direction) {
     Surface s;
     s.position = hit_point(v0, v1, v2, u, v, s.error);
     vec3 normal = normalize_or(cross3(v1 - v0, v2 - v0), -ray_direction);
     s.front = dot3(normal, ray_direction) < real(0.0);
     s.geometric_normal = s.front ? normal : -normal;
+    s.shading_normal = s.geometric_normal;
+    return s;
+}
+
+// The normals of the vertices are (0,0,0) where the file gives none.
+FN Surface make_surface(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, real u, real v, vec3 ray_direction) {
+    Surface s = make_flat_surface(v0, v1, v2, u, v, ray_direction);
     vec3 shading = normalize_or(n0 * (real(1.0) - u - v) + n1 * u + n2 * v, s.geometric_normal);
     shading = dot3(shading, s.geometric_normal) < real(0.0) ? -shading : shading;
     // A shading normal that faces away from the viewer would make the surface black: there the geometric one serves.

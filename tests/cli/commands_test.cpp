@@ -193,22 +193,34 @@ TEST_F(Commands, InspectSaysWhatWouldBeDone) {
     const auto plan = [this](const std::string& scene) {
         return nlohmann::json::parse(argand("inspect '" + asset(scene) + "' --json").out).at("plan");
     };
+    const auto required_by = [](const nlohmann::json& plan, const std::string& feature) -> std::string {
+        for (const nlohmann::json& row : plan.at("features")) {
+            if (row.at("feature") == feature) {
+                return row.at("required_by");
+            }
+        }
+        return "";
+    };
     const nlohmann::json glass = plan("cornell_glass.glb");
     EXPECT_EQ(glass.at("method"), "footprints");
-    EXPECT_EQ(glass.at("followed"), nlohmann::json({"mirror", "transmission"}));
-    EXPECT_EQ(glass.at("estimated"), nlohmann::json({"diffuse"}));
-    EXPECT_EQ(glass.at("light_kinds"), nlohmann::json({"emissive triangles"}));
-    EXPECT_EQ(glass.at("caustics"), true);
-    EXPECT_EQ(glass.at("specular_differentials"), true);
-    EXPECT_EQ(glass.at("glossy_differentials"), false);
+    EXPECT_EQ(required_by(glass, "refraction"), "material 'glass sphere'");
+    EXPECT_EQ(required_by(glass, "emissive_triangles"), "material 'light'");
+    EXPECT_EQ(required_by(glass, "differentials"), "the method");
+    EXPECT_THAT(glass.at("left_out").get<std::vector<std::string>>(), ::testing::Contains("ggx"));
     const nlohmann::json point = plan("cornell_point.glb");
-    EXPECT_EQ(point.at("followed"), nlohmann::json::array());
-    EXPECT_EQ(point.at("light_kinds"), nlohmann::json({"point"}));
-    EXPECT_EQ(point.at("caustics"), false);
-    EXPECT_EQ(point.at("specular_differentials"), false);
+    EXPECT_EQ(required_by(point, "refraction"), "");
+    EXPECT_EQ(point.at("features").size(), 5u) << point;
     const Outcome text = argand("inspect '" + asset("cornell_glass.glb") + "'");
-    EXPECT_THAT(text.out, HasSubstr("method      footprints (default)\nfollowed    mirror, transmission\n"));
-    EXPECT_THAT(text.out, HasSubstr("with specular, without glossy terms\n"));
+    EXPECT_THAT(text.out, HasSubstr("method      footprints (default)\nrequires    "));
+    EXPECT_THAT(text.out, HasSubstr("  refraction: material 'glass sphere'\n"));
+    EXPECT_THAT(text.out, HasSubstr("left out    "));
+}
+
+TEST_F(Commands, EverythingGivesTheSamePicture) {
+    render("-q -o a.exr --json a.json");
+    render("-q -o b.exr --json b.json --everything");
+    EXPECT_TRUE(read_text(file("a.exr")) == read_text(file("b.exr")));
+    EXPECT_EQ(nlohmann::json::parse(read_text(file("b.json"))).at("parameters").at("everything"), true);
 }
 
 TEST_F(Commands, DevicesListsWhatThereIs) {

@@ -45,7 +45,8 @@ struct Traced {
 class Flux : public RenderTest {
 protected:
     Traced trace(const Scene& scene, std::uint32_t bounces, std::uint64_t count = 20'000, float follow_roughness = 0.25f) {
-        const DeviceScene on_device = upload_scene(device(), scene, follow_roughness);
+        const DeviceScene on_device = 
+            upload_scene(device(), scene, make_plan(scene, {.follow_roughness = follow_roughness}));
         PhotonWorkspace workspace = make_photon_workspace(device(), count);
         Traced traced;
         traced.power = on_device.power;

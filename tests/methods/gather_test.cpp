@@ -25,7 +25,8 @@ protected:
     std::vector<Gathered> gather(const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, float radius,
                                  std::uint32_t budget, bool careful = true, std::uint64_t area_samples = 0,
                                  std::uint32_t part = map_whole) {
-        const DeviceScene scene = upload_scene(device(), floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
+        const DeviceScene scene = upload_scene(device(), floor_scene(lambertian(glm::vec3(albedo)), 1),
+                                               make_plan({}, {.everything = true}));
         PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
         const PhotonMap map = build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
                                                {.area_samples = area_samples});

@@ -121,7 +121,8 @@ protected:
 
     Answers gather(Device& on, const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, std::uint32_t k,
                    float radius, std::uint32_t budget = gather_budget, bool careful = true, std::uint64_t area_samples = 0) {
-        const DeviceScene scene = upload_scene(on, floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
+        const DeviceScene scene = upload_scene(on, floor_scene(lambertian(glm::vec3(albedo)), 1),
+                                               make_plan({}, {.everything = true}));
         PhotonWorkspace workspace = make_photon_workspace(on, photons.size() + area_samples);
         const PhotonMap map =
             build_photon_map(on, scene, workspace, store(on, workspace, photons), {.area_samples = area_samples});

@@ -46,7 +46,8 @@ FootprintScale plain_scale() {
 
 Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<Query>& queries,
             const GatherSettings& settings = {}) {
-    const DeviceScene scene = upload_scene(device, floor_scene(lambertian(glm::vec3(albedo)), 1), 0.25f);
+    const DeviceScene scene = upload_scene(device, floor_scene(lambertian(glm::vec3(albedo)), 1),
+                                           make_plan({}, {.everything = true}));
     PhotonWorkspace workspace = make_photon_workspace(device, splats.size(), true);
     std::vector<PhotonRecord> photons;
     std::vector<glm::uvec4> offsets;

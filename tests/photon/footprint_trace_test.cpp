@@ -23,7 +23,7 @@ class FootprintTrace : public RenderTest {
 protected:
     std::vector<Landed> trace(const Scene& scene, std::uint32_t bounces, std::uint64_t count,
                               std::uint32_t reemission = REEMIT_COSINE) {
-        const DeviceScene on_device = upload_scene(device(), scene, 0.25f);
+        const DeviceScene on_device = upload_scene(device(), scene, make_plan(scene, {.follow_roughness = 0.25f}));
         PhotonWorkspace workspace = make_photon_workspace(device(), count, true);
         workspace.reemission = reemission;
         const auto stored = trace_photons(device(), on_device, workspace,
@@ -187,7 +187,7 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     const double albedo = 0.5;
     Scene box = box_scene(lambertian(glm::vec3(float(albedo))));
     box.lights.push_back(point_light({0.2f, 0.4f, -0.1f}, glm::vec3(1)));
-    const DeviceScene scene = upload_scene(device(), box, 0.25f);
+    const DeviceScene scene = upload_scene(device(), box, make_plan(box, {.follow_roughness = 0.25f}));
     constexpr std::uint64_t count = 50'000;
     PhotonWorkspace workspace = make_photon_workspace(device(), count, true);
     const auto stored =

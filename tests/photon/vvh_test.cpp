@@ -146,7 +146,8 @@ using VolumeHeuristicMap = VariantTest;
 
 TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     Device& device = open_variant();
-    const DeviceScene scene = upload_scene(device, testing::floor_scene(testing::lambertian(glm::vec3(0.5f)), 1), 0.25f);
+    const DeviceScene scene = upload_scene(device, testing::floor_scene(testing::lambertian(glm::vec3(0.5f)), 1),
+                                           make_plan({}, {.everything = true}));
     std::mt19937 random(4);
     std::uniform_real_distribution<float> coordinate(-1, 1);
     constexpr std::size_t count = 20'000;

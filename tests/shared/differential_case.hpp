@@ -69,10 +69,10 @@ inline Begin begin(Start start, uint seed) {
     if (start < Start::paper) {
         const LightRecord l = some_light(start, seed);
         vec3 normal, flux;
-        light_emit(l, u, random4(42, seed, 0, 1), vec3(0), real(2), b.photon.position, b.photon.direction,
+        light_emit(l, all_light_kinds, u, random4(42, seed, 0, 1), vec3(0), real(2), b.photon.position, b.photon.direction,
                    normal, flux);
         b.differential =
-            light_differential(l, b.photon.direction, normal, real(2), photon_count, photon_count);
+            light_differential(l, all_light_kinds, b.photon.direction, normal, real(2), photon_count, photon_count);
         return b;
     }
     const Frame frame = make_frame(unit_vector(seed, 4));

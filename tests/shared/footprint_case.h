@@ -18,9 +18,9 @@ struct FootprintResult {
 
 FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
     vec3 origin, direction, normal, flux;
-    light_emit(l, random4(61u, i, 0u, 0u), random4(61u, i, 0u, 1u), vec3(real(0.0)), real(2.0), origin, direction, normal,
-               flux);
-    PhotonDifferential d = light_differential(l, direction, normal, real(2.0), real(1e4), real(1e5));
+    light_emit(l, all_light_kinds, random4(61u, i, 0u, 0u), random4(61u, i, 0u, 1u), vec3(real(0.0)), real(2.0), origin,
+               direction, normal, flux);
+    PhotonDifferential d = light_differential(l, all_light_kinds, direction, normal, real(2.0), real(1e4), real(1e5));
     vec4 u = random4(61u, i, 1u, 0u);
     vec3 n = sample_sphere(vec2(u.x, u.y));
     n = dot3(n, direction) > real(0.0) ? -n : n;

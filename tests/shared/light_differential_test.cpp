@@ -20,7 +20,7 @@ struct Emitted {
 Emitted emitted(const LightRecord& l, vec4 u, vec4 v) {
     Emitted e;
     vec3 flux;
-    light_emit(l, u, v, vec3(0), 2.0, e.origin, e.direction, e.normal, flux);
+    light_emit(l, all_light_kinds, u, v, vec3(0), 2.0, e.origin, e.direction, e.normal, flux);
     return e;
 }
 
@@ -46,7 +46,7 @@ TEST(Emission, SpacingIsThatOfTheSamplers) {
         for (const Start start : {Start::point, Start::directional, Start::triangle, Start::sky}) {
             const LightRecord l = paths::some_light(start, seed);
             const Emitted e = emitted(l, u, v);
-            const PhotonDifferential d = light_differential(l, e.direction, e.normal, 2.0, n, n);
+            const PhotonDifferential d = light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
             const double over_directions =
                 stretch([&](vec2 x) { return emitted(l, vec4(x.x, x.y, u.z, u.w), v).direction; }, vec2(u));
             const double over_positions = stretch(
@@ -78,7 +78,7 @@ TEST(Emission, PointLightFollowsThePaper) {
         const double sine = std::sqrt(1 - cosine * cosine);
         const double phi = 2 * PI * u.x;
         const Emitted e = emitted(l, u, vec4(0));
-        const PhotonDifferential d = light_differential(l, e.direction, e.normal, 2.0, n, n);
+        const PhotonDifferential d = light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
         const double spacing = 2 * std::sqrt(PI / n);
         const vec3 along(-std::cos(phi) * cosine, -std::sin(phi) * cosine, sine);
         const vec3 around(-std::sin(phi), std::cos(phi), 0);
@@ -105,7 +105,7 @@ TEST(Emission, SpotsFollowTheirFalloff) {
             const double density = on_ramp ? 3 * m * m * ramp / all : 1 - ramp / all;
             const double expected = stretch(direction, vec2(m, around)) / density / n;
             const PhotonDifferential d =
-                light_differential(l, direction(vec2(m, around)), vec3(0), 2.0, n, n);
+                light_differential(l, all_light_kinds, direction(vec2(m, around)), vec3(0), 2.0, n, n);
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-5 * expected) << on_ramp << " " << m;
         }
     }
@@ -118,14 +118,14 @@ double area_times_density(const LightRecord& l, double half_width, uint photons)
     double sum = 0;
     for (uint i = 0; i < photons; ++i) {
         vec3 origin, direction, normal, flux;
-        light_emit(l, vec4(random4(57, i, 0, 0)), vec4(random4(57, i, 0, 1)), vec3(0), radius, origin,
+        light_emit(l, all_light_kinds, vec4(random4(57, i, 0, 0)), vec4(random4(57, i, 0, 1)), vec3(0), radius, origin,
                    direction, normal, flux);
         const double t = -origin.z / direction.z;
         const vec3 hit = origin + t * direction;
         if (!(t > 0) || !(direction.z < 0) || std::abs(hit.x) > half_width || std::abs(hit.y) > half_width) {
             continue;
         }
-        PhotonDifferential d = light_differential(l, direction, normal, radius, photons, photons);
+        PhotonDifferential d = light_differential(l, all_light_kinds, direction, normal, radius, photons, photons);
         transfer_differential(d, direction, t, vec3(0, 0, 1));
         sum += area_of(d.dp_du, d.dp_dv);
     }

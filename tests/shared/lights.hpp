@@ -58,6 +58,16 @@ inline LightRecord triangle_light(vec3 a, vec3 b, vec3 c, vec3 radiance, bool do
     return l;
 }
 
+/// As kernels call them that know nothing of the scene's lights.
+inline bool light_sample(const LightRecord& l, vec3 p, vec2 u, LightSample& s) {
+    return argand::light_sample(l, all_light_kinds, p, u, s);
+}
+inline vec3 light_power(const LightRecord& l, float radius) { return argand::light_power(l, all_light_kinds, radius); }
+inline bool light_emit(const LightRecord& l, vec4 u, vec4 v, vec3 center, float radius, vec3& origin, vec3& direction,
+                       vec3& normal, vec3& flux) {
+    return argand::light_emit(l, all_light_kinds, u, v, center, radius, origin, direction, normal, flux);
+}
+
 inline truth::Record record_bytes(const LightRecord& l) {
     return std::bit_cast<truth::Record>(l);
 }

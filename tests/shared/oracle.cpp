@@ -39,18 +39,19 @@ BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front,
 
 LightSample light_sample(const Record& light, glm::dvec3 p, glm::dvec2 u) {
     oracle::LightSample s;
-    const bool lit = oracle::light_sample(as<LightRecord>(light), p, u, s);
+    const bool lit = oracle::light_sample(as<LightRecord>(light), oracle::all_light_kinds, p, u, s);
     return {lit, s.wi, s.radiance, s.distance, s.pdf};
 }
 
 glm::dvec3 light_power(const Record& light, double radius) {
-    return oracle::light_power(as<LightRecord>(light), radius);
+    return oracle::light_power(as<LightRecord>(light), oracle::all_light_kinds, radius);
 }
 
 Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center, double radius) {
     Emission e;
     vec3 normal;
-    oracle::light_emit(as<LightRecord>(light), u, v, center, radius, e.origin, e.direction, normal, e.flux);
+    oracle::light_emit(as<LightRecord>(light), oracle::all_light_kinds, u, v, center, radius, e.origin, e.direction, normal,
+                       e.flux);
     return e;
 }
 

@@ -52,14 +52,14 @@ FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(Ca
     r.f_pdf = bsdf_pdf(m, wo, wi, LOBES_ALL);
 
     LightSample sample_;
-    bool lit = light_sample(l, eye, vec2(x.z, x.w), sample_);
+    bool lit = light_sample(l, all_light_kinds, eye, vec2(x.z, x.w), sample_);
     r.radiance_x = lit ? sample_.radiance.x : real(0.0);
     r.radiance_y = lit ? sample_.radiance.y : real(0.0);
     r.radiance_z = lit ? sample_.radiance.z : real(0.0);
     r.light_pdf = lit ? sample_.pdf : real(0.0);
     r.distance = lit ? sample_.distance : real(0.0);
     vec3 origin, way, normal, flux;
-    light_emit(l, v, x, vec3(real(0.0)), real(4.0), origin, way, normal, flux);
+    light_emit(l, all_light_kinds, v, x, vec3(real(0.0)), real(4.0), origin, way, normal, flux);
     r.origin_x = origin.x;
     r.origin_y = origin.y;
     r.origin_z = origin.z;

@@ -305,6 +305,9 @@ void add_render_command(CLI::App& app) {
     command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")
         ->capture_default_str()
         ->check(number_between(-100, 100));
+    command->add_flag("--everything", settings.everything,
+                      "Also compile and run what the scene does not require: the same picture, to measure what that"
+                      " costs");
     add_backend_options(*command, options->backend, options->device);
     command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");
     add_footprint_options(*command, settings.footprints);

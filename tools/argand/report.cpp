@@ -64,6 +64,7 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
                        {"follow_roughness", settings.follow_roughness},
                        {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
                        {"final_gather", settings.final_gather},
+                       {"everything", settings.everything},
                        {"seed", settings.seed},
                        {"camera", scene.cameras[settings.camera].name},
                        {"exposure", exposure}};

@@ -2,6 +2,7 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene.glsl"
+#include "material_features.glsl"
 #include "shared/follow.h"
 #include "shared/lights.h"
 #include "shared/photon.h"
@@ -24,12 +25,11 @@ layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: light that estimated lobes scatter more than once is left to the photon map.
 layout(constant_id = 0) const bool photon_map = false;
-// Whether some surface lets light pass (alpha below 1).
-layout(constant_id = 1) const bool blended = true;
-// Whether some surface is modified Phong.
-layout(constant_id = 2) const bool phong = true;
-// Whether that is asked one scattering later, but for caustics; whether there are any.
-layout(constant_id = 3) const bool final_gather = false;
-layout(constant_id = 4) const bool caustics = true;
+// Whether that is asked one scattering later, but for caustics.
+layout(constant_id = 1) const bool final_gather = false;
+// Whether some surface has lobes that are followed; else there are no caustics.
+layout(constant_id = 2) const bool followed_paths = true;
+// Whether lights are sampled; else there are no shadow rays.
+layout(constant_id = 3) const bool direct_light = true;
 
 #include "shared/kernels/methods/eye_vertex.h"

@@ -2,6 +2,7 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene.glsl"
+#include "material_features.glsl"
 #include "shared/differential_record.h"
 #include "shared/follow.h"
 #include "shared/footprint.h"
@@ -20,15 +21,11 @@ layout(set = 0, binding = 15) buffer Differentials { DifferentialRecord differen
 layout(set = 0, binding = 16) writeonly buffer Offsets { uvec4 offsets[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
-// Whether photons carry differentials; of which kinds of scattering they need to know.
+// Whether photons carry differentials.
 layout(constant_id = 0) const bool footprints = false;
-layout(constant_id = 1) const bool specular = true;
-layout(constant_id = 2) const bool glossy = true;
-layout(constant_id = 3) const uint reemission = REEMIT_COSINE;
-// Whether some surface lets light pass (alpha below 1).
-layout(constant_id = 4) const bool blended = true;
-// Whether some surface is modified Phong.
-layout(constant_id = 5) const bool phong = true;
-layout(constant_id = 6) const bool quasi_random = true;
+layout(constant_id = 1) const uint reemission = REEMIT_COSINE;
+layout(constant_id = 2) const bool quasi_random = true;
+// Whether some surface has lobes that are followed; else there are no caustics.
+layout(constant_id = 3) const bool followed_paths = true;
 
 #include "shared/kernels/photon/photon_scatter.h"

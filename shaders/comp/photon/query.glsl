@@ -1,5 +1,6 @@
 // What all kinds of density estimation read and write.
 #include "photon/map_walk.glsl"
+#include "material_features.glsl"
 #include "shared/bsdf.h"
 #include "shared/query_record.h"
 
@@ -13,9 +14,7 @@ layout(push_constant) uniform Push { PhotonGatherParams params; };
 
 // Whether any estimated lobe of the scene is not Lambertian.
 layout(constant_id = 0) const bool glossy = true;
-// Whether some surface lets light pass (alpha below 1).
-layout(constant_id = 2) const bool blended = true;
-// Whether some surface is modified Phong.
-layout(constant_id = 3) const bool phong = true;
 // Whether queries are those of a final gather (query_record.h).
-layout(constant_id = 4) const bool final_gather = false;
+layout(constant_id = 2) const bool final_gather = false;
+// Whether there may be caustic photons.
+layout(constant_id = 3) const bool caustics = true;

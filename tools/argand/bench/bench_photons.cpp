@@ -23,7 +23,8 @@ double stage_seconds(Device& device, std::string_view name) {
 std::vector<BenchRow> bench_photons(Device& device) {
     constexpr std::uint64_t photons = 1 << 18;
     constexpr float follow_roughness = 0.25f;
-    const DeviceScene scene = upload_scene(device, cornell_scene(), follow_roughness);
+    const Scene room = cornell_scene();
+    const DeviceScene scene = upload_scene(device, room, make_plan(room, {.follow_roughness = follow_roughness}));
     PhotonWorkspace workspace = make_photon_workspace(device, photons);
     const PhotonPass pass{.seed = 1, .first = 0, .count = photons, .bounces = 0xffff};
     const double copied = copy_rate(device);

@@ -20,7 +20,7 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
         fail("measuring '{}': no photon is stored; choose a scene with a light and a surface that scatters it twice",
              scene.name);
     }
-    paper.scene = upload_scene(device, scene, render.follow_roughness);
+    paper.scene = upload_scene(device, scene, plan_render(scene, paper.render));
     paper.workspace = make_photon_workspace(device, paper.render.photons, true);
     const PhotonPass pass{.seed = render.seed, .first = 0, .count = paper.render.photons, .bounces = render.bounces};
     const std::optional<StoredPhotons> stored = trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f);
@@ -32,8 +32,8 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
     paper.settings = {.area_samples = area_samples(paper.scene.surface_area, paper.statistics.radius),
                       .seed = render.seed,
                       .footprints = paper.statistics.footprint_scale};
-    paper.eye = make_eye_workspace(
-        device, paper.render, camera_record(scene.cameras[render.camera], render.width, render.height), true);
+    paper.eye = make_eye_workspace(device, paper.scene.plan, paper.render,
+                                   camera_record(scene.cameras[render.camera], render.width, render.height));
     return paper;
 }
 

@@ -1,5 +1,8 @@
 #include "shared/kernels/scene.h"
+#include "shared/kernels/material.h"
 #include "shared/kernels/layers.h"
+
+FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
 
 FN RayRecord no_ray() {
     return RayRecord(real(0.0), real(0.0), real(0.0), -real(1.0), real(0.0), real(0.0), real(1.0), 0u);
@@ -38,11 +41,11 @@ FN void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surfac
     LightRecord light = lights[choose_light(u.x, choice_probability)];
     LightSample s;
     vec3 o = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, surface.geometric_normal);
-    if (!light_sample(light, o, vec2(u.y, u.z), s)) {
+    if (!light_sample(light, light_kinds, o, vec2(u.y, u.z), s)) {
         return;
     }
     vec3 wi = to_local(frame, s.wi);
-    bool sky_by_cosine = ends && light.kind == light_sky;
+    bool sky_by_cosine = ends && is_light(light, light_kinds, light_sky);
     if (sky_by_cosine) {
         // Nothing else finds the sky for diffuse lobes here: not evenly over the sphere, half of which is below.
         wi = sample_cosine_hemisphere(vec2(u.y, u.z));
@@ -88,7 +91,9 @@ FN void main() {
     vec3 direction = vec3(rays[slot].direction_x, rays[slot].direction_y, rays[slot].direction_z);
     vec3 throughput = vec3(path.throughput_r, path.throughput_g, path.throughput_b);
     alive[i] = 0u;
-    shadow_rays[slot] = no_ray();
+    if (direct_light) {
+        shadow_rays[slot] = no_ray();
+    }
     if (photon_map) {
         asks[i] = 0u;
     }
@@ -96,7 +101,7 @@ FN void main() {
 
     if (hit.triangle == no_triangle) {
         vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
-        if (max_component(sky) > real(0.0)) {
+        if (has_light(light_sky) && max_component(sky) > real(0.0)) {
             bool found_twice = path.pdf > real(0.0) && !seeks_emission;
             real weight = found_twice ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI) : real(1.0);
             add_emission(slot, path, throughput * sky * weight);
@@ -105,11 +110,9 @@ FN void main() {
     }
 
     Surface surface = load_surface(hit, direction);
-    MaterialRecord m = materials[triangles[hit.triangle].w];
-    m.coverage = blended ? m.coverage : real(1.0);
-    m.exponent = phong ? m.exponent : -real(1.0);
+    MaterialRecord m = load_material(triangles[hit.triangle].w);
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
-    if (max_component(emission) > real(0.0) && (surface.front || m.double_sided != 0u)) {
+    if (has_light(light_triangle) && max_component(emission) > real(0.0) && (surface.front || m.double_sided != 0u)) {
         real weight = real(1.0);
         if (path.pdf > real(0.0)) {
             real cosine = max(-dot(direction, surface.geometric_normal), real(1.0e-12));
@@ -124,8 +127,8 @@ FN void main() {
     // From here on the state's depth is that of this vertex: scatterings between the first estimated vertex and it.
     Frame frame = make_frame(surface.shading_normal);
     vec3 wo = to_local(frame, -direction);
-    uint followed = followed_lobes(m, scene[0].follow_roughness);
-    uint estimated = estimated_lobes(m, scene[0].follow_roughness);
+    uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
+    uint estimated = bsdf_lobes(m) & ~followed;
     real followed_albedo = followed != 0u ? max_component(bsdf_albedo(m, wo, surface.front, followed)) : real(0.0);
     // The map answers for what else lies behind the last estimated vertex; but shadow rays alone would make bright dots
     // of lights that a glossy lobe reflects there, so one more ray looks for them.
@@ -135,7 +138,7 @@ FN void main() {
     real albedo = followed_albedo + estimated_albedo;
     real estimated_probability = albedo > real(0.0) ? estimated_albedo / albedo : real(0.0);
 
-    if (scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+    if (direct_light && scene[0].light_count > 0u && ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
         sample_light(slot, path, throughput, surface, frame, m, wo, estimated, onward, followed,
                      estimated_probability);
     }
@@ -149,7 +152,7 @@ FN void main() {
         asks_for = asks_caustics;
         flags |= query_caustics;
     }
-    if (photon_map && estimated != 0u && scatterings > 0u && (asks_for == asks_map || caustics)) {
+    if (photon_map && estimated != 0u && scatterings > 0u && (asks_for == asks_map || followed_paths)) {
         // If answers are shared, all ask; else every few samples, which count for all.
         bool shares = batch.shares_queries != 0u;
         bool white = shares && is_lambertian(m);
@@ -173,7 +176,7 @@ FN void main() {
                                         pack_unit(surface.shading_normal), estimated, flags);
         }
     }
-    if (!(albedo > real(0.0))) {
+    if ((followed | onward) == 0u || !(albedo > real(0.0))) {
         return;
     }
 
@@ -184,7 +187,7 @@ FN void main() {
     if (!bsdf_sample(m, wo, surface.front, lobes, u, s)) {
         return;
     }
-    vec3 wi = blended && s.lobe == LOBE_PASS ? direction : to_world(frame, s.wi);
+    vec3 wi = may_have(m, LOBE_PASS) && s.lobe == LOBE_PASS ? direction : to_world(frame, s.wi);
     // The sampled side and the geometric side must be the same, or light would pass through the surface.
     if ((s.wi.z > real(0.0)) != (dot(wi, surface.geometric_normal) > real(0.0))) {
         return;

@@ -36,14 +36,16 @@ FN void main() {
             uvec4 carried = PHOTONS(2u * j + 1u);
             if ((place.w & area_sample_bit) != 0u) {
                 q.coverage += bits_float(carried.x) * weight;
-            } else if (photon_is_caustic(place.w)) {
+            } else if (is_caustic(place)) {
                 caustic_leaf += scattered(q, carried) * weight;
             } else {
                 indirect_leaf += scattered(q, carried) * weight;
             }
         }
         add(q.indirect, indirect_leaf);
-        add(q.caustic, caustic_leaf);
+        if (caustics) {
+            add(q.caustic, caustic_leaf);
+        }
     }
     // The footprints of area samples are those of the diffusely scattered photons around them.
     store_query(q, params.boundary_correction != 0u ? real(1.0) / max(q.coverage, least_coverage) : real(1.0), real(1.0));

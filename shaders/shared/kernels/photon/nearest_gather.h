@@ -209,7 +209,7 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
                 s.coverage_moment += area * share;
             } else {
                 vec3 term = scattered(q, carried);
-                if (photon_is_caustic(place.w)) {
+                if (is_caustic(place)) {
                     caustic += term;
                     caustic_moment += term * share;
                 } else {
@@ -220,8 +220,10 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
         }
         add(q.indirect, indirect);
         add(s.indirect_moment, indirect_moment);
-        add(q.caustic, caustic);
-        add(s.caustic_moment, caustic_moment);
+        if (caustics) {
+            add(q.caustic, caustic);
+            add(s.caustic_moment, caustic_moment);
+        }
     }
 }
 
@@ -255,7 +257,8 @@ FN void finish(Query q, INOUT(Search) s) {
     real ratio = unit * inverse_r2;
     // What is taken away is at most as much, but for rounding.
     vec3 indirect = max(q.indirect.value - s.indirect_moment.value * ratio, vec3(real(0.0)));
-    vec3 caustic = max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0)));
+    vec3 caustic =
+        caustics ? max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0))) : vec3(real(0.0));
     real coverage = max(q.coverage - s.coverage_moment * ratio, real(0.0));
     for (uint i = 0u; i < s.listed; ++i) {
         uint bits = WORD(2u * i);
@@ -269,7 +272,7 @@ FN void finish(Query q, INOUT(Search) s) {
         uvec4 carried = PHOTONS(2u * index + 1u);
         if (is_area) {
             coverage += bits_float(carried.x) * weight;
-        } else if (photon_is_caustic(PHOTONS(2u * index).w)) {
+        } else if (caustics && photon_is_caustic(PHOTONS(2u * index).w)) {
             caustic += scattered(q, carried) * weight;
         } else {
             indirect += scattered(q, carried) * weight;

@@ -14,12 +14,14 @@ FN void main() {
     real probability;
     LightRecord light = lights[choose_light(v.w, probability)];
     vec3 origin, direction, normal, flux;
-    bool emitted = light_emit(light, u, vec4(v.z, v.w, v.x, v.y), scene_center(), scene[0].radius, origin, direction, normal, flux);
+    bool emitted = light_emit(light, light_kinds, u, vec4(v.z, v.w, v.x, v.y), scene_center(), scene[0].radius, origin,
+                              direction, normal, flux);
     flux = emitted ? flux * (batch.inverse_total / probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
         differentials[slot] = differential_record(light_differential(
-            light, direction, normal, scene[0].radius, photons * probability, photons * batch.emitter_probability));
+            light, light_kinds, direction, normal, scene[0].radius, photons * probability,
+            photons * batch.emitter_probability));
     }
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -real(1.0), direction.x, direction.y, direction.z, 0u);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);

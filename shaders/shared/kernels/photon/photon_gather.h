@@ -33,7 +33,7 @@ FN void main() {
             uvec4 carried = PHOTONS(2u * j + 1u);
             if ((place.w & area_sample_bit) != 0u) {
                 area_leaf += bits_float(carried.x) * kernel_weight(d2 * inverse_r2);
-            } else if (photon_is_caustic(place.w)) {
+            } else if (is_caustic(place)) {
                 caustic_leaf += scattered(q, carried) * kernel_weight(d2 * inverse_caustic_r2);
             } else {
                 indirect_leaf += scattered(q, carried) * kernel_weight(d2 * inverse_r2);
@@ -41,7 +41,9 @@ FN void main() {
         }
         // The kernel's factor is the same for all.
         add(q.indirect, indirect_leaf * (kernel_scale * inverse_r2));
-        add(q.caustic, caustic_leaf * (kernel_scale * inverse_caustic_r2));
+        if (caustics) {
+            add(q.caustic, caustic_leaf * (kernel_scale * inverse_caustic_r2));
+        }
         q.coverage += area_leaf * (kernel_scale * inverse_r2);
     }
     // Photons fill only the part of the disc that lies on surfaces. It is known of the whole disc only.

@@ -1,7 +1,14 @@
 #include "shared/kernels/scene.h"
+#include "shared/kernels/material.h"
+
+// Whether some material of the scene has any of these lobes.
+FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
 
 // How the shading normal changes along one of a photon's differentials.
 FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
+    if (!smooth_normals) {
+        return vec3(real(0.0));
+    }
     uvec4 t = triangles[hit.triangle];
     return shading_normal_change(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), vec3(normals[t.x]),
                                  vec3(normals[t.y]), vec3(normals[t.z]), vec2(hit.u, hit.v), surface.shading_normal, offset);
@@ -14,16 +21,16 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, HitRecord hit, Surface
     real emitted = real(1.0) / batch.inverse_total;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, frame, outgoing, emitted, reemission);
-    } else if ((specular || glossy) && s.lobe != LOBE_PASS) {
+    } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {
         vec3 n = surface.shading_normal;
         vec3 dn_du = normal_change(hit, surface, d.dp_du);
         vec3 dn_dv = normal_change(hit, surface, d.dp_dv);
-        if (glossy && s.lobe == LOBE_GLOSSY) {
+        if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
             // The pdf is of all lobes together.
             gloss_differential(d, incoming, outgoing, n, dn_du, dn_dv, emitted, s.pdf / s.probability);
-        } else if (s.lobe == LOBE_MIRROR) {
+        } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
             reflect_differential(d, incoming, n, dn_du, dn_dv);
-        } else {
+        } else if (has(LOBE_TRANSMIT)) {
             refract_differential(d, incoming, n, dn_du, dn_dv, inversesqrt(s.eta_scale));
         }
     }
@@ -63,9 +70,7 @@ FN void main() {
         return;
     }
     Surface surface = load_surface(hit, direction);
-    MaterialRecord m = materials[triangles[hit.triangle].w];
-    m.coverage = blended ? m.coverage : real(1.0);
-    m.exponent = phong ? m.exponent : -real(1.0);
+    MaterialRecord m = load_material(triangles[hit.triangle].w);
     Frame frame = make_frame(surface.shading_normal);
     vec3 wo = to_local(frame, -direction);
     // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that with the shading normal
@@ -73,15 +78,15 @@ FN void main() {
     real geometric_in = -dot(direction, surface.geometric_normal);
     real arriving = geometric_in > real(0.0) ? wo.z / geometric_in : real(1.0);
 
-    uint followed = followed_lobes(m, scene[0].follow_roughness);
-    uint estimated = estimated_lobes(m, scene[0].follow_roughness);
+    uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
+    uint estimated = bsdf_lobes(m) & ~followed;
     PhotonDifferential d;
     if (footprints) {
         d = load_differential(differentials[slot]);
         transfer_differential(d, direction, hit.t, surface.geometric_normal);
     }
     if (stores && estimated != 0u) {
-        bool caustic = (path.state & photon_followed) != 0u;
+        bool caustic = followed_paths && (path.state & photon_followed) != 0u;
         photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
                                       pack_photon_normal(surface.geometric_normal, caustic), flux.x * arriving,
                                       flux.y * arriving, flux.z * arriving, pack_photon_direction(-direction, depth));
@@ -104,7 +109,7 @@ FN void main() {
     vec3 scattered = vec3(real(0.0));
     vec3 outgoing = direction;
     bool scatters = bsdf_sample(m, wo, surface.front, followed | estimated, u, s);
-    if (blended && scatters && s.lobe == LOBE_PASS) {
+    if (has(LOBE_PASS) && scatters && s.lobe == LOBE_PASS) {
         scattered = flux * s.weight;
     } else if (scatters) {
         vec3 wi = to_world(frame, s.wi);

@@ -1,5 +1,6 @@
 // What all kinds of density estimation at the eye's queries have in common: reading a query, what its surface scatters of
 // a photon's flux, and writing the estimate.
+#include "shared/kernels/material.h"
 #include "shared/kernels/photon/map_walk.h"
 
 // Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
@@ -42,13 +43,12 @@ FN Query make_query(uint slot) {
     q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.coverage = real(0.0);
     q.node = first_node(params.part);
-    q.material = materials[record.material];
-    q.material.coverage = blended ? q.material.coverage : real(1.0);
-    q.material.exponent = phong ? q.material.exponent : -real(1.0);
+    MaterialRecord m = load_material(record.material);
+    q.material = m;
     q.lobes = record.lobes;
     q.most_scatterings = (record.flags >> query_scatterings_shift) & query_scatterings_mask;
     bool white = (record.flags & query_white) != 0u;
-    q.lambertian = !glossy || white || is_lambertian(q.material);
+    q.lambertian = !glossy || white || is_lambertian(m);
     q.p = vec3(record.x, record.y, record.z);
     q.normal = unpack_unit(record.geometric_normal);
     q.front = (record.flags & query_front) != 0u;
@@ -57,7 +57,7 @@ FN Query make_query(uint slot) {
     q.frame = make_frame(unpack_unit(record.shading_normal));
     q.wo = to_local(q.frame, unpack_unit(record.direction));
     q.reflectance = white          ? vec3(INV_PI)
-                    : q.lambertian ? bsdf_eval(q.material, q.wo, vec3(real(0.0), real(0.0), real(1.0)), q.lobes)
+                    : q.lambertian ? bsdf_eval(m, q.wo, vec3(real(0.0), real(0.0), real(1.0)), q.lobes)
                                    : vec3(real(0.0));
     return q;
 }
@@ -79,12 +79,15 @@ FN vec3 scattered(Query q, uvec4 carried) {
         return vec3(real(0.0));
     }
     vec3 flux = bits_float(uvec3(carried));
-    if (q.lambertian) {
+    if (!glossy || q.lambertian) {
         return flux * q.reflectance;
     }
     vec3 wi = to_local(q.frame, unpack_unit(carried.w));
     return flux * (wi.z > real(0.0) ? bsdf_eval(q.material, q.wo, wi, q.lobes) : vec3(real(0.0)));
 }
+
+// Of a photon's first four words.
+FN bool is_caustic(uvec4 place) { return caustics && photon_is_caustic(place.w); }
 
 FN void store_estimate(Query q, vec3 indirect, vec3 caustic) {
     estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x, caustic.y, caustic.z, real(0.0));

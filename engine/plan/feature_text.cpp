@@ -1,0 +1,78 @@
+#include "plan/plan.hpp"
+
+#include "shared/differential_record.h"
+#include "shared/geometry_records.h"
+#include "shared/path_records.h"
+#include "shared/photon_records.h"
+#include "shared/query_record.h"
+#include "shared/scene_records.h"
+
+#include <fmt/format.h>
+
+namespace argand {
+
+FeatureText text_of(Feature feature) {
+    constexpr std::size_t lane = 4 * sizeof(float);
+    constexpr std::size_t word = sizeof(std::uint32_t);
+    switch (feature) {
+    case Feature::diffuse:
+        return {"diffuse", "diffuse reflection", ""};
+    case Feature::ggx:
+        return {"ggx", "glossy reflection, GGX", ""};
+    case Feature::phong:
+        return {"phong", "glossy reflection, Phong", ""};
+    case Feature::mirror:
+        return {"mirror", "mirrors", ""};
+    case Feature::transmission:
+        return {"transmission", "transmission", ""};
+    case Feature::refraction:
+        return {"refraction", "refraction", ""};
+    case Feature::alpha:
+        return {"alpha", "alpha", ""};
+    case Feature::smooth_normals:
+        return {"smooth_normals", "interpolated normals",
+                fmt::format("{} bytes a vertex; three of them read at every hit", lane)};
+    case Feature::point_light:
+        return {"point_light", "point lights", ""};
+    case Feature::spot_light:
+        return {"spot_light", "spot lights", ""};
+    case Feature::directional_light:
+        return {"directional_light", "directional lights", ""};
+    case Feature::emissive_triangles:
+        return {"emissive_triangles", "emissive triangles", ""};
+    case Feature::sky:
+        return {"sky", "uniform sky", ""};
+    case Feature::several_lights:
+        return {"several_lights", "choice of a light", fmt::format("{} bytes a light", sizeof(LightChoice))};
+    case Feature::followed_paths:
+        return {"followed_paths", "followed paths", "a round of tracing and shading for every surface on the way"};
+    case Feature::glossy_estimates:
+        return {"glossy_estimates", "estimates off Lambertian surfaces", "the BSDF for every photon that an estimate finds"};
+    case Feature::direct_light:
+        return {"direct_light", "shadow rays",
+                fmt::format("a ray at every eye vertex; {} bytes an eye path",
+                            sizeof(RayRecord) + sizeof(ShadowRecord) + word)};
+    case Feature::photon_map:
+        return {"photon_map", "photon map",
+                fmt::format("{} bytes a photon stored, {} an eye path", 2 * sizeof(PhotonRecord) + 3 * word,
+                            sizeof(QueryRecord) + sizeof(EstimateRecord) + sizeof(GatherRecord) + 4 * word)};
+    case Feature::differentials:
+        return {"differentials", "photon differentials",
+                fmt::format("{} bytes a photon on its way, {} a photon stored", sizeof(DifferentialRecord), 2 * lane)};
+    case Feature::caustics:
+        return {"caustics", "caustic photons", "asked apart by every eye path"};
+    case Feature::final_gather:
+        return {"final_gather", "final gather", "a round of tracing and shading before the photon map is asked"};
+    }
+    return {"", "", ""};
+}
+
+std::vector<Feature> all_features() {
+    std::vector<Feature> features;
+    for (int i = 0; i <= static_cast<int>(Feature::final_gather); ++i) {
+        features.push_back(static_cast<Feature>(i));
+    }
+    return features;
+}
+
+} // namespace argand

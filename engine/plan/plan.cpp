@@ -1,0 +1,179 @@
+#include "plan/plan.hpp"
+
+#include "scene/material_record.hpp"
+#include "shared/follow.h"
+#include "shared/light_record.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <span>
+#include <utility>
+
+namespace argand {
+
+namespace {
+
+struct Bit {
+    Feature feature;
+    std::uint32_t bit;
+};
+
+constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
+                                 {Feature::ggx, LOBE_GLOSSY | MATERIAL_GGX},
+                                 {Feature::phong, LOBE_GLOSSY | MATERIAL_PHONG},
+                                 {Feature::mirror, LOBE_MIRROR},
+                                 {Feature::transmission, LOBE_TRANSMIT},
+                                 {Feature::refraction, LOBE_TRANSMIT | MATERIAL_SOLID},
+                                 {Feature::alpha, LOBE_PASS}};
+
+constexpr Bit light_bits[] = {{Feature::point_light, 1u << light_point},
+                              {Feature::spot_light, 1u << light_spot},
+                              {Feature::directional_light, 1u << light_directional},
+                              {Feature::emissive_triangles, 1u << light_triangle},
+                              {Feature::sky, 1u << light_sky}};
+
+std::string named(const char* kind, const std::string& name, std::size_t index) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
+}
+
+/// Collects what is required; the first to require a feature is named.
+class Requirements {
+public:
+    void add(Feature feature, const std::string& by, bool is_required = true) {
+        if (is_required) {
+            required_.emplace(feature, by);
+        }
+    }
+    std::map<Feature, std::string> take() { return std::move(required_); }
+    /// The object that requires a feature, or an empty text.
+    std::string by(Feature feature) const {
+        const auto found = required_.find(feature);
+        return found != required_.end() ? found->second : "";
+    }
+
+private:
+    std::map<Feature, std::string> required_;
+};
+
+/// Returns whether the material has estimated lobes.
+bool add_material(Requirements& requirements, const Material& material, const std::string& by, float follow_roughness) {
+    const MaterialRecord record = material_record(material);
+    const std::uint32_t lobes = bsdf_lobes(record);
+    const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
+    requirements.add(Feature::diffuse, by, (lobes & LOBE_DIFFUSE) != 0);
+    requirements.add(Feature::ggx, by, (lobes & LOBE_GLOSSY) != 0 && !is_phong(record));
+    requirements.add(Feature::phong, by, is_phong(record));
+    requirements.add(Feature::mirror, by, (lobes & LOBE_MIRROR) != 0);
+    requirements.add(Feature::transmission, by, (lobes & LOBE_TRANSMIT) != 0);
+    requirements.add(Feature::refraction, by, is_solid(record));
+    requirements.add(Feature::alpha, by, (lobes & LOBE_PASS) != 0);
+    requirements.add(Feature::emissive_triangles, by, emits(material));
+    requirements.add(Feature::followed_paths, by, followed_lobes(record, follow_roughness) != 0);
+    requirements.add(Feature::glossy_estimates, by, estimated != 0 && !is_lambertian(record));
+    return estimated != 0;
+}
+
+bool is_smooth(const Scene& scene, std::size_t triangle) {
+    const glm::uvec3& t = scene.triangles[triangle];
+    const glm::vec3 none(0);
+    return scene.normals[t.x] != none || scene.normals[t.y] != none || scene.normals[t.z] != none;
+}
+
+/// Returns whether some surface has estimated lobes.
+bool add_surfaces(Requirements& requirements, const Scene& scene, float follow_roughness) {
+    std::vector<bool> seen(scene.materials.size(), false);
+    bool estimated = false;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const std::uint32_t index = scene.triangle_material[i];
+        const Material& material = scene.materials[index];
+        if (!seen[index]) {
+            seen[index] = true;
+            const bool has_estimated =
+                add_material(requirements, material, named("material", material.name, index), follow_roughness);
+            estimated = estimated || has_estimated;
+        }
+        if (is_smooth(scene, i)) {
+            requirements.add(Feature::smooth_normals, "surface of " + named("material", material.name, index));
+        }
+    }
+    return estimated;
+}
+
+void add_lights(Requirements& requirements, const Scene& scene) {
+    std::size_t lights = scene.lights.size();
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        requirements.add(light.kind == LightKind::point  ? Feature::point_light
+                         : light.kind == LightKind::spot ? Feature::spot_light
+                                                         : Feature::directional_light,
+                         named("light", light.name, i));
+    }
+    const bool sky = scene.sky && glm::any(glm::greaterThan(*scene.sky, glm::vec3(0)));
+    requirements.add(Feature::sky, "the sky", sky);
+    lights += sky ? 1 : 0;
+    lights += static_cast<std::size_t>(std::count_if(
+        scene.triangle_material.begin(), scene.triangle_material.end(),
+        [&](std::uint32_t material) { return emits(scene.materials[material]); }));
+    requirements.add(Feature::several_lights, fmt::format("{} lights", lights), lights > 1);
+}
+
+/// The first light, or an empty text.
+std::string first_light(const Requirements& requirements) {
+    for (const Bit& light : light_bits) {
+        if (const std::string by = requirements.by(light.feature); !by.empty()) {
+            return by;
+        }
+    }
+    return "";
+}
+
+std::uint32_t bits_of(const Plan& plan, std::span<const Bit> bits) {
+    std::uint32_t sum = 0;
+    for (const Bit& bit : bits) {
+        sum |= plan.needs(bit.feature) ? bit.bit : 0u;
+    }
+    return sum;
+}
+
+bool allows(const PlanRequest& request, Feature feature) {
+    switch (feature) {
+    case Feature::photon_map:
+    case Feature::caustics:
+        return request.photon_map;
+    case Feature::differentials:
+        return request.photon_map && request.footprints;
+    case Feature::final_gather:
+        return request.photon_map && request.final_gather;
+    default:
+        return true;
+    }
+}
+
+} // namespace
+
+std::uint32_t Plan::material_features() const { return bits_of(*this, material_bits); }
+
+std::uint32_t Plan::light_kinds() const { return bits_of(*this, light_bits); }
+
+Plan make_plan(const Scene& scene, const PlanRequest& request) {
+    Requirements found;
+    const bool estimated = add_surfaces(found, scene, request.follow_roughness);
+    add_lights(found, scene);
+    const std::string light = first_light(found);
+    const auto has = [&](Feature feature) { return !found.by(feature).empty(); };
+    // Smooth lobes have nothing to sample lights for.
+    const bool rough = has(Feature::diffuse) || has(Feature::ggx) || has(Feature::phong);
+    found.add(Feature::direct_light, light, !light.empty() && rough);
+    found.add(Feature::photon_map, "the method");
+    found.add(Feature::differentials, "the method");
+    found.add(Feature::caustics, found.by(Feature::followed_paths), has(Feature::followed_paths) && estimated);
+    found.add(Feature::final_gather, "the request");
+    for (const Feature feature : all_features()) {
+        found.add(feature, "the request", request.everything);
+    }
+    Plan plan{request, found.take()};
+    std::erase_if(plan.required, [&](const auto& entry) { return !allows(request, entry.first); });
+    return plan;
+}
+
+} // namespace argand

@@ -1,0 +1,139 @@
+// What a scene requires.
+#include "plan/plan.hpp"
+
+#include "methods/scenes.hpp"
+#include "scene/gltf.hpp"
+
+#include <gmock/gmock.h>
+
+namespace argand {
+namespace {
+
+using namespace argand::testing;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+
+std::set<Feature> features(const Plan& plan) {
+    std::set<Feature> set;
+    for (const auto& [feature, by] : plan.required) {
+        set.insert(feature);
+    }
+    return set;
+}
+
+std::set<Feature> features(const Scene& scene, const PlanRequest& request = {}) {
+    return features(make_plan(scene, request));
+}
+
+/// Features of `after` that `before` has not.
+std::set<Feature> added(const Scene& before, const Scene& after) {
+    std::set<Feature> set = features(after);
+    for (const Feature feature : features(before)) {
+        EXPECT_TRUE(set.erase(feature) == 1) << text_of(feature).name;
+    }
+    return set;
+}
+
+Scene with_quad(Scene scene, const Material& material) {
+    add_quad(scene, {-0.1f, 0, 0}, {0.2f, 0, 0}, {0, 0.2f, 0}, add_material(scene, material));
+    return scene;
+}
+
+TEST(Plan, DiffuseBoxNeedsNothingElse) {
+    EXPECT_THAT(features(room_scene()), UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
+                                                             Feature::photon_map, Feature::differentials));
+    EXPECT_THAT(features(room_scene(), {.photon_map = false}),
+                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light));
+    EXPECT_THAT(features(room_scene(), {.footprints = false, .final_gather = true}),
+                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light, Feature::photon_map,
+                                     Feature::final_gather));
+}
+
+TEST(Plan, GlassSphereAddsWhatItNeeds) {
+    Scene scene = room_scene();
+    add_sphere(scene, glm::vec3(0), 0.2f, 4, false, add_material(scene, glass(1.5f, true)));
+    EXPECT_THAT(added(room_scene(), scene),
+                UnorderedElementsAre(Feature::mirror, Feature::transmission, Feature::refraction, Feature::followed_paths,
+                                     Feature::caustics));
+    Scene smooth = room_scene();
+    add_sphere(smooth, glm::vec3(0), 0.2f, 4, true, add_material(smooth, glass(1.5f, true)));
+    EXPECT_THAT(added(scene, smooth), UnorderedElementsAre(Feature::smooth_normals));
+}
+
+TEST(Plan, EachMaterialAddsWhatItNeeds) {
+    const Scene room = room_scene();
+    EXPECT_THAT(added(room, with_quad(room, lambertian(glm::vec3(0.1f)))), IsEmpty());
+    EXPECT_THAT(added(room, with_quad(room, mirror())),
+                UnorderedElementsAre(Feature::mirror, Feature::followed_paths, Feature::caustics));
+    EXPECT_THAT(added(room, with_quad(room, glass(1.5f, false))),
+                UnorderedElementsAre(Feature::mirror, Feature::transmission, Feature::followed_paths, Feature::caustics));
+    Material metal;
+    metal.roughness = 0.2f;
+    EXPECT_THAT(added(room, with_quad(room, metal)),
+                UnorderedElementsAre(Feature::ggx, Feature::followed_paths, Feature::caustics));
+    EXPECT_THAT(features(with_quad(room, metal), {.follow_roughness = 0.1f}),
+                ::testing::Contains(Feature::glossy_estimates));
+    metal.roughness = 0.5f;
+    EXPECT_THAT(added(room, with_quad(room, metal)), UnorderedElementsAre(Feature::ggx, Feature::glossy_estimates));
+    Material plastic = lambertian(glm::vec3(0.5f));
+    plastic.phong = Phong{glm::vec3(0.2f), 10};
+    EXPECT_THAT(added(room, with_quad(room, plastic)), UnorderedElementsAre(Feature::phong, Feature::glossy_estimates));
+    Material pane = lambertian(glm::vec3(0.5f));
+    pane.coverage = 0.5f;
+    EXPECT_THAT(added(room, with_quad(room, pane)),
+                UnorderedElementsAre(Feature::alpha, Feature::followed_paths, Feature::caustics));
+    Scene unused = room;
+    add_material(unused, mirror());
+    add_material(unused, emitter(glm::vec3(1)));
+    EXPECT_THAT(added(room, unused), IsEmpty());
+}
+
+TEST(Plan, EachLightAddsWhatItNeeds) {
+    const Scene room = room_scene();
+    EXPECT_THAT(added(room, with_quad(room, emitter(glm::vec3(1)))),
+                UnorderedElementsAre(Feature::emissive_triangles, Feature::several_lights));
+    Scene scene = room;
+    scene.lights.push_back(directional_light({0, -1, 0}, glm::vec3(1)));
+    EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::directional_light, Feature::several_lights));
+    scene = room;
+    scene.lights.push_back(spot_light({0, 0, 0}, {0, -1, 0}, glm::vec3(1), 0.1f, 0.2f));
+    EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::spot_light, Feature::several_lights));
+    scene = room;
+    scene.sky = glm::vec3(0);
+    EXPECT_THAT(added(room, scene), IsEmpty());
+    scene.sky = glm::vec3(1);
+    EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::sky, Feature::several_lights));
+    scene.lights.clear();
+    EXPECT_THAT(features(scene), UnorderedElementsAre(Feature::diffuse, Feature::sky, Feature::direct_light,
+                                                      Feature::photon_map, Feature::differentials));
+    scene.sky.reset();
+    EXPECT_FALSE(make_plan(scene, {}).needs(Feature::direct_light));
+    EXPECT_EQ(make_plan(scene, {}).light_kinds(), 0u);
+}
+
+TEST(Plan, NamesWhatRequiresIt) {
+    Scene scene = room_scene();
+    scene.materials[0].name = "wall";
+    scene.lights[0].name = "lamp";
+    Material gold = mirror();
+    gold.name = "gold";
+    scene = with_quad(scene, gold);
+    const Plan plan = make_plan(scene, {});
+    EXPECT_EQ(plan.required.at(Feature::diffuse), "material 'wall'");
+    EXPECT_EQ(plan.required.at(Feature::mirror), "material 'gold'");
+    EXPECT_EQ(plan.required.at(Feature::caustics), "material 'gold'");
+    EXPECT_EQ(plan.required.at(Feature::point_light), "light 'lamp'");
+    EXPECT_EQ(plan.required.at(Feature::direct_light), "light 'lamp'");
+    for (const Feature feature : all_features()) {
+        EXPECT_STRNE(text_of(feature).key, "");
+    }
+}
+
+TEST(Plan, EverythingIsAll) {
+    const Plan plan = make_plan({}, {.final_gather = true, .everything = true});
+    EXPECT_EQ(plan.required.size(), all_features().size());
+    EXPECT_FALSE(make_plan({}, {.photon_map = false, .everything = true}).needs(Feature::differentials));
+}
+
+} // namespace
+} // namespace argand

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "device/device.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace argand::testing {
+
+/// Runs everything on another device, and remembers what was dispatched and allocated.
+class RecordingDevice final : public Device {
+public:
+    explicit RecordingDevice(Device& device) : device_(device) {}
+
+    /// A kernel and the values of its specialization constants: what a pipeline is made of.
+    using Variant = std::pair<const KernelInfo*, std::vector<std::uint32_t>>;
+
+    const std::set<Variant>& variants() const { return variants_; }
+    const std::set<std::string>& stages() const { return stages_; }
+    /// Of the largest buffer of this name; 0 if there was none.
+    std::uint64_t bytes_of(const std::string& name) const {
+        const auto found = bytes_.find(name);
+        return found != bytes_.end() ? found->second : 0;
+    }
+    std::uint64_t runs_of(const std::string& kernel) const {
+        const auto found = runs_.find(kernel);
+        return found != runs_.end() ? found->second : 0;
+    }
+
+    const DeviceInfo& info() const override { return device_.info(); }
+    Buffer allocate(std::string name, std::uint64_t bytes) override {
+        std::uint64_t& largest = bytes_[name];
+        largest = std::max(largest, bytes);
+        return device_.allocate(std::move(name), bytes);
+    }
+    void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override {
+        device_.upload(to, offset, data);
+    }
+    void fill(const BufferView& to, std::uint32_t value) override { device_.fill(to, value); }
+    void copy(const BufferView& from, const BufferView& to) override { device_.copy(from, to); }
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override {
+        record(kernel, arguments);
+        device_.dispatch(kernel, arguments, threads);
+    }
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
+                           std::uint32_t count_index) override {
+        record(kernel, arguments);
+        device_.dispatch_indirect(kernel, arguments, counts, count_index);
+    }
+    Primitives* primitives() override { return device_.primitives(); }
+    void submit() override { device_.submit(); }
+    void wait() override { device_.wait(); }
+    void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override {
+        device_.download(from, offset, data);
+    }
+    void begin_stage(std::string_view name) override {
+        stages_.emplace(name);
+        device_.begin_stage(name);
+    }
+    void end_stage() override { device_.end_stage(); }
+    std::vector<StageTime> stage_times() override { return device_.stage_times(); }
+    void reset_stage_times() override { device_.reset_stage_times(); }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override { return device_.memory_by_name(); }
+    MemoryUse memory() const override { return device_.memory(); }
+    std::vector<std::string> validation_messages() const override { return device_.validation_messages(); }
+
+private:
+    void record(const KernelInfo& kernel, const KernelArguments& arguments) {
+        variants_.insert({&kernel,
+                          {arguments.constants.begin(), arguments.constants.begin() + arguments.constant_count}});
+        ++runs_[kernel.name];
+    }
+
+    Device& device_;
+    std::set<Variant> variants_;
+    std::set<std::string> stages_;
+    std::map<std::string, std::uint64_t> bytes_, runs_;
+};
+
+} // namespace argand::testing
