@@ -1,10 +1,9 @@
 #include "tradeoff/aim.hpp"
 
-#include "accel/device_scene.hpp"
 #include "base/error.hpp"
-#include "methods/budget.hpp"
-#include "shared/bsdf.h"
 #include "image/mean.hpp"
+#include "methods/budget.hpp"
+#include "plan/plan.hpp"
 #include "tradeoff/halves.hpp"
 
 #include <algorithm>
@@ -261,12 +260,12 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
 } // namespace
 
 bool is_blind_to_caustics(const Scene& scene) {
-    const bool has_points = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                        [](const Light& light) { return light.intensity != glm::vec3(0); });
-    return has_points &&
-           std::any_of(scene.triangle_material.begin(), scene.triangle_material.end(), [&](std::uint32_t index) {
-               return (bsdf_lobes(material_record(scene.materials[index])) & LOBES_DELTA) != 0;
-           });
+    const Plan plan = make_plan(scene, {});
+    const auto needs_any = [&](std::initializer_list<Feature> features) {
+        return std::any_of(features.begin(), features.end(), [&](Feature feature) { return plan.needs(feature); });
+    };
+    return needs_any({Feature::point_light, Feature::spot_light, Feature::directional_light}) &&
+           needs_any({Feature::mirror, Feature::transmission, Feature::alpha});
 }
 
 AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const RenderSettings& base, const Chosen& chosen,

@@ -1,6 +1,7 @@
 #include "tradeoff/sweep.hpp"
 
-#include "accel/device_scene.hpp"
+#include "plan/plan.hpp"
+#include "scene/material_record.hpp"
 #include "shared/follow.h"
 #include "tradeoff/parameters.hpp"
 
@@ -172,19 +173,11 @@ std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base
 } // namespace
 
 SceneUse use_of(const Scene& scene, const RenderSettings& base) {
-    SceneUse use;
-    use.lit = (scene.sky && *scene.sky != glm::vec3(0)) ||
-              std::any_of(scene.lights.begin(), scene.lights.end(),
-                          [](const Light& light) { return light.intensity != glm::vec3(0); });
-    for (const std::uint32_t index : scene.triangle_material) {
-        const Material& material = scene.materials[index];
-        const MaterialRecord record = material_record(material);
-        use.lit = use.lit || emits(material);
-        use.estimated = use.estimated || estimated_lobes(record, base.follow_roughness) != 0;
-        use.followed = use.followed || followed_lobes(record, base.follow_roughness) != 0;
-        use.glossy = use.glossy || (bsdf_lobes(record) & LOBE_GLOSSY) != 0;
-    }
-    return use;
+    const Plan plan = make_plan(scene, {.follow_roughness = base.follow_roughness});
+    return {.lit = plan.light_kinds() != 0,
+            .estimated = plan.needs(Feature::diffuse) || plan.needs(Feature::glossy_estimates),
+            .followed = plan.needs(Feature::followed_paths),
+            .glossy = plan.needs(Feature::ggx) || plan.needs(Feature::phong)};
 }
 
 std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base, const std::vector<std::string>& methods,

@@ -159,6 +159,9 @@ TEST(Aim, InterruptedPilotsMakeNoPicture) {
 Scene with_lamp_and_mirror() {
     Scene scene = box();
     scene.lights.push_back(Light{});
+    scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.normals.resize(3, glm::vec3(0));
+    scene.triangles = {{0, 1, 2}};
     scene.triangle_material = {0};
     scene.materials[0].metallic = 1;
     scene.materials[0].roughness = 0;
