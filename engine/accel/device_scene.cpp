@@ -4,7 +4,12 @@
 #include "shared/lights.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <unordered_set>
 
 namespace argand {
 
@@ -73,14 +78,47 @@ std::vector<LightRecord> collect_lights(const Scene& scene) {
     return lights;
 }
 
-/// Area of the triangles before each, as a fraction of 2^32 of the whole.
-std::vector<std::uint32_t> area_sums(const Scene& scene, double total) {
-    std::vector<std::uint32_t> sums;
-    sums.reserve(scene.triangles.size());
-    double sum = 0;
+using Corners = std::array<float, 9>;
+
+struct HashCorners {
+    std::size_t operator()(const Corners& corners) const {
+        std::size_t hash = 0;
+        for (const float x : corners) {
+            hash = (hash ^ std::hash<float>()(x)) * 0x100000001b3;
+        }
+        return hash;
+    }
+};
+
+/// Area of each triangle; 0 of one that is there already, with the same front, for only one of them is ever hit: what lies
+/// there twice would count twice as a surface that photons may lie on.
+std::vector<double> areas_that_can_be_hit(const Scene& scene) {
+    std::vector<double> areas;
+    areas.reserve(scene.triangles.size());
+    std::unordered_set<Corners, HashCorners> there;
+    there.reserve(scene.triangles.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const glm::uvec3& t = scene.triangles[i];
+        std::array<std::array<float, 3>, 3> v;
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3& p = scene.positions[t[k]];
+            v[static_cast<std::size_t>(k)] = {p.x, p.y, p.z};
+        }
+        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+        const bool is_new = there.insert(std::bit_cast<Corners>(v)).second;
+        areas.push_back(is_new ? area(scene, i) : 0);
+    }
+    return areas;
+}
+
+/// Area of the triangles before each, as a fraction of 2^32 of the whole.
+std::vector<std::uint32_t> area_sums(const std::vector<double>& areas, double total) {
+    std::vector<std::uint32_t> sums;
+    sums.reserve(areas.size());
+    double sum = 0;
+    for (const double area : areas) {
         sums.push_back(static_cast<std::uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
-        sum += area(scene, i);
+        sum += area;
     }
     return sums;
 }
@@ -103,7 +141,8 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     const StageScope stage(device, "upload scene");
     DeviceScene result;
     result.plan = plan;
-    result.surface_area = surface_area(scene);
+    const std::vector<double> areas = areas_that_can_be_hit(scene);
+    result.surface_area = std::accumulate(areas.begin(), areas.end(), 0.0);
 
     std::vector<MaterialRecord> materials;
     for (const Material& material : scene.materials) {
@@ -160,7 +199,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     result.materials = upload(device, "materials", materials);
     result.lights = upload(device, "lights", lights);
     result.area_sums = plan.needs(Feature::photon_map)
-                           ? upload(device, "area sums", area_sums(scene, result.surface_area))
+                           ? upload(device, "area sums", area_sums(areas, result.surface_area))
                            : nothing(device);
     result.light_choices =
         plan.needs(Feature::several_lights) ? upload(device, "light choices", alias_table(weights)) : nothing(device);

@@ -25,6 +25,8 @@ constexpr float least_caustic = 0.2f;
 constexpr float most_caustic = 8;
 // A few large footprints cost more than they are worth, for their boxes are everywhere.
 constexpr double largest_footprint = 1.4;
+// Of the scene's: smaller radii are below what positions are rounded by, and their squares underflow.
+constexpr double least_radius = 1e-7;
 // Photons at which a given smoothing holds.
 constexpr double reference_photons = 200'000;
 
@@ -122,7 +124,8 @@ Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const Photon
     b.caustics = std::any_of(photons.begin(), photons.end(), [](const PhotonRecord& photon) {
         return photon.normal != no_photon && photon_is_caustic(photon.normal);
     });
-    b.radii = settings.radius ? GatherRadii{*settings.radius, *settings.radius}
+    const double given = std::max(settings.radius.value_or(0), least_radius * scene.record.radius);
+    b.radii = settings.radius ? GatherRadii{given, given}
                               : radii_from(photons, queries, scene.record, passes,
                                            nearest ? settings.neighbours : std::nullopt);
     if (nearest) {

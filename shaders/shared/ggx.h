@@ -33,9 +33,13 @@ FN vec3 ggx_sample_normal(real alpha, vec3 wo, vec2 u) {
     stretched = stretched / sqrt(dot3(stretched, stretched));   // at least alpha long
     real s, c;
     sincos_2pi(u.x, s, c);
-    real z = (real(1.0) - u.y) * (real(1.0) + stretched.z) - stretched.z;
-    real r = safe_sqrt((real(1.0) - z) * (real(1.0) + z));
-    vec3 h = vec3((r * c + stretched.x) * alpha, (r * s + stretched.y) * alpha, max(z + stretched.z, real(1e-12)));
+    // Uniform z between -stretched.z and 1, by 1 - z and by z + stretched.z: of their difference from 1 and from each
+    // other nothing would be left near the ends.
+    real height = real(1.0) + stretched.z;
+    real below = u.y * height;
+    real r = safe_sqrt(below * (real(2.0) - below));
+    // At least 2^-24 high, as u.y is.
+    vec3 h = vec3((r * c + stretched.x) * alpha, (r * s + stretched.y) * alpha, (real(1.0) - u.y) * height);
     return h / sqrt(dot3(h, h));
 }
 

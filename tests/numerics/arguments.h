@@ -1,0 +1,48 @@
+// What the functions under test are given and what they return, as the host and the device both have it.
+#ifndef ARGAND_TEST_ARGUMENTS_H
+#define ARGAND_TEST_ARGUMENTS_H
+
+#include "shared/maths.h"
+
+ARGAND_SHARED_BEGIN
+
+// Single precision in every build, so that the truth is that of the same inputs.
+struct Arguments {
+    float32 x[32];
+};
+
+struct Values {
+    real y[16];
+};
+
+// Macros, for GLSL would copy all arguments at each call.
+#define number_at(a, k) real((a).x[k])
+#define vec2_at(a, k) vec2((a).x[k], (a).x[(k) + 1])
+#define vec3_at(a, k) vec3((a).x[k], (a).x[(k) + 1], (a).x[(k) + 2])
+// A small whole number, and one of 32 bits from its two halves.
+#define small_at(a, k) uint((a).x[k])
+#define word_at(a, k) ((small_at(a, k) << 16u) | small_at(a, (k) + 1))
+
+FN void put3(INOUT(Values) r, int k, vec3 v) {
+    r.y[k] = v.x;
+    r.y[k + 1] = v.y;
+    r.y[k + 2] = v.z;
+}
+
+// The halves of a word: numbers that single precision holds.
+FN void put_word(INOUT(Values) r, int k, uint word) {
+    r.y[k] = real(word >> 16u);
+    r.y[k + 1] = real(word & 0xffffu);
+}
+
+FN Values no_values() {
+    Values r;
+    for (int k = 0; k < 16; ++k) {
+        r.y[k] = real(0.0);
+    }
+    return r;
+}
+
+ARGAND_SHARED_END
+
+#endif

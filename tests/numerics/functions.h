@@ -1,0 +1,20 @@
+// The functions of the shared maths by number, as one function that the host, the device and the truth run.
+#ifndef ARGAND_TEST_FUNCTIONS_H
+#define ARGAND_TEST_FUNCTIONS_H
+
+#include "light_functions.h"
+#include "maths_functions.h"
+#include "scatter_functions.h"
+
+ARGAND_SHARED_BEGIN
+
+FN Values evaluate(uint function, IN(Arguments) a) {
+    if (function < end_of_maths) {
+        return evaluate_maths(function, a);
+    }
+    return function < end_of_scatter ? evaluate_scatter(function, a) : evaluate_lights(function, a);
+}
+
+ARGAND_SHARED_END
+
+#endif

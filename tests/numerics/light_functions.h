@@ -1,0 +1,223 @@
+// Lights, differentials and footprints.
+#ifndef ARGAND_TEST_LIGHT_FUNCTIONS_H
+#define ARGAND_TEST_LIGHT_FUNCTIONS_H
+
+#include "arguments.h"
+#include "shared/footprint.h"
+#include "shared/light_differential.h"
+
+ARGAND_SHARED_BEGIN
+
+CONSTANT uint of_spot_falloff = 60u;
+CONSTANT uint of_spot_solid_angles = 61u;
+CONSTANT uint of_light_normal = 62u;
+CONSTANT uint of_light_power = 63u;
+CONSTANT uint of_emitter_density = 64u;
+CONSTANT uint of_light_sample = 65u;
+CONSTANT uint of_light_emit = 66u;
+CONSTANT uint of_photon_spacing = 67u;
+CONSTANT uint of_direction_axes = 68u;
+CONSTANT uint of_parallelogram_side = 69u;
+CONSTANT uint of_transferred_offset = 70u;
+CONSTANT uint of_reflected_spread = 71u;
+CONSTANT uint of_refracted_spread = 72u;
+CONSTANT uint of_roulette_differential = 73u;
+CONSTANT uint of_independent_spread = 74u;
+CONSTANT uint of_reemitted_differential = 75u;
+CONSTANT uint of_gloss_differential = 76u;
+CONSTANT uint of_shading_normal_change = 77u;
+CONSTANT uint of_light_differential = 78u;
+CONSTANT uint of_footprint_scale = 79u;
+CONSTANT uint of_make_principal = 80u;
+CONSTANT uint of_make_footprint = 81u;
+CONSTANT uint of_footprint_area = 82u;
+CONSTANT uint of_footprint_duals = 83u;
+CONSTANT uint of_footprint_of_duals = 84u;
+CONSTANT uint of_footprint_extent = 85u;
+CONSTANT uint of_footprint_weight = 86u;
+CONSTANT uint of_pack_dual = 87u;
+CONSTANT uint end_of_lights = 88u;
+
+FN LightRecord light_at(IN(Arguments) a, int k, uint kind, uint double_sided) {
+    LightRecord l;
+    l.x = a.x[k];
+    l.y = a.x[k + 1];
+    l.z = a.x[k + 2];
+    l.kind = kind;
+    l.r = a.x[k + 3];
+    l.g = a.x[k + 4];
+    l.b = a.x[k + 5];
+    l.cos_inner = a.x[k + 6];
+    l.dx = a.x[k + 7];
+    l.dy = a.x[k + 8];
+    l.dz = a.x[k + 9];
+    l.cos_outer = a.x[k + 10];
+    l.ex = a.x[k + 11];
+    l.ey = a.x[k + 12];
+    l.ez = a.x[k + 13];
+    l.double_sided = double_sided;
+    return l;
+}
+
+FN PhotonDifferential differential_at(IN(Arguments) a, int k) {
+    PhotonDifferential d;
+    d.dp_du = vec3_at(a, k);
+    d.dp_dv = vec3_at(a, k + 3);
+    d.dd_du = vec3_at(a, k + 6);
+    d.dd_dv = vec3_at(a, k + 9);
+    return d;
+}
+
+FN Values differential_values(IN(PhotonDifferential) d) {
+    Values r = no_values();
+    put3(r, 0, d.dp_du);
+    put3(r, 3, d.dp_dv);
+    put3(r, 6, d.dd_du);
+    put3(r, 9, d.dd_dv);
+    return r;
+}
+
+// smoothing, exponent and the like are what the engine uses.
+FN FootprintScale some_footprint_scale(real photons, real length, uint principal_axes) {
+    FootprintScale s = make_footprint_scale(photons, real(1e4), length, real(3.0), real(5.0), real(0.1), real(0.4),
+                                            real(0.16666666666666666667));
+    s.principal_axes = principal_axes;
+    return s;
+}
+
+FN Footprint footprint_at(IN(Arguments) a, int k) {
+    Footprint f;
+    f.u = vec3_at(a, k);
+    f.v = vec3_at(a, k + 3);
+    f.w = vec3_at(a, k + 6);
+    return f;
+}
+
+FN Values evaluate_lights(uint function, IN(Arguments) a) {
+    Values r = no_values();
+    real s, t;
+    if (function == of_spot_falloff) {
+        r.y[0] = spot_falloff(number_at(a, 0), number_at(a, 1), number_at(a, 2));
+    } else if (function == of_spot_solid_angles) {
+        r.y[0] = spot_solid_angles(number_at(a, 0), number_at(a, 1), s, t);
+        r.y[1] = s;
+    } else if (function == of_light_normal) {
+        put3(r, 0, light_normal(light_at(a, 0, light_triangle, 0u), s));
+        r.y[3] = s;
+    } else if (function == of_light_power) {
+        put3(r, 0, light_power(light_at(a, 1, small_at(a, 15), small_at(a, 16)), number_at(a, 0)));
+    } else if (function == of_emitter_density) {
+        r.y[0] = emitter_density(vec3_at(a, 0), real(1.0), number_at(a, 3), number_at(a, 4), number_at(a, 5));
+    } else if (function == of_light_sample) {
+        LightSample l;
+        bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), vec3_at(a, 0), vec2_at(a, 3), l);
+        r.y[0] = lit ? real(1.0) : real(0.0);
+        put3(r, 1, lit ? l.wi : vec3(real(0.0)));
+        put3(r, 4, lit ? l.radiance : vec3(real(0.0)));
+        r.y[7] = lit ? l.pdf : real(0.0);
+    } else if (function == of_light_emit) {
+        vec3 origin, direction, normal, flux;
+        bool emitted = light_emit(light_at(a, 8, small_at(a, 22), small_at(a, 23)), vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                                  vec4(a.x[4], a.x[5], real(0.0), real(0.0)), vec3(real(0.0)), number_at(a, 6), origin,
+                                  direction, normal, flux);
+        r.y[0] = emitted ? real(1.0) : real(0.0);
+        // Off triangles by a bound of the rounding errors of this very precision: offset_ray_origin's.
+        put3(r, 1, small_at(a, 22) != light_triangle ? origin : vec3(real(0.0)));
+        put3(r, 4, direction);
+        put3(r, 7, flux);
+    } else if (function == of_photon_spacing) {
+        r.y[0] = photon_spacing(number_at(a, 0), number_at(a, 1));
+    } else if (function == of_direction_axes) {
+        vec3 u, v;
+        direction_axes(make_frame(vec3_at(a, 0)), vec3_at(a, 3), u, v);
+        put3(r, 0, u);
+        put3(r, 3, v);
+    } else if (function == of_parallelogram_side) {
+        r.y[0] = parallelogram_side(vec3_at(a, 0), vec3_at(a, 3));
+    } else if (function == of_transferred_offset) {
+        put3(r, 0, transferred_offset(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), number_at(a, 9), vec3_at(a, 10)));
+    } else if (function == of_reflected_spread) {
+        put3(r, 0, reflected_spread(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9)));
+    } else if (function == of_refracted_spread) {
+        put3(r, 0, refracted_spread(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9), number_at(a, 12)));
+    } else if (function == of_roulette_differential) {
+        PhotonDifferential d = differential_at(a, 1);
+        roulette_differential(d, number_at(a, 0));
+        r = differential_values(d);
+    } else if (function == of_independent_spread) {
+        PhotonDifferential d = differential_at(a, 4);
+        add_independent_spread(d, vec3_at(a, 0), number_at(a, 3));
+        r = differential_values(d);
+    } else if (function == of_reemitted_differential) {
+        r = differential_values(reemitted_differential(differential_at(a, 7), make_frame(vec3_at(a, 0)), vec3_at(a, 3),
+                                                       number_at(a, 6), small_at(a, 19)));
+    } else if (function == of_gloss_differential) {
+        PhotonDifferential d = differential_at(a, 14);
+        gloss_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9), vec3(real(0.0)),
+                           number_at(a, 12), number_at(a, 13));
+        r = differential_values(d);
+    } else if (function == of_shading_normal_change) {
+        vec3 n1 = vec3_at(a, 12);
+        vec3 n2 = vec3_at(a, 15);
+        vec3 n0 = vec3_at(a, 9);
+        real size;
+        vec3 shading = unit_and_length(n0 * (real(1.0) - number_at(a, 18) - number_at(a, 19)) + n1 * number_at(a, 18) +
+                                       n2 * number_at(a, 19), size);
+        put3(r, 0, shading_normal_change(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), n0, n1, n2, vec2_at(a, 18), shading,
+                                         vec3_at(a, 20)));
+    } else if (function == of_light_differential) {
+        r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)), vec3_at(a, 0),
+                                                   vec3_at(a, 3), number_at(a, 6), number_at(a, 7), number_at(a, 7)));
+    } else if (function == of_footprint_scale) {
+        FootprintScale scale = some_footprint_scale(number_at(a, 0), number_at(a, 1), 0u);
+        r.y[0] = real(scale.spacing);
+        r.y[1] = real(scale.diffuse);
+        r.y[2] = real(scale.caustic);
+        r.y[3] = real(scale.radius_max);
+    } else if (function == of_make_principal) {
+        vec3 u = vec3_at(a, 0);
+        vec3 v = vec3_at(a, 3);
+        make_principal(u, v);
+        put3(r, 0, u);
+        put3(r, 3, v);
+    } else if (function == of_make_footprint) {
+        PhotonDifferential d = no_differential();
+        d.dp_du = vec3_at(a, 0);
+        d.dp_dv = vec3_at(a, 3);
+        Footprint f = make_footprint(d, vec3_at(a, 6), small_at(a, 11) != 0u,
+                                     some_footprint_scale(number_at(a, 9), number_at(a, 10), small_at(a, 12)));
+        // Where both axes are clamped, either may be the first: the ellipsoid is the same.
+        put3(r, 0, footprint_extent(f));
+        r.y[3] = footprint_area(f);
+    } else if (function == of_footprint_area) {
+        r.y[0] = footprint_area(footprint_at(a, 0));
+    } else if (function == of_footprint_duals) {
+        FootprintDuals duals = footprint_duals(footprint_at(a, 0), vec3_at(a, 9));
+        put3(r, 0, duals.a);
+        put3(r, 3, duals.b);
+    } else if (function == of_footprint_of_duals) {
+        FootprintDuals duals;
+        duals.a = vec3_at(a, 0);
+        duals.b = vec3_at(a, 3);
+        Footprint f = footprint_of_duals(duals, vec3_at(a, 6), number_at(a, 9));
+        put3(r, 0, f.u);
+        put3(r, 3, f.v);
+        put3(r, 6, f.w);
+    } else if (function == of_footprint_extent) {
+        put3(r, 0, footprint_extent(footprint_at(a, 0)));
+    } else if (function == of_footprint_weight) {
+        FootprintDuals duals;
+        duals.a = vec3_at(a, 0);
+        duals.b = vec3_at(a, 3);
+        r.y[0] = footprint_weight(duals, vec3_at(a, 6), vec3_at(a, 9), vec3_at(a, 12), number_at(a, 15), false);
+    } else if (function == of_pack_dual) {
+        uvec2 packed = pack_dual(vec3_at(a, 0));
+        put_word(r, 0, packed.x);
+        put_word(r, 2, packed.y);
+    }
+    return r;
+}
+
+ARGAND_SHARED_END
+
+#endif

@@ -1,0 +1,60 @@
+// The same seed gives the same bits, however the tool is run. (Threads of lavapipe and each fallback:
+// test_methods, Repeat.)
+#include "results.hpp"
+#include "support/scratch_directory.hpp"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace argand::testing {
+namespace {
+
+struct Way {
+    const char* name;
+    const char* environment;
+    const char* backend;
+};
+
+std::string picture(const Way& way, const std::string& method) {
+    const ScratchDirectory directory;
+    const std::string output = (directory / "picture.exr").string();
+    const std::string command =
+        fmt::format("env {} '{}' render '{}/assets/cornell_glass.glb' -q --backend {} --size 24x16 --spp 2 "
+                    "--method {}{} -o '{}'",
+                    way.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, way.backend, method,
+                    method == "path" ? "" : " --photons 5000", output);
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    return read_text(output);
+}
+
+void expect_same_bits(std::initializer_list<Way> ways) {
+    for (const std::string method : {"footprints", "path"}) {
+        std::string first;
+        for (const Way& way : ways) {
+            const std::string found = picture(way, method);
+            EXPECT_FALSE(found.empty());
+            first = first.empty() ? found : first;
+            EXPECT_TRUE(found == first) << way.name << ", " << method;
+        }
+    }
+    for (const Way& way : ways) {
+        record_result("portability",
+                      {{"backend", way.backend}, {"run", way.name}, {"environment", way.environment}});
+    }
+}
+
+TEST(Portability, ValidationAndSubgroups) {
+    expect_same_bits({{"as it is", "ARGAND_VALIDATION=0", "vulkan"},
+                      {"validation", "ARGAND_VALIDATION=1", "vulkan"},
+                      {"no subgroups", "ARGAND_DISABLE=subgroups", "vulkan"},
+                      {"no subgroups, kernels of GPUs, 1 thread",
+                       "ARGAND_DISABLE=lane_serial,subgroups LP_NUM_THREADS=1", "vulkan"}});
+}
+
+TEST(Portability, ThreadsOfTheHost) {
+    expect_same_bits({{"1 thread", "OMP_NUM_THREADS=1", "cpu"}, {"2 threads", "OMP_NUM_THREADS=2", "cpu"}});
+}
+
+} // namespace
+} // namespace argand::testing

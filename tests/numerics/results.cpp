@@ -1,0 +1,52 @@
+#include "results.hpp"
+
+#include "base/environment.hpp"
+
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace argand::testing {
+
+namespace {
+
+nlohmann::json& results() {
+    static nlohmann::json all = nlohmann::json::object();
+    return all;
+}
+
+class WriteResults : public ::testing::Environment {
+public:
+    void TearDown() override {
+        const std::string path = environment("ARGAND_NUMERICS_RESULTS");
+        if (path.empty()) {
+            return;
+        }
+        std::ofstream file(path);
+        file << results().dump(1) << '\n';
+        ASSERT_TRUE(file.flush()) << path;
+    }
+};
+
+const ::testing::Environment* const writes_results = ::testing::AddGlobalTestEnvironment(new WriteResults);
+
+} // namespace
+
+void record_result(const std::string& section, const nlohmann::json& row) {
+    results()[section].push_back(row);
+}
+
+void record_extreme(const std::string& extreme, const std::string& expectation, const std::string& measured) {
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+    record_result("extremes",
+                  {{"extreme", extreme},
+                   {"expectation", expectation},
+                   {"measured", measured},
+                   {"test", fmt::format("test_numerics: {}.{}", test.test_suite_name(), test.name())}});
+}
+
+std::string shown(double number) {
+    return fmt::format("{:.2g}", number);
+}
+
+} // namespace argand::testing

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <array>
+
+/// The functions of functions.h in double precision, behind plain types: no source file sees both builds.
+namespace argand::truth {
+
+using Inputs = std::array<float, 32>;
+using Outputs = std::array<double, 16>;
+
+Outputs evaluate(unsigned function, const Inputs& inputs);
+
+} // namespace argand::truth
