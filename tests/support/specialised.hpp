@@ -22,7 +22,7 @@ struct SpecialisedCode {
     std::set<float> numbers;            ///< literals
 };
 
-/// Uses only passes that leave out what cannot be reached or is not used.
+/// As a driver leaves out what cannot be reached or is not used, but with nothing else.
 inline SpecialisedCode specialised(const KernelInfo& kernel, const std::vector<std::uint32_t>& constants) {
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
     for (std::size_t i = 0; i < constants.size(); ++i) {
@@ -31,8 +31,15 @@ inline SpecialisedCode specialised(const KernelInfo& kernel, const std::vector<s
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
-        .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
-        .RegisterPerformancePasses();
+        .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
+    // Kernels are inlined and in SSA form when they are built.
+    for (int round = 0; round < 2; ++round) {
+        optimizer.RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateBlockMergePass())
+            .RegisterPass(spvtools::CreateSimplificationPass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    }
     std::vector<std::uint32_t> code;
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
