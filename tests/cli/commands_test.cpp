@@ -193,8 +193,8 @@ TEST_F(Commands, InspectSaysWhatWouldBeDone) {
     const auto plan = [this](const std::string& scene) {
         return nlohmann::json::parse(argand("inspect '" + asset(scene) + "' --json").out).at("plan");
     };
-    const auto required_by = [](const nlohmann::json& plan, const std::string& feature) -> std::string {
-        for (const nlohmann::json& row : plan.at("features")) {
+    const auto required_by = [](const nlohmann::json& of, const std::string& feature) -> std::string {
+        for (const nlohmann::json& row : of.at("features")) {
             if (row.at("feature") == feature) {
                 return row.at("required_by");
             }
