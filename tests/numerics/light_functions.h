@@ -105,19 +105,19 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         put3(r, 0, light_normal(light_at(a, 0, light_triangle, 0u), s));
         r.y[3] = s;
     } else if (function == of_light_power) {
-        put3(r, 0, light_power(light_at(a, 1, small_at(a, 15), small_at(a, 16)), number_at(a, 0)));
+        put3(r, 0, light_power(light_at(a, 1, small_at(a, 15), small_at(a, 16)), all_light_kinds, number_at(a, 0)));
     } else if (function == of_emitter_density) {
         r.y[0] = emitter_density(vec3_at(a, 0), real(1.0), number_at(a, 3), number_at(a, 4), number_at(a, 5));
     } else if (function == of_light_sample) {
         LightSample l;
-        bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), vec3_at(a, 0), vec2_at(a, 3), l);
+        bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), all_light_kinds, vec3_at(a, 0), vec2_at(a, 3), l);
         r.y[0] = lit ? real(1.0) : real(0.0);
         put3(r, 1, lit ? l.wi : vec3(real(0.0)));
         put3(r, 4, lit ? l.radiance : vec3(real(0.0)));
         r.y[7] = lit ? l.pdf : real(0.0);
     } else if (function == of_light_emit) {
         vec3 origin, direction, normal, flux;
-        bool emitted = light_emit(light_at(a, 8, small_at(a, 22), small_at(a, 23)), vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+        bool emitted = light_emit(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
                                   vec4(a.x[4], a.x[5], real(0.0), real(0.0)), vec3(real(0.0)), number_at(a, 6), origin,
                                   direction, normal, flux);
         r.y[0] = emitted ? real(1.0) : real(0.0);
@@ -166,7 +166,7 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         put3(r, 0, shading_normal_change(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), n0, n1, n2, vec2_at(a, 18), shading,
                                          vec3_at(a, 20)));
     } else if (function == of_light_differential) {
-        r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)), vec3_at(a, 0),
+        r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds, vec3_at(a, 0),
                                                    vec3_at(a, 3), number_at(a, 6), number_at(a, 7), number_at(a, 7)));
     } else if (function == of_footprint_scale) {
         FootprintScale scale = some_footprint_scale(number_at(a, 0), number_at(a, 1), 0u);
