@@ -17,9 +17,9 @@ using ::testing::Not;
 const std::map<std::string, std::vector<float>> marks = {
     {"eye_vertex", {0.04f,          // transmission: bsdf.h, lobe_probabilities
                     0.64f,          // Phong: phong.h, phong_albedo
-                    1e-12f,         // GGX: ggx.h, ggx_sample_normal
+                    0.001f,         // GGX: bsdf.h, SMALLEST_ALPHA (and spots: lights.h, spot_ramp)
                     12.566371f}},   // sky: lights.h, light_sample
-    {"photon_scatter", {0.04f, 0.64f, 1e-12f}},
+    {"photon_scatter", {0.04f, 0.64f, 0.001f}},
     {"photon_emit", {39.478417f,    // sky: lights.h, light_power
                      0.001f}},      // spots: lights.h, spot_ramp
 };
