@@ -238,9 +238,11 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
     Chosen numbers = chosen;
     numbers.method = false;
     for (const std::string& method : tried_methods) {
-        // Paths tell the bias of the others as well, but for what they cannot find.
-        const bool wanted = method == "path" ? path_is_true : !chosen.method && is_worth(share_of_pilots);
-        if (wanted && !pilots.has(method) &&
+        // Paths tell the bias of the others as well, which an error cannot do without; but for what they cannot find.
+        const bool is_path = method == "path";
+        const bool wanted = is_path ? path_is_true : !chosen.method;
+        const bool needed = is_path && aim.error;
+        if (wanted && !pilots.has(method) && (needed || is_worth(share_of_pilots)) &&
             !pilots.run(settings_of_pass(base, numbers, method, few_photons))) {
             return false;
         }

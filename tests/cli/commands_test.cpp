@@ -163,7 +163,8 @@ TEST_F(Commands, BudgetWithoutMethodPicksOne) {
     const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
     EXPECT_TRUE(report.at("aim").at("reached").is_null());
     EXPECT_EQ(report.at("parameters").at("budget"), 1);
-    EXPECT_GT(report.at("passes"), 1);
+    EXPECT_GE(report.at("passes"), 1);      // more, but where compiling kernels takes longer than that
+    EXPECT_EQ(report.at("parameters").at("method"), report.at("aim").at("expected").at(0).at("method"));
 }
 
 TEST_F(Commands, CompareMeasuresAndDrawsTheDifference) {
