@@ -99,10 +99,11 @@ TEST_F(Agreement, SlowCornellBoxes) {
                                                             {"cornell_glass.glb", 512}};
     for (const auto& [name, samples] : scenes) {
         const Scene scene = load_asset(name);
-        const Reference truth = reference(scene, 96, samples);
-        const RenderResult found = photons(scene, 96, 200'000);
+        const Reference truth = reference(scene, 128, samples);
+        const RenderResult found = photons(scene, 128, 200'000);
         EXPECT_LT(error(found, truth), 0.02) << name;
-        EXPECT_LT(error(found, truth, "indirect"), 0.02) << name;
+        // Of which the noise of such a reference, by which it is divided, is a tenth.
+        EXPECT_LT(error(found, truth, "indirect"), 0.025) << name;
     }
 }
 
