@@ -141,8 +141,6 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     const StageScope stage(device, "upload scene");
     DeviceScene result;
     result.plan = plan;
-    const std::vector<double> areas = areas_that_can_be_hit(scene);
-    result.surface_area = std::accumulate(areas.begin(), areas.end(), 0.0);
 
     std::vector<MaterialRecord> materials;
     for (const Material& material : scene.materials) {
@@ -198,9 +196,13 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     result.triangles = upload(device, "triangles", triangles);
     result.materials = upload(device, "materials", materials);
     result.lights = upload(device, "lights", lights);
-    result.area_sums = plan.needs(Feature::photon_map)
-                           ? upload(device, "area sums", area_sums(areas, result.surface_area))
-                           : nothing(device);
+    if (plan.needs(Feature::photon_map)) {
+        const std::vector<double> areas = areas_that_can_be_hit(scene);
+        result.surface_area = std::accumulate(areas.begin(), areas.end(), 0.0);
+        result.area_sums = upload(device, "area sums", area_sums(areas, result.surface_area));
+    } else {
+        result.area_sums = nothing(device);
+    }
     result.light_choices =
         plan.needs(Feature::several_lights) ? upload(device, "light choices", alias_table(weights)) : nothing(device);
     result.bvh = build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);

@@ -20,7 +20,7 @@ struct DeviceScene {
     Buffer area_sums;           ///< uint per triangle: area of all before it, as a fraction of 2^32
     TriangleBvh bvh;
     SceneRecord record;         ///< the host's copy
-    double surface_area = 0;    ///< of all triangles
+    double surface_area = 0;    ///< of all triangles that can be hit; 0 without a photon map
     glm::dvec3 power{0};        ///< of all lights, per channel [lm-like: candela × steradian]
     double emitter_probability = 0; ///< that a choice of light gives an emissive triangle
     Plan plan;                  ///< what of it kernels need; buffers that they do not need are empty

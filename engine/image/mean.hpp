@@ -2,15 +2,12 @@
 
 #include "image/image.hpp"
 
-#include <span>
-
 namespace argand {
 
-/// Pixel by pixel, of one or more pictures of one size.
-Image mean_of(std::span<const Image> images);
-inline Image mean_of(const Image& a, const Image& b) {
-    const Image both[] = {a, b};
-    return mean_of(both);
-}
+/// The mean of two pictures of one size by weights whose sum is not 0. A negative weight takes b out of a mean of which it
+/// is a part.
+Image weighted_mean(const Image& a, double weight_a, const Image& b, double weight_b);
+
+inline Image mean_of(const Image& a, const Image& b) { return weighted_mean(a, 1, b, 1); }
 
 } // namespace argand

@@ -38,8 +38,11 @@ public:
         return now + last <= *seconds_;
     }
 
-    /// Passes that there will be in the time, as far as can be told when some are done.
-    double expected(std::uint64_t done) const {
+    /// Passes that there will be, as far as can be told when so many are done.
+    double expected(std::uint64_t done, std::uint64_t passes) const {
+        if (!seconds_ || done == 0) {
+            return static_cast<double>(passes);
+        }
         const double each = std::max(in_passes_ / static_cast<double>(done), 1e-9);
         return std::round(static_cast<double>(done) + std::max(*seconds_ - elapsed(), 0.0) / each);
     }

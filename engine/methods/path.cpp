@@ -1,6 +1,5 @@
-#include "methods/budget.hpp"
 #include "methods/eye_paths.hpp"
-#include "methods/methods.hpp"
+#include "methods/next_pass.hpp"
 #include "methods/streams.hpp"
 
 #include <algorithm>
@@ -18,12 +17,9 @@ RenderResult render_path(Device& device, const Scene& scene, const RenderSetting
                            camera_record(scene.cameras[settings.camera], settings.width, settings.height));
     RenderResult result;
     std::uint64_t& passes = result.statistics.passes;
-    /// The next pass; none: no more.
-    const auto plan_next = [&]() -> std::optional<PassPlan> {
-        if (listeners.on_pass) {
-            return listeners.on_pass({passes, [&] { return resolve_film(device, workspace, settings, result.statistics); }});
-        }
-        return passes == 0 || budget.another(passes, 1) ? std::optional(PassPlan()) : std::nullopt;
+    const auto plan_next = [&] {
+        const auto layers = [&] { return resolve_film(device, workspace, settings, result.statistics); };
+        return next_pass(listeners, budget, {passes, layers}, 1);
     };
     budget.start_pass();
     Streams streams(settings.seed);
@@ -35,11 +31,7 @@ RenderResult render_path(Device& device, const Scene& scene, const RenderSetting
         const auto first_sample = static_cast<std::uint32_t>(numbers.index * settings.samples);
         result.statistics.interrupted =
             !trace_eye_paths(device, on_device, workspace, of_stream, first_sample, settings.samples, nullptr,
-                             [&](double part) {
-                                 return listeners.progress(listeners.on_pass
-                                                               ? (static_cast<double>(passes) + part) / plan->expected
-                                                               : budget.share(passes, part, 1));
-                             });
+                             [&](double part) { return tell_progress(listeners, budget, *plan, passes, part, 1); });
         ++passes;
         const bool goes_on = has_sample_numbers(numbers.index + 1, settings.samples) && !result.statistics.interrupted;
         plan = goes_on ? plan_next() : std::nullopt;

@@ -1,8 +1,7 @@
 #include "base/error.hpp"
 #include "methods/bandwidth.hpp"
-#include "methods/budget.hpp"
 #include "methods/eye_paths.hpp"
-#include "methods/methods.hpp"
+#include "methods/next_pass.hpp"
 #include "methods/streams.hpp"
 #include "photon/gather.hpp"
 #include "photon/nearest.hpp"
@@ -179,18 +178,12 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
 
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
-    /// The next pass, after so many are done; none: no more.
-    const auto plan_next = [&](std::uint64_t done) -> std::optional<PassPlan> {
-        if (listeners.on_pass) {
-            return listeners.on_pass({done, [&] { return resolve_film(device, p.eye, settings, statistics); }});
-        }
-        if (done > 0 && !budget.another(done, passes)) {
-            return std::nullopt;
-        }
-        return PassPlan{.expected = done > 0 && settings.budget ? budget.expected(done) : learnt_for};
+    const auto plan_next = [&] {
+        const auto layers = [&] { return resolve_film(device, p.eye, settings, statistics); };
+        return next_pass(listeners, budget, {statistics.passes, layers}, passes);
     };
     Streams streams(settings.seed);
-    std::optional<PassPlan> plan = plan_next(0);
+    std::optional<PassPlan> plan = plan_next();
     for (std::uint64_t pass = 0; plan; ++pass) {
         const Bandwidth bandwidth = for_passes(learnt, learnt_for, plan->expected, settings);
         const PassNumbers numbers = streams.next(plan->stream);
@@ -199,8 +192,7 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
             stored = stored_or_fail(p, trace(p, emission));
         }
         statistics.interrupted = !render_pass(p, stored, numbers, bandwidth, statistics, [&](double part) {
-            return listeners.progress(listeners.on_pass ? (static_cast<double>(pass) + part) / plan->expected
-                                                        : budget.share(pass, part, passes));
+            return tell_progress(listeners, budget, *plan, pass, part, passes);
         });
         statistics.photons_emitted += emission.count;
         statistics.photons_stored += stored.photons;
@@ -212,7 +204,7 @@ RenderResult render_map(Device& device, const Scene& scene, const RenderSettings
         const PhotonPass next = emission_of(p, {.index = numbers.index + 1}, photons);
         const bool has_numbers =
             next.first + next.count <= 0xffffffffu && has_sample_numbers(numbers.index + 1, p.passes.samples);
-        plan = has_numbers && !statistics.interrupted ? plan_next(pass + 1) : std::nullopt;
+        plan = has_numbers && !statistics.interrupted ? plan_next() : std::nullopt;
     }
     result.layers = resolve_film(device, p.eye, settings, statistics);
     return result;

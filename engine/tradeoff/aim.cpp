@@ -53,11 +53,10 @@ Prospect prospect_of(const Pilot& pilot, const ErrorModel& model, const Aim& aim
 
 /// Which of two is better: the one that reaches the error, then the sooner; of those that do not, the one with less.
 bool is_better(const Prospect& a, const Prospect& b, const Aim& aim) {
-    const auto reaches = [&](const Prospect& p) { return aim.error && p.error <= 1.01 * *aim.error; };
-    if (reaches(a) != reaches(b)) {
-        return reaches(a);
+    if (reaches(a, aim) != reaches(b, aim)) {
+        return reaches(a, aim);
     }
-    return reaches(a) ? a.seconds < b.seconds : a.error < b.error;
+    return reaches(a, aim) ? a.seconds < b.seconds : a.error < b.error;
 }
 
 /// Pilots and what follows from them.
@@ -78,6 +77,7 @@ public:
         }
         seconds_ += pilot->seconds;
         pilots_.push_back(std::move(*pilot));
+        look_ahead();
         return true;
     }
 
@@ -98,6 +98,7 @@ public:
         if (pilot) {
             add_truth(*pilot);
             seconds_ += pilot->seconds;
+            look_ahead();
         }
         return pilot.has_value();
     }
@@ -110,19 +111,22 @@ public:
     double seconds_each() const { return seconds_ / static_cast<double>(pilots_.size()); }
 
     /// Best first.
-    std::vector<Prospect> prospects() const {
-        const Image guess = best_guess(pilots_);
-        std::vector<Prospect> all;
-        for (const Pilot& pilot : pilots_) {
-            if (pilot.settings.method != "path" || with_path_) {
-                all.push_back(prospect_of(pilot, model_of(pilot, truth_ ? &*truth_ : nullptr, guess), aim_, seconds()));
-            }
-        }
-        std::sort(all.begin(), all.end(), [&](const Prospect& a, const Prospect& b) { return is_better(a, b, aim_); });
-        return all;
-    }
+    const std::vector<Prospect>& prospects() const { return prospects_; }
 
 private:
+    /// What follows from all pilots so far.
+    void look_ahead() {
+        const Image guess = best_guess(pilots_);
+        prospects_.clear();
+        for (const Pilot& pilot : pilots_) {
+            if (pilot.settings.method != "path" || with_path_) {
+                prospects_.push_back(prospect_of(pilot, model_of(pilot, truth_ ? &*truth_ : nullptr, guess), aim_, seconds_));
+            }
+        }
+        std::sort(prospects_.begin(), prospects_.end(),
+                  [&](const Prospect& a, const Prospect& b) { return is_better(a, b, aim_); });
+    }
+
     const Pilot* find(const std::string& method) const {
         const auto found = std::find_if(pilots_.begin(), pilots_.end(),
                                         [&](const Pilot& pilot) { return pilot.settings.method == method; });
@@ -131,17 +135,12 @@ private:
 
     /// Adds a pilot of path, whose wide and narrow pictures are alike, to the truth by its samples.
     void add_truth(const Pilot& pilot) {
-        const double samples = truth_samples_ + pilot.settings.samples;
+        const double samples = pilot.settings.samples;
         const Truth more{mean_of(pilot.wide[0], pilot.narrow[0]), mean_of(pilot.wide[1], pilot.narrow[1])};
-        if (!truth_) {
-            truth_ = more;
-        } else {
-            for (std::size_t half = 0; half < 2; ++half) {
-                // part_of's inverse.
-                (*truth_)[half] = part_of((*truth_)[half], -truth_samples_, more[half], pilot.settings.samples);
-            }
-        }
-        truth_samples_ = samples;
+        truth_ = truth_ ? Truth{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
+                                weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}
+                        : more;
+        truth_samples_ += samples;
     }
 
     const RenderPasses& render_;
@@ -150,6 +149,7 @@ private:
     std::optional<Truth> truth_;
     double truth_samples_ = 0, seconds_ = 0;
     std::vector<Pilot> pilots_;
+    std::vector<Prospect> prospects_;
 };
 
 /// Decides after each pass whether there is another, and measures the noise.
@@ -174,7 +174,7 @@ public:
             return std::nullopt;
         }
         const auto done = static_cast<double>(so_far.passes);
-        const double in_time = aim_.seconds ? budget_.expected(so_far.passes) : 1e9;
+        const double in_time = aim_.seconds ? budget_.expected(so_far.passes, 0) : 1e9;
         return PassPlan{.expected = std::max(std::min(aim_.error ? to_error() : in_time, in_time), done + 1),
                         .stream = halves_.stream()};
     }
@@ -247,19 +247,23 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
             return false;
         }
     }
-    const std::vector<Prospect> prospects = pilots.prospects();
-    if (!chosen.photons && prospects.front().settings.method != "path" && is_worth(share_of_refinement)) {
-        RenderSettings many = prospects.front().settings;
+    const auto best = [&]() -> const Prospect& { return pilots.prospects().front(); };
+    if (!chosen.photons && best().settings.method != "path" && is_worth(share_of_refinement)) {
+        RenderSettings many = best().settings;
         many.photons = many.photons_per_pass = many_photons;
         if (!pilots.run(many)) {
             return false;
         }
     }
-    return pilots.prospects().front().settings.method == "path" ||
-           pilots.improve_truth(share_of_truth * pilots.prospects().front().seconds);
+    return best().settings.method == "path" || pilots.improve_truth(share_of_truth * best().seconds);
 }
 
 } // namespace
+
+bool reaches(const Prospect& prospect, const Aim& aim) {
+    // passes_for() is exact to a thousandth.
+    return aim.error && prospect.error <= 1.01 * *aim.error;
+}
 
 bool is_blind_to_caustics(const Scene& scene) {
     const Plan plan = make_plan(scene, {});
@@ -279,7 +283,7 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
              "glass, so its error does not fall; leave --method out", scene.name);
     }
     Pilots pilots(render, aim, !chosen.method || base.method == "path");
-    AimedRender aimed;
+    AimedRender aimed{.aim = aim};
     if (!explore(pilots, base, chosen, aim, path_is_true)) {
         aimed.result.statistics.interrupted = true;
         return aimed;

@@ -31,7 +31,11 @@ struct Prospect {
     double error = 0;                   ///< relMSE then
 };
 
+/// Whether the error is expected to be met.
+bool reaches(const Prospect& prospect, const Aim& aim);
+
 struct AimedRender {
+    Aim aim;
     RenderResult result;
     std::vector<Prospect> prospects;    ///< best first, whose settings are the result's; empty: there was no time for pilots
     double pilot_seconds = 0;
@@ -55,7 +59,7 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
 inline constexpr double most_seconds = 3600;
 
 /// For users: what was picked and why, and what became of it.
-std::string describe_pick(const AimedRender& render, const Aim& aim);
-std::string describe_outcome(const AimedRender& render, const Aim& aim);
+std::string describe_pick(const AimedRender& render);
+std::string describe_outcome(const AimedRender& render);
 
 } // namespace argand

@@ -21,7 +21,7 @@ std::string name_of(const RenderSettings& settings) {
 
 } // namespace
 
-std::string describe_pick(const AimedRender& render, const Aim& aim) {
+std::string describe_pick(const AimedRender& render) {
     const Prospect& best = render.prospects.front();
     std::string text = fmt::format("{}: relMSE {:.2g} expected after {} in {:.2g} s", name_of(best.settings), best.error,
                                    counted(best.passes, "pass", "passes"), best.seconds);
@@ -31,16 +31,16 @@ std::string describe_pick(const AimedRender& render, const Aim& aim) {
         text += other.settings.method == best.settings.method
                     ? fmt::format("{} photons a pass", other.settings.photons)
                     : other.settings.method;
-        const bool by_time = aim.error && best.error <= 1.01 * *aim.error && other.error <= 1.01 * *aim.error;
+        const bool by_time = reaches(best, render.aim) && reaches(other, render.aim);
         text += by_time ? fmt::format(" ({:.2g} s)", other.seconds) : fmt::format(" (relMSE {:.2g})", other.error);
     }
     return text + fmt::format("; pilots took {:.2g} s", render.pilot_seconds);
 }
 
-std::string describe_outcome(const AimedRender& render, const Aim& aim) {
-    const bool missed = aim.error && !render.reached;
+std::string describe_outcome(const AimedRender& render) {
+    const bool missed = render.aim.error && !render.reached;
     return fmt::format("relMSE about {:.2g}: noise {:.2g}, squared bias {:.2g}{}", render.noise + render.bias, render.noise,
-                       render.bias, missed ? fmt::format("; the {:.2g} asked for is not reached", *aim.error) : "");
+                       render.bias, missed ? fmt::format("; the {:.2g} asked for is not reached", *render.aim.error) : "");
 }
 
 } // namespace argand

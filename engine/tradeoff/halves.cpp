@@ -1,5 +1,6 @@
 #include "tradeoff/halves.hpp"
 
+#include "image/mean.hpp"
 #include "image/metrics.hpp"
 
 #include <algorithm>
@@ -17,13 +18,8 @@ void Halves::add(const Image& mean_so_far) {
     const auto more = static_cast<double>(length_);
     Image& mean = means_[stream()];
     double& passes = passes_[stream()];
-    const Image part = done_ > 0 ? part_of(mean_, before, mean_so_far, before + more) : mean_so_far;
-    if (passes > 0) {
-        // part_of's inverse.
-        mean = part_of(mean, -passes, part, more);
-    } else {
-        mean = part;
-    }
+    const Image part = done_ > 0 ? weighted_mean(mean_so_far, before + more, mean_, -before) : mean_so_far;
+    mean = passes > 0 ? weighted_mean(mean, passes, part, more) : part;
     passes += more;
     done_ += length_;
     mean_ = mean_so_far;
@@ -34,15 +30,5 @@ void Halves::add(const Image& mean_so_far) {
 }
 
 double Halves::noise(const Image& reference) const { return rel_variance(means_, reference, reference) / 2; }
-
-Image part_of(const Image& before, double passes_before, const Image& after, double passes_after) {
-    Image part = after;
-    const double passes = passes_after - passes_before;
-    for (std::size_t i = 0; i < part.pixels.size(); ++i) {
-        part.pixels[i] = (passes_after / passes) * glm::dvec3(after.pixels[i]) -
-                         (passes_before / passes) * glm::dvec3(before.pixels[i]);
-    }
-    return part;
-}
 
 } // namespace argand

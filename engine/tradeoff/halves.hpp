@@ -36,7 +36,4 @@ private:
     Image mean_;            ///< of all
 };
 
-/// The mean of what came between two means: that of `passes_before` and that of `passes_after`.
-Image part_of(const Image& before, double passes_before, const Image& after, double passes_after);
-
 } // namespace argand

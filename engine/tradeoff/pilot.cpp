@@ -2,7 +2,6 @@
 
 #include "image/mean.hpp"
 #include "image/metrics.hpp"
-#include "tradeoff/halves.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +36,8 @@ std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings&
             const Image mean = so_far.layers().front().image;
             const auto done = static_cast<std::size_t>(so_far.passes - 1);
             Image& picture = (done < 2 ? pilot.wide : pilot.narrow)[done % 2];
-            picture = done > 0 ? part_of(before, static_cast<double>(done), mean, static_cast<double>(done + 1)) : mean;
+            const auto others = static_cast<double>(done);
+            picture = done > 0 ? weighted_mean(mean, others + 1, before, -others) : mean;
             before = mean;
             passes = so_far.passes;
         }
@@ -63,7 +63,7 @@ Image best_guess(const std::vector<Pilot>& pilots) {
     Image best;
     double least = std::numeric_limits<double>::infinity();
     for (const Pilot& pilot : pilots) {
-        const Image mean = smoothed(mean_of(mean_of(pilot.wide), mean_of(pilot.narrow)));
+        const Image mean = smoothed(mean_of(mean_of(pilot.wide[0], pilot.wide[1]), mean_of(pilot.narrow[0], pilot.narrow[1])));
         const double variance = variance_of(pilot.narrow, mean);
         if (variance < least || best.pixels.empty()) {
             least = variance;

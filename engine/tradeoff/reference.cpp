@@ -34,16 +34,9 @@ double least_error(std::span<const Image> pilots, const Reference& reference) {
     return least;
 }
 
-/// Adds a picture of so many samples to the mean of so many.
-void add(Image& mean, double before, const Image& more, double samples) {
-    if (mean.pixels.empty()) {
-        mean = more;
-        return;
-    }
-    const auto share = static_cast<float>(samples / (before + samples));
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-        mean.pixels[i] += share * (more.pixels[i] - mean.pixels[i]);
-    }
+/// The mean of so many samples with a picture of some more.
+Image with_more(const Image& mean, double before, const Image& more, double samples) {
+    return before > 0 ? weighted_mean(mean, before, more, samples) : more;
 }
 
 } // namespace
@@ -66,8 +59,8 @@ std::optional<Reference> render_reference(const RenderTrials& render, const Rend
         if (!pair) {
             return std::nullopt;
         }
-        add(reference.a, done, pair->trials[0].picture, samples);
-        add(reference.b, done, pair->trials[1].picture, samples);
+        reference.a = with_more(reference.a, done, pair->trials[0].picture, samples);
+        reference.b = with_more(reference.b, done, pair->trials[1].picture, samples);
         done += samples;
         reference.samples = static_cast<std::uint64_t>(2 * done);
         reference.own_error = own_error_of(reference.a, reference.b);

@@ -20,7 +20,7 @@ TEST(Budget, WhatIsDoneOnceIsNoPartOfAPass) {
     EXPECT_EQ(learnt, 7);
     // 0.4 s are left.
     EXPECT_TRUE(budget.another(1, 1));
-    EXPECT_GT(budget.expected(1), 2);
+    EXPECT_GT(budget.expected(1, 1), 2);
 }
 
 TEST(Budget, EndsBeforeAPassThatDoesNotFit) {
@@ -36,6 +36,7 @@ TEST(Budget, WithoutATimeEveryPassIsMadeOnce) {
     EXPECT_TRUE(budget.another(2, 3));
     EXPECT_FALSE(budget.another(3, 3));
     EXPECT_EQ(budget.share(1, 0.5, 3), 0.5);
+    EXPECT_EQ(budget.expected(2, 3), 3);
 }
 
 TEST(Budget, SamplesEndWhereTheirNumbersDo) {

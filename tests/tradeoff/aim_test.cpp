@@ -125,7 +125,7 @@ TEST(Aim, ErrorThatTheTimeDoesNotAllowIsSaid) {
     const Aim aim{.error = 1e-6, .seconds = 0.3};
     const AimedRender aimed = aim_at(fake, box(), aim);
     EXPECT_FALSE(aimed.reached);
-    EXPECT_THAT(describe_outcome(aimed, aim), ::testing::HasSubstr("is not reached"));
+    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("is not reached"));
 }
 
 TEST(Aim, ErrorThatTakesTooLongIsRefused) {
@@ -190,7 +190,7 @@ TEST(Aim, PickIsExplained) {
     const Aim aim{.error = 1e-4, .seconds = {}};
     std::string pick;
     render_aimed(fake.passes(), box(), small(), {}, aim,
-                 [&](const AimedRender& picked) { pick = describe_pick(picked, aim); });
+                 [&](const AimedRender& picked) { pick = describe_pick(picked); });
     EXPECT_THAT(pick, ::testing::HasSubstr("expected after"));
     EXPECT_THAT(pick, ::testing::HasSubstr("pilots took"));
     EXPECT_THAT(pick, ::testing::HasSubstr("not "));

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "compare/backends.hpp"
+#include "method_options.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
 #include "picture_size.hpp"
@@ -145,12 +146,7 @@ void record(const BackendOptions& options, const Scene& scene) {
 }
 
 void run(BackendOptions& options) {
-    const std::vector<std::string> known = method_names();
-    for (const std::string& method : options.methods) {
-        if (std::find(known.begin(), known.end(), method) == known.end()) {
-            throw UsageError(fmt::format("choosing method '{}': choose from {}", method, fmt::join(known, ", ")));
-        }
-    }
+    check_methods(options.methods);
     if ((options.b == "golden") != !options.golden.empty()) {
         throw UsageError("comparing with a golden capture: --b golden and --golden FILE belong together");
     }

@@ -8,19 +8,19 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 
 namespace argand {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct CompareOptions {
     std::string a, b, layer, output;
     bool json = false;
 };
 
-Image read_layer(const std::string& path, const std::string& name) {
-    const std::vector<Layer> layers = read_image(path);
+const Image& layer_of(const std::vector<Layer>& layers, const std::string& path, const std::string& name) {
     const Image* image = find_layer(layers, name);
     if (!image) {
         std::string names;
@@ -32,13 +32,12 @@ Image read_layer(const std::string& path, const std::string& name) {
     return *image;
 }
 
-/// relMSE of `a` against the two halves that the reference of a sweep (`argand tradeoff`) has as layers, whose noise then does
-/// not count; none if B is no such reference.
-std::optional<double> rel_mse_of_pair(const Image& a, const CompareOptions& options) {
-    const std::vector<Layer> layers = options.layer.empty() ? read_image(options.b) : std::vector<Layer>();
-    const Image* first = find_layer(layers, "a");
-    const Image* second = find_layer(layers, "b");
-    return first && second ? std::optional(rel_mse(a, *first, *second)) : std::nullopt;
+/// relMSE against the two halves that the reference of a sweep (`argand tradeoff`) has as layers, whose noise then does not
+/// count; null if it is no such reference.
+Json rel_mse_of_pair(const Image& a, const std::vector<Layer>& reference) {
+    const Image* first = find_layer(reference, "a");
+    const Image* second = find_layer(reference, "b");
+    return first && second ? Json(rel_mse(a, *first, *second)) : Json(nullptr);
 }
 
 void compare_files(const CompareOptions& options) {
@@ -46,20 +45,22 @@ void compare_files(const CompareOptions& options) {
         check_overwrites_none(options.output, {options.a, options.b});
         check_image_writable(options.output);
     }
-    const Image a = read_layer(options.a, options.layer);
-    const Image b = read_layer(options.b, options.layer);
+    const std::vector<Layer> layers_a = read_image(options.a);
+    const std::vector<Layer> layers_b = read_image(options.b);
+    const Image& a = layer_of(layers_a, options.a, options.layer);
+    const Image& b = layer_of(layers_b, options.b, options.layer);
     const Metrics metrics = compare(a, b, options.a, options.b);
     if (!options.output.empty()) {
         const std::array<Layer, 1> picture{Layer{"", difference_picture(a, b, options.a, options.b)}};
         write_image(options.output, picture);
     }
-    const std::optional<double> of_pair = rel_mse_of_pair(a, options);
+    const Json of_pair = options.layer.empty() ? rel_mse_of_pair(a, layers_b) : Json(nullptr);
     if (options.json) {
         fmt::print("{}", json_text({{"a", options.a},
                                     {"b", options.b},
                                     {"layer", options.layer},
                                     {"relMSE", metrics.rel_mse},
-                                    {"relMSE_without_reference_noise", of_pair ? nlohmann::ordered_json(*of_pair) : nullptr},
+                                    {"relMSE_without_reference_noise", of_pair},
                                     {"RMSE", metrics.rmse},
                                     {"MAE", metrics.mae},
                                     {"PSNR", metrics.psnr},
@@ -70,8 +71,8 @@ void compare_files(const CompareOptions& options) {
     }
     fmt::print("relMSE {:.6g}\nRMSE   {:.6g}\nMAE    {:.6g}\nPSNR   {:.4g} dB\nSSIM   {:.5f}\n", metrics.rel_mse,
                metrics.rmse, metrics.mae, metrics.psnr, metrics.ssim);
-    if (of_pair) {
-        fmt::print("relMSE without the reference's noise {:.6g}\n", *of_pair);
+    if (!of_pair.is_null()) {
+        fmt::print("relMSE without the reference's noise {:.6g}\n", of_pair.get<double>());
     }
     fmt::print("mean A {:.6g} {:.6g} {:.6g}\nmean B {:.6g} {:.6g} {:.6g}\n", metrics.mean_a.r, metrics.mean_a.g,
                metrics.mean_a.b, metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b);

@@ -1,6 +1,7 @@
 #include "method_options.hpp"
 
 #include "base/error.hpp"
+#include "methods/render.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -32,6 +33,15 @@ std::vector<MethodOption> method_options() {
 }
 
 } // namespace
+
+void check_methods(const std::vector<std::string>& names) {
+    const std::vector<std::string> known = method_names();
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw UsageError(fmt::format("choosing method '{}': choose from {}", name, fmt::join(known, ", ")));
+        }
+    }
+}
 
 void check_method_options(const CLI::App& command, const std::string& method) {
     for (const MethodOption& option : method_options()) {

@@ -92,10 +92,7 @@ void check_aimed(const RenderOptions& options, const CLI::App& command) {
 }
 
 void check(const RenderOptions& options, const CLI::App& command) {
-    const std::vector<std::string> methods = method_names();
-    if (std::find(methods.begin(), methods.end(), options.method) == methods.end()) {
-        throw UsageError(fmt::format("choosing method '{}': choose from {}", options.method, fmt::join(methods, ", ")));
-    }
+    check_methods({options.method});
     if (is_aimed(options, command)) {
         check_aimed(options, command);
     }
@@ -134,7 +131,7 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, c
     AimedRender aimed = render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
         progress.reset();
         if (!options.quiet) {
-            fmt::print(stderr, "argand: picked {}\n", describe_pick(picked, aim));
+            fmt::print(stderr, "argand: picked {}\n", describe_pick(picked));
         }
         progress.emplace("rendering", options.quiet);
         picked_one = true;
@@ -154,7 +151,7 @@ std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& 
     const std::uint64_t passes = rendered.result.statistics.passes;
     std::vector<std::string> notes;
     if (rendered.aimed) {
-        notes.push_back(describe_outcome(*rendered.aimed, {.error = options.target_error, .seconds = settings.budget}));
+        notes.push_back(describe_outcome(*rendered.aimed));
     }
     if (settings.budget && seconds > clearly_more * *settings.budget) {
         notes.push_back(fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of --budget; passes are shorter "
@@ -223,7 +220,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
             report["notes"].push_back(note);
         }
         if (rendered.aimed) {
-            report["aim"] = aim_report(*rendered.aimed, {.error = options.target_error, .seconds = options.settings.budget});
+            report["aim"] = aim_report(*rendered.aimed);
         }
         write_json(options.report, report);
     }

@@ -100,7 +100,8 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
             {"notes", scene.notes}};
 }
 
-Json aim_report(const AimedRender& render, const Aim& aim) {
+Json aim_report(const AimedRender& render) {
+    const Aim& aim = render.aim;
     Json ways = Json::array();
     for (const Prospect& p : render.prospects) {
         ways.push_back({{"method", p.settings.method},

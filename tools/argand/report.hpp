@@ -21,6 +21,6 @@ nlohmann::ordered_json render_report(Device& device, const Scene& scene, const R
                                      const ReportTimes& times);
 
 /// What was asked for, what was picked, what was expected of it and of all else, and what came of it.
-nlohmann::ordered_json aim_report(const AimedRender& render, const Aim& aim);
+nlohmann::ordered_json aim_report(const AimedRender& render);
 
 } // namespace argand

@@ -5,13 +5,13 @@
 #include "base/interrupt.hpp"
 #include "base/progress.hpp"
 #include "base/read_file.hpp"
+#include "method_options.hpp"
 #include "numbers.hpp"
 #include "picture_size.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
 #include "tradeoff/tradeoff.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -32,12 +32,7 @@ struct TradeoffOptions {
 };
 
 void check(const TradeoffOptions& options) {
-    const std::vector<std::string> known = method_names();
-    for (const std::string& method : options.request.methods) {
-        if (std::find(known.begin(), known.end(), method) == known.end()) {
-            throw UsageError(fmt::format("choosing method '{}': choose from {}", method, fmt::join(known, ", ")));
-        }
-    }
+    check_methods(options.request.methods);
     if (options.reference.empty() && !options.second_reference.empty()) {
         throw UsageError("reading --reference-2: it goes with --reference, the other picture of the pair");
     }
