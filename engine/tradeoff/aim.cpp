@@ -20,6 +20,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double share_of_pilots = 0.2;
 constexpr double share_of_refinement = 0.1;
 constexpr double share_of_truth = 0.1;
+// From which on single pixels tell what relMSE divides by; before, a penumbra may be black in one half of the passes.
+constexpr double passes_for_pixels = 16;
 // What sweeps find on the front (docs/results/tradeoff_*.csv): one sample a pass, with photons few or many.
 constexpr std::uint64_t few_photons = 50'000;
 constexpr std::uint64_t many_photons = 200'000;
@@ -103,7 +105,7 @@ public:
         return pilot.has_value();
     }
 
-    const std::optional<Truth>& truth() const { return truth_; }
+    const std::optional<Pair>& truth() const { return truth_; }
 
     bool has(const std::string& method) const { return find(method) != nullptr; }
 
@@ -136,9 +138,10 @@ private:
     /// Adds a pilot of path, whose wide and narrow pictures are alike, to the truth by its samples.
     void add_truth(const Pilot& pilot) {
         const double samples = pilot.settings.samples;
-        const Truth more{mean_of(pilot.wide[0], pilot.narrow[0]), mean_of(pilot.wide[1], pilot.narrow[1])};
-        truth_ = truth_ ? Truth{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
-                                weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}
+        const Pair &a = pilot.estimated_wide, &b = pilot.estimated_narrow;
+        const Pair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
+        truth_ = truth_ ? Pair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
+                               weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}
                         : more;
         truth_samples_ += samples;
     }
@@ -146,7 +149,7 @@ private:
     const RenderPasses& render_;
     const Aim& aim_;
     bool with_path_;
-    std::optional<Truth> truth_;
+    std::optional<Pair> truth_;
     double truth_samples_ = 0, seconds_ = 0;
     std::vector<Pilot> pilots_;
     std::vector<Prospect> prospects_;
@@ -155,7 +158,7 @@ private:
 /// Decides after each pass whether there is another, and measures the noise.
 class Course {
 public:
-    Course(const Aim& aim, const Prospect& prospect, const std::optional<Truth>& truth, double spent)
+    Course(const Aim& aim, const Prospect& prospect, const std::optional<Pair>& truth, double spent)
         : aim_(aim), prospect_(prospect), truth_(truth), budget_(aim.seconds ? std::optional(*aim.seconds - spent) : std::nullopt) {}
 
     std::optional<PassPlan> operator()(const PictureSoFar& so_far) {
@@ -185,21 +188,20 @@ public:
 
 private:
     void measure(const PictureSoFar& so_far) {
-        const Image mean = so_far.layers().front().image;
-        halves_.add(mean);
+        const std::vector<Layer> layers = so_far.layers();
+        halves_.add(layers.front().image);
+        estimated_.add(estimated_light(layers));
         if (!halves_.are_equal()) {
             return;
         }
-        const Image guess = smoothed(mean);
         measured_ = static_cast<double>(so_far.passes);
+        const Pair& means = halves_.means();
+        const Image guess =
+            measured_ < passes_for_pixels ? guess_from({smoothed(means[0]), smoothed(means[1])}) : guess_from(means);
         noise_ = halves_.noise(guess);
         bias_ = bias_after(prospect_.model, measured_);
         if (truth_ && prospect_.settings.method != "path") {
-            // The law that led here from the pilot's widths is no better than this.
-            bias_.error += 0.5 * bias_.value;
-            const Estimate both[] = {bias_, squared_difference(halves_.means(), *truth_, guess)};
-            bias_ = pooled(both);
-            bias_.value = std::max(bias_.value, 0.0);
+            bias_ = bias_of(estimated_.means(), *truth_, bias_share(measured_) * prospect_.model.usual_bias, guess);
         }
     }
 
@@ -215,9 +217,9 @@ private:
 
     const Aim& aim_;
     const Prospect& prospect_;
-    const std::optional<Truth>& truth_;
+    const std::optional<Pair>& truth_;
     Budget budget_;
-    Halves halves_;
+    Halves halves_, estimated_;     ///< of the whole picture, of its estimated light
     std::optional<double> noise_;
     double measured_ = 0;       ///< passes after which it was
     Estimate bias_{0, 0};
@@ -238,11 +240,9 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
     Chosen numbers = chosen;
     numbers.method = false;
     for (const std::string& method : tried_methods) {
-        // Paths tell the bias of the others as well, which an error cannot do without; but for what they cannot find.
-        const bool is_path = method == "path";
-        const bool wanted = is_path ? path_is_true : !chosen.method;
-        const bool needed = is_path && aim.error;
-        if (wanted && !pilots.has(method) && (needed || is_worth(share_of_pilots)) &&
+        // Paths tell the bias of the others as well, but for what they cannot find.
+        const bool wanted = method == "path" ? path_is_true : !chosen.method;
+        if (wanted && !pilots.has(method) && is_worth(share_of_pilots) &&
             !pilots.run(settings_of_pass(base, numbers, method, few_photons))) {
             return false;
         }

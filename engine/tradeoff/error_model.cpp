@@ -10,7 +10,7 @@ double noise_after(const ErrorModel& model, double passes) {
     return (model.fixed + model.density * std::cbrt(passes)) / passes;
 }
 
-double bias_share(double passes) { return std::pow(passes, -0.25); }
+double bias_share(double passes) { return 1 / std::cbrt(passes); }
 
 Estimate bias_after(const ErrorModel& model, double passes) { return scaled(model.bias, bias_share(passes)); }
 

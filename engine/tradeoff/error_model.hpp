@@ -6,13 +6,14 @@ namespace argand {
 
 /// relMSE of a picture of n passes. Widths of estimation shrink as n^(-1/6) (plan/radius.hpp), areas as n^(-1/3), and noise of
 /// density estimation grows with one over the area. Squared bias falls as n^(-2/3) where it goes with the area, on smooth
-/// surfaces; but most of it lies along edges, in bands as wide as the widths: n^(-1/6). Together about n^(-1/4), as measured
+/// surfaces, and as n^(-1/6) along edges, in bands as wide as the widths. Together about n^(-1/3), as measured
 /// (docs/results/targets.md):
-///   E(n) = (fixed + density n^(1/3)) / n + bias n^(-1/4).
+///   E(n) = (fixed + density n^(1/3)) / n + bias n^(-1/3).
 struct ErrorModel {
     double fixed = 0;       ///< variance of one pass that widths do not change: eye paths, direct light
     double density = 0;     ///< variance of one pass at the widths for one pass: photons
     Estimate bias{0, 0};    ///< squared, at the widths for one pass
+    double usual_bias = 0;  ///< what it usually is at this variance
 };
 
 double noise_after(const ErrorModel& model, double passes);

@@ -1,5 +1,6 @@
 #include "tradeoff/pilot.hpp"
 
+#include "image/files.hpp"
 #include "image/mean.hpp"
 #include "image/metrics.hpp"
 
@@ -15,11 +16,16 @@ namespace argand {
 namespace {
 
 constexpr std::uint64_t pilot_passes = 4;
-// Squared bias over the variance of one pass of one sample, at the widths for one pass, in this project's scenes
-// (docs/results/targets.md), up to a factor of about two.
-constexpr double usual_bias = 0.03;
+// Squared bias over the variance of estimated light, of one pass at the widths for one pass, in this project's scenes, and up to
+// what factor (docs/results/targets.md).
+constexpr double usual_bias = 0.17, spread_of_bias = 2.5;
 
-double variance_of(const std::array<Image, 2>& pictures, const Image& guess) { return rel_variance(pictures, guess, guess); }
+double variance_of(const Pair& pictures, const Image& guess) { return rel_variance(pictures, guess, guess); }
+
+/// What the pass after so many others adds to the mean of all.
+Image part_of(const Image& mean, const Image& before, double others) {
+    return others > 0 ? weighted_mean(mean, others + 1, before, -others) : mean;
+}
 
 } // namespace
 
@@ -28,17 +34,19 @@ std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings&
     Pilot pilot{.settings = settings};
     const Clock::time_point start = Clock::now();
     Clock::time_point halfway = start;
-    Image before;
+    Image before, estimated_before;
     std::uint64_t passes = 0;
     const RenderResult result = render(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
         const bool wide_ones = so_far.passes < pilot_passes / 2;
         if (so_far.passes > 0) {
-            const Image mean = so_far.layers().front().image;
+            const std::vector<Layer> layers = so_far.layers();
+            const Image &mean = layers.front().image, estimated = estimated_light(layers);
             const auto done = static_cast<std::size_t>(so_far.passes - 1);
-            Image& picture = (done < 2 ? pilot.wide : pilot.narrow)[done % 2];
             const auto others = static_cast<double>(done);
-            picture = done > 0 ? weighted_mean(mean, others + 1, before, -others) : mean;
+            (done < 2 ? pilot.wide : pilot.narrow)[done % 2] = part_of(mean, before, others);
+            (done < 2 ? pilot.estimated_wide : pilot.estimated_narrow)[done % 2] = part_of(estimated, estimated_before, others);
             before = mean;
+            estimated_before = estimated;
             passes = so_far.passes;
         }
         if (so_far.passes == pilot_passes / 2) {
@@ -63,33 +71,56 @@ Image best_guess(const std::vector<Pilot>& pilots) {
     Image best;
     double least = std::numeric_limits<double>::infinity();
     for (const Pilot& pilot : pilots) {
-        const Image mean = smoothed(mean_of(mean_of(pilot.wide[0], pilot.wide[1]), mean_of(pilot.narrow[0], pilot.narrow[1])));
-        const double variance = variance_of(pilot.narrow, mean);
+        const auto half = [&](std::size_t i) { return smoothed(mean_of(pilot.wide[i], pilot.narrow[i])); };
+        const Image guess = guess_from({half(0), half(1)});
+        const double variance = variance_of(pilot.narrow, guess);
         if (variance < least || best.pixels.empty()) {
             least = variance;
-            best = mean;
+            best = guess;
         }
     }
     return best;
 }
 
-ErrorModel model_of(const Pilot& pilot, const Truth* truth, const Image& guess) {
-    const double wide = variance_of(pilot.wide, guess), narrow = variance_of(pilot.narrow, guess);
+Image estimated_light(std::span<const Layer> layers) {
+    Image estimated = layers.front().image;
+    if (const Image* direct = find_layer(layers, "direct")) {
+        for (std::size_t i = 0; i < estimated.pixels.size(); ++i) {
+            estimated.pixels[i] -= direct->pixels[i];
+        }
+    }
+    return estimated;
+}
+
+ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
+    const double wide = variance_of(pilot.wide, guess);
     if (pilot.settings.method == "path") {
-        return {.fixed = 0.5 * (wide + narrow), .density = 0, .bias = {0, 0}};
+        return {.fixed = 0.5 * (wide + variance_of(pilot.narrow, guess)), .density = 0, .bias = {0, 0}};
     }
-    ErrorModel model = fit_noise(wide, narrow, narrow_passes);
-    const double narrow_share = bias_share(narrow_passes);
-    // Bands along edges lie within each other: what is in the wide ones alone is the difference of the two.
-    const Estimate beyond = scaled(squared_difference(pilot.wide, pilot.narrow, guess), 1 / (1 - narrow_share));
-    std::vector<Estimate> estimates{{usual_bias * wide, usual_bias * wide}, beyond};
+    const double estimated = variance_of(pilot.estimated_wide, guess);
+    const double growth = variance_of(pilot.estimated_narrow, guess) - estimated;
+    ErrorModel model = fit_noise(wide, wide + growth, narrow_passes);
+    const double usual = usual_bias * estimated;
+    // The bias at a narrower width is a share of that at a wide one, and so is their difference.
+    const double narrow_share = bias_share(narrow_passes), lost = 1 - std::sqrt(narrow_share);
+    std::vector<Estimate> estimates;
+    const auto add = [&](const Pair& a, const Pair& b, double scale) {
+        for (const Estimate& estimate : squared_difference(a, b, guess)) {
+            estimates.push_back(scaled(estimate, scale));
+        }
+    };
+    add(pilot.estimated_wide, pilot.estimated_narrow, 1 / (lost * lost));
     if (truth) {
-        estimates.push_back(squared_difference(pilot.wide, *truth, guess));
-        estimates.push_back(scaled(squared_difference(pilot.narrow, *truth, guess), 1 / narrow_share));
+        add(pilot.estimated_wide, *truth, 1);
+        add(pilot.estimated_narrow, *truth, 1 / narrow_share);
     }
-    model.bias = pooled(estimates);
-    model.bias.value = std::max(model.bias.value, 0.0);
+    model.bias = posterior(usual, spread_of_bias, estimates);
+    model.usual_bias = usual;
     return model;
+}
+
+Estimate bias_of(const Pair& estimated, const Pair& truth, double usual, const Image& guess) {
+    return posterior(usual, spread_of_bias, squared_difference(estimated, truth, guess));
 }
 
 } // namespace argand

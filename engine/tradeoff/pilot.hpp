@@ -20,7 +20,8 @@ inline constexpr double narrow_passes = 8;
 /// widths of estimation for one pass, half at those for `narrow_passes`; all are alike if the method has no such widths.
 struct Pilot {
     RenderSettings settings;            ///< of one pass
-    std::array<Image, 2> wide, narrow;  ///< of independent noise
+    Pair wide, narrow;                  ///< whole pictures
+    Pair estimated_wide, estimated_narrow;  ///< of the light in them that is estimated from photons
     double seconds_per_pass = 0;        ///< of the narrow ones
     double seconds = 0;                 ///< that it took
 };
@@ -28,14 +29,17 @@ struct Pilot {
 /// Nothing if it was interrupted.
 std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings);
 
-/// What relMSE divides by, as far as it is known: the least noisy pilot's picture, smoothed.
+/// What relMSE divides by, as far as it is known: guess_from() the least noisy pilot, smoothed.
 Image best_guess(const std::vector<Pilot>& pilots);
 
-/// Two pictures of independent noise without bias.
-using Truth = std::array<Image, 2>;
+/// The light that photon mapping estimates from photons, and the only one that has bias: all but direct light.
+Image estimated_light(std::span<const Layer> layers);
 
-/// The pilot's model. Squared bias from what is usual, from the difference of the two widths, and from the truth, if there
-/// is one (else null), each as far as its noise lets it tell.
-ErrorModel model_of(const Pilot& pilot, const Truth* truth, const Image& guess);
+/// The pilot's model. Squared bias from what is usual, from the difference of the two widths, and from the estimated light
+/// without bias, if it is known (else null), each as far as its noise lets it tell.
+ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess);
+
+/// Squared bias of estimated light from what is usual, and from the same without bias.
+Estimate bias_of(const Pair& estimated, const Pair& truth, double usual, const Image& guess);
 
 } // namespace argand
