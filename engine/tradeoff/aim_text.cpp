@@ -19,11 +19,15 @@ std::string name_of(const RenderSettings& settings) {
                        counted(settings.samples, "sample", "samples"));
 }
 
+std::string error_of(const Prospect& prospect) {
+    return std::isfinite(prospect.error) ? fmt::format("relMSE {:.2g}", prospect.error) : "unknown error, for want of time";
+}
+
 } // namespace
 
 std::string describe_pick(const AimedRender& render) {
     const Prospect& best = render.prospects.front();
-    std::string text = fmt::format("{}: relMSE {:.2g} expected after {} in {:.2g} s", name_of(best.settings), best.error,
+    std::string text = fmt::format("{}: {} expected after {} in {:.2g} s", name_of(best.settings), error_of(best),
                                    counted(best.passes, "pass", "passes"), best.seconds);
     for (std::size_t i = 1; i < render.prospects.size(); ++i) {
         const Prospect& other = render.prospects[i];
@@ -32,15 +36,20 @@ std::string describe_pick(const AimedRender& render) {
                     ? fmt::format("{} photons a pass", other.settings.photons)
                     : other.settings.method;
         const bool by_time = reaches(best, render.aim) && reaches(other, render.aim);
-        text += by_time ? fmt::format(" ({:.2g} s)", other.seconds) : fmt::format(" (relMSE {:.2g})", other.error);
+        text += by_time ? fmt::format(" ({:.2g} s)", other.seconds) : fmt::format(" ({})", error_of(other));
     }
     return text + fmt::format("; pilots took {:.2g} s", render.pilot_seconds);
 }
 
 std::string describe_outcome(const AimedRender& render) {
     const bool missed = render.aim.error && !render.reached;
-    return fmt::format("relMSE about {:.2g}: noise {:.2g}, squared bias {:.2g}{}", render.noise + render.bias, render.noise,
-                       render.bias, missed ? fmt::format("; the {:.2g} asked for is not reached", *render.aim.error) : "");
+    const std::string lacking =
+        missed ? fmt::format("; the {:.2g} asked for is not reached", *render.aim.error) : std::string();
+    if (!render.measured) {
+        return "its error is unknown: it takes two passes to measure noise" + lacking;
+    }
+    return fmt::format("relMSE about {:.2g}: noise {:.2g}, squared bias {:.2g}{}", render.measured->error(),
+                       render.measured->noise, render.measured->bias.value, lacking);
 }
 
 } // namespace argand

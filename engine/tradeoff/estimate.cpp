@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace argand {
@@ -47,29 +48,32 @@ Estimate posterior(double usual, double factor, std::span<const Estimate> estima
     if (!(usual > 0)) {
         return {0, 0};
     }
-    constexpr int steps = 200;
-    constexpr double reach = 4;     // standard deviations
-    std::array<double, 2 * steps + 1> values{}, logs{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const double t = reach * (static_cast<double>(i) - steps) / steps;
-        values[i] = usual * std::pow(factor, t);
-        logs[i] = -0.5 * t * t;
+    constexpr int steps = 1000;
+    constexpr double unusual = 0.05;    // one in twenty
+    const double range = std::log(1e4), deviation = std::log(factor);
+    std::array<double, 2 * steps + 1> shifts{}, logs{};
+    for (std::size_t i = 0; i < shifts.size(); ++i) {
+        shifts[i] = range * (static_cast<double>(i) - steps) / steps;
+        const double t = shifts[i] / deviation;
+        logs[i] = std::log((1 - unusual) * std::exp(-0.5 * t * t) / (deviation * std::sqrt(2 * std::numbers::pi)) +
+                           unusual / (2 * range));
+        const double value = usual * std::exp(shifts[i]);
         for (const Estimate& estimate : estimates) {
-            // One that claims to be exact is not to rule all others out by a rounding.
-            const double off = (values[i] - estimate.value) / std::max(estimate.error, 1e-3 * usual);
+            // One that claims to be exact is not to fall between two steps.
+            const double off = (value - estimate.value) / std::max(estimate.error, 0.01 * value);
             logs[i] -= 0.5 * off * off;
         }
     }
     const double most = *std::max_element(logs.begin(), logs.end());
     double weights = 0, sum = 0, squares = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < shifts.size(); ++i) {
         const double weight = std::exp(logs[i] - most);
         weights += weight;
-        sum += weight * values[i];
-        squares += weight * values[i] * values[i];
+        sum += weight * shifts[i];
+        squares += weight * shifts[i] * shifts[i];
     }
-    const double mean = sum / weights;
-    return {mean, std::sqrt(std::max(squares / weights - mean * mean, 0.0))};
+    const double mean = sum / weights, value = usual * std::exp(mean);
+    return {value, value * std::sqrt(std::max(squares / weights - mean * mean, 0.0))};
 }
 
 std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const Image& reference) {

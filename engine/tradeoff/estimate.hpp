@@ -20,7 +20,8 @@ struct Estimate {
 inline Estimate scaled(const Estimate& estimate, double by) { return {by * estimate.value, by * estimate.error}; }
 
 /// What a positive number is likely to be that usually is `usual`, up to a factor of `factor` (one standard deviation of its
-/// logarithm), after independent estimates of it with normal errors (Bayes).
+/// logarithm), but one time in twenty anything from a 10,000th to 10,000 times it, after independent estimates of it with normal
+/// errors (Bayes): the mean of its logarithm.
 Estimate posterior(double usual, double factor, std::span<const Estimate> estimates);
 
 /// Mean over the pixels of (a[0] − b[0])(a[1] − b[1]), divided as in relMSE by what follows from `reference`: the squared

@@ -5,7 +5,6 @@
 #include "image/metrics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -15,7 +14,6 @@ namespace argand {
 
 namespace {
 
-constexpr std::uint64_t pilot_passes = 4;
 // Squared bias over the variance of estimated light, of one pass at the widths for one pass, in this project's scenes, and up to
 // what factor (docs/results/targets.md).
 constexpr double usual_bias = 0.17, spread_of_bias = 2.5;
@@ -29,40 +27,50 @@ Image part_of(const Image& mean, const Image& before, double others) {
 
 } // namespace
 
-std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings) {
+std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings, double seconds) {
     using Clock = std::chrono::steady_clock;
     Pilot pilot{.settings = settings};
     const Clock::time_point start = Clock::now();
-    Clock::time_point halfway = start;
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    double halfway = 0;
     Image before, estimated_before;
-    std::uint64_t passes = 0;
     const RenderResult result = render(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
-        const bool wide_ones = so_far.passes < pilot_passes / 2;
+        constexpr std::uint64_t half = pilot_passes / 2;
         if (so_far.passes > 0) {
             const std::vector<Layer> layers = so_far.layers();
             const Image &mean = layers.front().image, estimated = estimated_light(layers);
-            const auto done = static_cast<std::size_t>(so_far.passes - 1);
+            const std::uint64_t done = so_far.passes - 1;
             const auto others = static_cast<double>(done);
-            (done < 2 ? pilot.wide : pilot.narrow)[done % 2] = part_of(mean, before, others);
-            (done < 2 ? pilot.estimated_wide : pilot.estimated_narrow)[done % 2] = part_of(estimated, estimated_before, others);
+            (done < half ? pilot.wide : pilot.narrow)[done % 2] = part_of(mean, before, others);
+            (done < half ? pilot.estimated_wide : pilot.estimated_narrow)[done % 2] =
+                part_of(estimated, estimated_before, others);
             before = mean;
             estimated_before = estimated;
-            passes = so_far.passes;
+            pilot.passes = so_far.passes;
         }
-        if (so_far.passes == pilot_passes / 2) {
-            halfway = Clock::now();
+        if (so_far.passes == half) {
+            halfway = elapsed();
         }
-        if (so_far.passes == pilot_passes) {
+        const bool took_too_long = so_far.passes > 0 && so_far.passes <= half && elapsed() > seconds;
+        if (so_far.passes == pilot_passes || took_too_long) {
             return std::nullopt;
         }
-        return PassPlan{.expected = wide_ones ? 1.0 : narrow_passes,
+        return PassPlan{.expected = so_far.passes < half ? 1.0 : narrow_passes,
                         .stream = static_cast<std::uint32_t>(so_far.passes % 2)};
     });
-    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
-    pilot.seconds = seconds(Clock::now() - start);
-    pilot.seconds_per_pass = seconds(Clock::now() - halfway) / static_cast<double>(pilot_passes / 2);
-    if (result.statistics.interrupted || passes < pilot_passes) {
+    pilot.seconds = elapsed();
+    if (result.statistics.interrupted || pilot.passes == 0) {
         return std::nullopt;
+    }
+    const bool is_whole = pilot.passes == pilot_passes;
+    pilot.seconds_per_pass = (pilot.seconds - (is_whole ? halfway : 0)) / static_cast<double>(is_whole ? pilot_passes / 2 : pilot.passes);
+    if (pilot.passes == 1) {
+        pilot.wide[1] = pilot.wide[0];
+        pilot.estimated_wide[1] = pilot.estimated_wide[0];
+    }
+    if (!is_whole) {
+        pilot.narrow = pilot.wide;
+        pilot.estimated_narrow = pilot.estimated_wide;
     }
     return pilot;
 }
@@ -93,6 +101,9 @@ Image estimated_light(std::span<const Layer> layers) {
 }
 
 ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
+    if (pilot.passes < 2) {
+        return {.fixed = std::numeric_limits<double>::infinity()};
+    }
     const double wide = variance_of(pilot.wide, guess);
     if (pilot.settings.method == "path") {
         return {.fixed = 0.5 * (wide + variance_of(pilot.narrow, guess)), .density = 0, .bias = {0, 0}};
@@ -109,10 +120,14 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
             estimates.push_back(scaled(estimate, scale));
         }
     };
-    add(pilot.estimated_wide, pilot.estimated_narrow, 1 / (lost * lost));
+    if (pilot.passes == pilot_passes) {
+        add(pilot.estimated_wide, pilot.estimated_narrow, 1 / (lost * lost));
+    }
     if (truth) {
         add(pilot.estimated_wide, *truth, 1);
-        add(pilot.estimated_narrow, *truth, 1 / narrow_share);
+        if (pilot.passes == pilot_passes) {
+            add(pilot.estimated_narrow, *truth, 1 / narrow_share);
+        }
     }
     model.bias = posterior(usual, spread_of_bias, estimates);
     model.usual_bias = usual;

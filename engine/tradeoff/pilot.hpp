@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,18 +17,23 @@ using RenderPasses = std::function<RenderResult(const RenderSettings& settings, 
 /// Passes for whose widths of estimation a pilot's later pictures are.
 inline constexpr double narrow_passes = 8;
 
+/// Passes of a whole pilot.
+inline constexpr std::uint64_t pilot_passes = 4;
+
 /// A few passes of some settings, to learn what they cost and how far from the truth they are. Half of them are at the
 /// widths of estimation for one pass, half at those for `narrow_passes`; all are alike if the method has no such widths.
 struct Pilot {
     RenderSettings settings;            ///< of one pass
+    std::uint64_t passes = 0;           ///< fewer than all: it took too long; 2: no narrow ones; 1: one picture is all there is
     Pair wide, narrow;                  ///< whole pictures
     Pair estimated_wide, estimated_narrow;  ///< of the light in them that is estimated from photons
     double seconds_per_pass = 0;        ///< of the narrow ones
     double seconds = 0;                 ///< that it took
 };
 
-/// Nothing if it was interrupted.
-std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings);
+/// Ends early once it has taken so many seconds. Nothing if it was interrupted.
+std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings,
+                               double seconds = std::numeric_limits<double>::infinity());
 
 /// What relMSE divides by, as far as it is known: guess_from() the least noisy pilot, smoothed.
 Image best_guess(const std::vector<Pilot>& pilots);
@@ -36,7 +42,7 @@ Image best_guess(const std::vector<Pilot>& pilots);
 Image estimated_light(std::span<const Layer> layers);
 
 /// The pilot's model. Squared bias from what is usual, from the difference of the two widths, and from the estimated light
-/// without bias, if it is known (else null), each as far as its noise lets it tell.
+/// without bias, if it is known (else null), each as far as its noise lets it tell. Infinite variance from one pass.
 ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess);
 
 /// Squared bias of estimated light from what is usual, and from the same without bias.

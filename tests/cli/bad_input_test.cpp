@@ -169,6 +169,8 @@ TEST_F(BadInput, ErrorsThatCannotBeAimedAt) {
     expect_failure(scene + "--target-error 0", usage, "--target-error");
     expect_failure(scene + "--target-error nan", usage, "--target-error");
     expect_failure(scene + "--target-error 0.01 --radius 0.1", usage, "--radius");
+    expect_failure(scene + "--budget 1 --radius 0.1", usage, "--radius");
+    expect_failure(scene + "--target-error 0.01 --method photons --photons 0", usage, "--photons 0");
     expect_failure(scene + "--target-error 0.01 --method footprints --fixed-smoothing", usage, "--fixed-smoothing");
     expect_failure(scene + "--target-error 0.01 --flatness 0.5", usage, "--flatness");
     expect_failure("render '" + asset("ring.glb") + "' --size 8x8 --target-error 0.01 --method path", failure,

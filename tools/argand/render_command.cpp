@@ -84,10 +84,13 @@ void check_aimed(const RenderOptions& options, const CLI::App& command) {
         }
     }
     for (const char* name : {"--radius", "--k", "--fixed-smoothing"}) {
-        if (options.target_error && command.get_option(name)->count() > 0) {
-            throw UsageError(fmt::format("reading {}: with --target-error widths of estimation follow from the error; leave one "
-                                         "of the two out", name));
+        if (command.get_option(name)->count() > 0) {
+            throw UsageError(fmt::format("reading {}: with --target-error, or --budget without --method, widths of estimation "
+                                         "follow from the aim; leave one of the two out", name));
         }
+    }
+    if (command.get_option("--photons")->count() > 0 && options.settings.photons == 0) {
+        throw UsageError("reading --photons 0: without photons the error of indirect light does not fall; leave it out");
     }
 }
 
@@ -206,7 +209,8 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     times.render = seconds_since(rendering);
     const std::vector<std::string> notes = notes_on(options, rendered, times.render);
     if (result.statistics.samples == 0) {
-        fail("rendering '{}': interrupted before the first pass was finished; nothing is written", options.scene);
+        fail("rendering '{}': interrupted {}; nothing is written", options.scene,
+             rendered.aimed && rendered.aimed->prospects.empty() ? "while methods were tried" : "before the first pass was finished");
     }
     const Clock::time_point writing = Clock::now();
     for (const std::string& output : options.outputs) {

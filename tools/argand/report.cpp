@@ -116,8 +116,8 @@ Json aim_report(const AimedRender& render) {
             {"budget", aim.seconds ? Json(*aim.seconds) : Json()},
             {"expected", ways},
             {"pilot_seconds", render.pilot_seconds},
-            {"noise", render.noise},
-            {"squared_bias", render.bias},
+            {"noise", render.measured ? Json(render.measured->noise) : Json()},
+            {"squared_bias", render.measured ? Json(render.measured->bias.value) : Json()},
             {"reached", aim.error ? Json(render.reached) : Json()}};
 }
 

@@ -1,0 +1,32 @@
+#include "tradeoff/prospect.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace argand {
+
+Prospect prospect_of(const Pilot& pilot, const ErrorModel& model, const Aim& aim, double spent) {
+    Prospect p{.settings = pilot.settings, .model = model, .seconds_per_pass = pilot.seconds_per_pass};
+    const double each = std::max(pilot.seconds_per_pass, 1e-6);
+    // Noise is measured from two passes at least.
+    const double wanted = aim.error ? std::max(std::ceil(passes_for(model, *aim.error)), 2.0) : 1e9;
+    const double possible = aim.seconds ? std::max(std::floor((*aim.seconds - spent) / each), 1.0) : 1e9;
+    p.passes = std::min(wanted, possible);
+    p.seconds = p.passes * each;
+    p.error = error_after(model, p.passes);
+    return p;
+}
+
+bool reaches(const Prospect& prospect, const Aim& aim) {
+    // passes_for() is exact to a thousandth.
+    return aim.error && prospect.error <= 1.01 * *aim.error;
+}
+
+bool is_better(const Prospect& a, const Prospect& b, const Aim& aim) {
+    if (reaches(a, aim) != reaches(b, aim)) {
+        return reaches(a, aim);
+    }
+    return reaches(a, aim) ? a.seconds < b.seconds : a.error < b.error;
+}
+
+} // namespace argand
