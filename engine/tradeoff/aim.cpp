@@ -20,9 +20,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double share_of_pilots = 0.2;
 constexpr double share_of_refinement = 0.1;
 constexpr double share_of_truth = 0.1;
-// What sweeps find on the front (docs/results/tradeoff_*.csv): one sample a pass, with photons few or many.
+// What sweeps find on the front (docs/results/tradeoff_*.csv): few samples a pass, with photons few or many. What makes more of
+// the noise is tried with more.
 constexpr std::uint64_t few_photons = 50'000;
 constexpr std::uint64_t many_photons = 200'000;
+constexpr std::uint32_t many_samples = 4;
 const std::vector<std::string> tried_methods{"photons", "path", "footprints"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -60,14 +62,19 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
             return false;
         }
     }
-    if (!chosen.photons && best().settings.method != "path" && is_worth(share_of_refinement)) {
-        RenderSettings many = best().settings;
-        many.photons = many.photons_per_pass = many_photons;
-        if (!pilots.run(many)) {
-            return false;
-        }
+    const ErrorModel& model = best().model;
+    const bool eye_paths_rule = model.fixed + model.density > 2 * model.estimated;
+    const bool is_chosen = eye_paths_rule ? chosen.samples : chosen.photons;
+    if (best().settings.method == "path" || is_chosen || !is_worth(share_of_refinement)) {
+        return true;
     }
-    return true;
+    RenderSettings more = best().settings;
+    if (eye_paths_rule) {
+        more.samples = many_samples;
+    } else {
+        more.photons = more.photons_per_pass = many_photons;
+    }
+    return pilots.run(more);
 }
 
 } // namespace

@@ -11,12 +11,9 @@ std::string counted(double count, const char* one, const char* many) {
     return fmt::format("{:L} {}", std::round(count), count < 1.5 ? one : many);
 }
 
-std::string name_of(const RenderSettings& settings) {
-    if (settings.method == "path") {
-        return fmt::format("path, {} a pixel in a pass", counted(settings.samples, "sample", "samples"));
-    }
-    return fmt::format("{}, {} photons and {} a pixel in a pass", settings.method, settings.photons,
-                       counted(settings.samples, "sample", "samples"));
+std::string numbers_of(const RenderSettings& settings) {
+    const std::string photons = settings.method == "path" ? "" : fmt::format("{} photons and ", settings.photons);
+    return fmt::format("{}{} a pixel in a pass", photons, counted(settings.samples, "sample", "samples"));
 }
 
 std::string error_of(const Prospect& prospect) {
@@ -27,14 +24,12 @@ std::string error_of(const Prospect& prospect) {
 
 std::string describe_pick(const AimedRender& render) {
     const Prospect& best = render.prospects.front();
-    std::string text = fmt::format("{}: {} expected after {} in {:.2g} s", name_of(best.settings), error_of(best),
+    std::string text = fmt::format("{}, {}: {} expected after {} in {:.2g} s", best.settings.method, numbers_of(best.settings), error_of(best),
                                    counted(best.passes, "pass", "passes"), best.seconds);
     for (std::size_t i = 1; i < render.prospects.size(); ++i) {
         const Prospect& other = render.prospects[i];
         text += i == 1 ? "; not " : ", ";
-        text += other.settings.method == best.settings.method
-                    ? fmt::format("{} photons a pass", other.settings.photons)
-                    : other.settings.method;
+        text += other.settings.method == best.settings.method ? numbers_of(other.settings) : other.settings.method;
         const bool by_time = reaches(best, render.aim) && reaches(other, render.aim);
         text += by_time ? fmt::format(" ({:.2g} s)", other.seconds) : fmt::format(" ({})", error_of(other));
     }

@@ -1,7 +1,7 @@
 #include "tradeoff/course.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace argand {
 
@@ -9,7 +9,7 @@ namespace {
 
 // From which on single pixels tell what relMSE divides by; before, a penumbra may be black in one half of the passes.
 constexpr double passes_for_pixels = 16;
-constexpr double unlimited = 1e9;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -54,7 +54,7 @@ void Course::measure(const PictureSoFar& so_far) {
     const bool by_truth = truth_ && prospect_.settings.method != "path";
     measured_ = {.passes = passes,
                  .noise = halves_.noise(guess),
-                 .bias = by_truth ? bias_of(estimated_.means(), *truth_, bias_share(passes) * prospect_.model.usual_bias, guess)
+                 .bias = by_truth ? bias_of(estimated_.means(), prospect_.model, passes, *truth_, guess)
                                   : bias_after(prospect_.model, passes)};
 }
 

@@ -13,7 +13,7 @@ struct ErrorModel {
     double fixed = 0;       ///< variance of one pass that widths do not change: eye paths, direct light
     double density = 0;     ///< variance of one pass at the widths for one pass: photons
     Estimate bias{0, 0};    ///< squared, at the widths for one pass
-    double usual_bias = 0;  ///< what it usually is at this variance
+    double estimated = 0;   ///< part of the variance of one pass, at the widths for one, that is in estimated light
 };
 
 double noise_after(const ErrorModel& model, double passes);

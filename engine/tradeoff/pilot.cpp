@@ -111,7 +111,6 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
     const double estimated = variance_of(pilot.estimated_wide, guess);
     const double growth = variance_of(pilot.estimated_narrow, guess) - estimated;
     ErrorModel model = fit_noise(wide, wide + growth, narrow_passes);
-    const double usual = usual_bias * estimated;
     // The bias at a narrower width is a share of that at a wide one, and so is their difference.
     const double narrow_share = bias_share(narrow_passes), lost = 1 - std::sqrt(narrow_share);
     std::vector<Estimate> estimates;
@@ -129,13 +128,14 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
             add(pilot.estimated_narrow, *truth, 1 / narrow_share);
         }
     }
-    model.bias = posterior(usual, spread_of_bias, estimates);
-    model.usual_bias = usual;
+    model.bias = posterior(usual_bias * estimated, spread_of_bias, estimates);
+    model.estimated = estimated;
     return model;
 }
 
-Estimate bias_of(const Pair& estimated, const Pair& truth, double usual, const Image& guess) {
-    return posterior(usual, spread_of_bias, squared_difference(estimated, truth, guess));
+Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth, const Image& guess) {
+    return posterior(usual_bias * model.estimated * bias_share(passes), spread_of_bias,
+                     squared_difference(estimated, truth, guess));
 }
 
 } // namespace argand

@@ -45,7 +45,7 @@ Image estimated_light(std::span<const Layer> layers);
 /// without bias, if it is known (else null), each as far as its noise lets it tell. Infinite variance from one pass.
 ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess);
 
-/// Squared bias of estimated light from what is usual, and from the same without bias.
-Estimate bias_of(const Pair& estimated, const Pair& truth, double usual, const Image& guess);
+/// Squared bias of estimated light after so many passes: from what is usual, and from the same light without bias.
+Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth, const Image& guess);
 
 } // namespace argand

@@ -20,6 +20,7 @@ using testing::true_radiance;
 /// ErrorModel says, and take longer.
 class FakePasses {
 public:
+    double direct_deviation = 0;        // of a layer `direct`, with no bias, beside what is estimated
     double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
     double path_seconds = 0.002, map_seconds = 0.004;
     std::uint64_t interrupted_after = 1'000'000;
@@ -28,9 +29,10 @@ public:
         return [this](const RenderSettings& settings, const OnPass& on_pass) {
             const bool is_path = settings.method == "path";
             RenderResult result;
-            result.layers = {{"", Image{settings.width, settings.height, {}}}};
-            Image& mean = result.layers[0].image;
-            mean.pixels.resize(static_cast<std::size_t>(settings.width * settings.height));
+            const auto pixels = static_cast<std::size_t>(settings.width * settings.height);
+            const Image black{settings.width, settings.height, std::vector<glm::vec3>(pixels, glm::vec3(0))};
+            result.layers = {{"", black}, {"direct", black}};
+            Image &mean = result.layers[0].image, &direct = result.layers[1].image;
             std::uint64_t done = 0;
             const auto layers = [&] { return result.layers; };
             while (const std::optional<PassPlan> plan = on_pass({done, layers})) {
@@ -39,8 +41,11 @@ public:
                 const double deviation = (is_path ? path_deviation : map_deviation) / std::sqrt(settings.samples);
                 const Image pass = noisy(settings.width, settings.height, bias, deviation, ++seed_);
                 ++done;
+                const Image lamps = noisy(settings.width, settings.height, -true_radiance,
+                                          direct_deviation / std::sqrt(settings.samples), seed_ + 1'000'000);
                 for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-                    mean.pixels[i] += (pass.pixels[i] - mean.pixels[i]) / static_cast<float>(done);
+                    mean.pixels[i] += (pass.pixels[i] + lamps.pixels[i] - mean.pixels[i]) / static_cast<float>(done);
+                    direct.pixels[i] += (lamps.pixels[i] - direct.pixels[i]) / static_cast<float>(done);
                 }
                 std::this_thread::sleep_for(
                     std::chrono::duration<double>(settings.samples * (is_path ? path_seconds : map_seconds)));
@@ -197,6 +202,24 @@ TEST(Aim, InterruptedRenderSaysWhatItKnows) {
     EXPECT_EQ(aimed.result.statistics.passes, 1u);
     EXPECT_FALSE(aimed.measured);
     EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("error is unknown"));
+}
+
+TEST(Aim, WhatMakesTheNoiseIsTriedWithMore) {
+    FakePasses fake;
+    const auto second = [&] {
+        const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 1});
+        std::set<std::pair<std::uint64_t, std::uint32_t>> numbers;
+        for (const Prospect& p : aimed.prospects) {
+            if (p.settings.method != "path") {
+                numbers.emplace(p.settings.photons, p.settings.samples);
+            }
+        }
+        return numbers;
+    };
+    EXPECT_TRUE(second().contains({200'000, 1}));
+    fake.direct_deviation = 1;
+    fake.path_deviation = 5;
+    EXPECT_TRUE(second().contains({50'000, 4}));
 }
 
 TEST(Aim, FinalGatherIsNotLeftOutForPaths) {
