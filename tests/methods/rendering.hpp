@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace argand::testing {
 
@@ -103,8 +104,19 @@ private:
 /// The same for every method.
 class EveryMethod : public RenderTest, public ::testing::WithParamInterface<std::string> {};
 
+inline bool is_quick(const std::string& method) { return method == "footprints" || method == "path"; }
+
+inline std::vector<std::string> methods_that(bool quick) {
+    std::vector<std::string> names = method_names();
+    std::erase_if(names, [&](const std::string& name) { return is_quick(name) != quick; });
+    return names;
+}
+
+// One method with a photon map and the one without are for quick tests, all others for slow ones.
 #define INSTANTIATE_METHODS(suite)                                                                                     \
-    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(method_names()),                                      \
+    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(methods_that(true)),                                  \
+                             [](const auto& method) { return method.param; });                                         \
+    INSTANTIATE_TEST_SUITE_P(SlowMethods, suite, ::testing::ValuesIn(methods_that(false)),                             \
                              [](const auto& method) { return method.param; })
 
 } // namespace argand::testing
