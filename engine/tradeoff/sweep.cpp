@@ -184,7 +184,11 @@ std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base, const
                            const LearntWidths& learnt, Extent extent) {
     const SceneUse use = use_of(scene, base);
     std::vector<Setting> all;
+    std::set<std::string> seen;
     for (const std::string& method : methods) {
+        if (!seen.insert(method).second) {
+            continue;
+        }
         RenderSettings of_method = base;
         of_method.method = method;
         const auto found = learnt.find(method);

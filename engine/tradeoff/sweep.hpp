@@ -31,7 +31,7 @@ struct SceneUse {
 };
 SceneUse use_of(const Scene& scene, const RenderSettings& base);
 
-/// Every method with its numbers of photons and samples, and each other knob of it one at a time around `base`. What
+/// Every method, once, with its numbers of photons and samples, and each other knob of it one at a time around `base`. What
 /// cannot change anything is left out: knobs that the method does not have, those of photons where nothing asks for
 /// them, of caustics where no lobe is followed, and values that are the base's own.
 std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base, const std::vector<std::string>& methods,

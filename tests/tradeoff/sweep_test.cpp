@@ -88,6 +88,15 @@ TEST(Sweep, WithoutPhotonsTheirTreatmentIsNoMatter) {
               (std::set<std::string>{"default", "spp", "photons", "bounces"}));
 }
 
+TEST(Sweep, AMethodThatIsNamedTwiceCountsOnce) {
+    const Scene scene = asset("cornell_area.glb");
+    const auto count = [&](const std::vector<std::string>& methods) {
+        return sweep(scene, {}, methods, learnt(), Extent::quick).size();
+    };
+    EXPECT_EQ(count({"path", "path"}), count({"path"}));
+    EXPECT_EQ(count({"path", "knn", "path"}), count({"path", "knn"}));
+}
+
 TEST(Sweep, QuickTurnsLess) {
     const Scene scene = asset("cornell_area.glb");
     EXPECT_EQ(knobs(scene, "knn", Extent::quick), (std::set<std::string>{"default", "spp", "photons", "radius", "k"}));
