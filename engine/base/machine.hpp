@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace argand {
@@ -10,5 +11,8 @@ std::uint64_t physical_memory();
 
 /// What the machine's processor calls itself, or "processor".
 std::string processor_name();
+
+/// The program that runs: its executable file.
+std::filesystem::path program_file();
 
 } // namespace argand

@@ -3,6 +3,7 @@
 #include "backend_options.hpp"
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
+#include "base/machine.hpp"
 #include "base/progress.hpp"
 #include "base/read_file.hpp"
 #include "method_options.hpp"
@@ -49,6 +50,12 @@ void summarise(const Results& results, const std::filesystem::path& folder) {
                results.measurements.size());
 }
 
+/// Tells builds of the program apart, of which each may compute something else.
+std::string build_name() {
+    const std::vector<std::uint8_t> program = read_file(program_file());
+    return fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(program))));
+}
+
 void run(TradeoffOptions& options) {
     TradeoffRequest& request = options.request;
     const PictureSize size = parse_picture_size(options.size);
@@ -72,6 +79,7 @@ void run(TradeoffOptions& options) {
     request.run = {{"scene", scene.name},
                    {"contents", fmt::format("{:016x}", contents)},
                    {"argand", ARGAND_VERSION},
+                   {"build", build_name()},
                    {"backend", device.backend},
                    {"device", device.name},
                    {"driver", device.driver}};
