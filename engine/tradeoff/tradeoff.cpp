@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/ranges.h>
+#include <new>
 #include <numeric>
 #include <set>
 
@@ -54,7 +56,36 @@ void save(const fs::path& folder, const Results& results) {
     write_json(results_file(folder), to_json(results));
 }
 
-/// What each method chooses for the base by itself; false if it was interrupted.
+/// Trials that tell of the host's want of memory as of the device's.
+RenderTrials without_bad_alloc(const RenderTrials& render) {
+    return [&render](const RenderSettings& settings, std::span<const std::uint32_t> seeds) {
+        try {
+            return render(settings, seeds);
+        } catch (const std::bad_alloc&) {
+            fail("rendering with {}: the machine is out of memory", command_options(settings));
+        }
+    };
+}
+
+/// Whether a render was finished.
+enum class Outcome { rendered, failed, interrupted };
+
+/// One render of a setting, whose picture is to be had without counting as measured: where it fails, for want of memory
+/// say, other settings can be measured all the same.
+Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Trial& trial) {
+    try {
+        std::optional<Trials> pilot = render(settings, pilot_seed);
+        if (!pilot) {
+            return Outcome::interrupted;
+        }
+        trial = std::move(pilot->trials[0]);
+        return Outcome::rendered;
+    } catch (const Error&) {
+        return Outcome::failed;
+    }
+}
+
+/// What each method chooses for the base by itself, if it can be rendered; false if it was interrupted.
 bool learn_widths(const TradeoffRequest& request, const RenderTrials& render, LearntWidths& learnt) {
     for (const std::string& method : request.methods) {
         if (method == "path" || learnt.contains(method)) {
@@ -62,33 +93,42 @@ bool learn_widths(const TradeoffRequest& request, const RenderTrials& render, Le
         }
         RenderSettings settings = request.base;
         settings.method = method;
-        const std::optional<Trials> pilot = render(settings, pilot_seed);
-        if (!pilot) {
+        Trial pilot;
+        const Outcome outcome = try_pilot(render, settings, pilot);
+        if (outcome == Outcome::interrupted) {
             return false;
         }
-        learnt[method] = pilot->trials[0].statistics;
+        if (outcome == Outcome::rendered) {
+            learnt[method] = pilot.statistics;
+        }
     }
     return true;
 }
 
-/// Of each method, a picture of the setting that takes the most photons and samples: about the least errors that there
-/// are going to be. Nothing if it was interrupted.
+/// A setting for each number of photons and samples, the most first.
+using ByWork = std::map<std::pair<std::uint64_t, std::uint64_t>, RenderSettings, std::greater<>>;
+
+/// Of each method, a picture of the setting that takes the most photons and samples and can be rendered: about the least
+/// errors that there are going to be. Nothing if it was interrupted.
 std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& settings, const RenderTrials& render) {
-    std::map<std::string, RenderSettings> largest;
+    std::map<std::string, ByWork> methods;
     for (const Setting& setting : settings) {
-        const auto work = [](const RenderSettings& s) { return std::pair(s.photons, s.samples); };
-        const auto [known, is_new] = largest.try_emplace(setting.render.method, setting.render);
-        if (!is_new && work(known->second) < work(setting.render)) {
-            known->second = setting.render;
-        }
+        const RenderSettings& s = setting.render;
+        methods[s.method].try_emplace({s.photons, s.samples}, s);
     }
     std::vector<Image> pictures;
-    for (const auto& [method, render_settings] : largest) {
-        const std::optional<Trials> pilot = render(render_settings, pilot_seed);
-        if (!pilot) {
-            return std::nullopt;
+    for (const auto& [method, by_work] : methods) {
+        for (const auto& [work, render_settings] : by_work) {
+            Trial pilot;
+            const Outcome outcome = try_pilot(render, render_settings, pilot);
+            if (outcome == Outcome::interrupted) {
+                return std::nullopt;
+            }
+            if (outcome == Outcome::rendered) {
+                pictures.push_back(std::move(pilot.picture));
+                break;
+            }
         }
-        pictures.push_back(pilot->trials[0].picture);
     }
     return pictures;
 }
@@ -157,12 +197,14 @@ std::vector<Setting> not_measured(const std::vector<Setting>& settings, const Re
 
 } // namespace
 
-Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, const RenderTrials& render,
+Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, const RenderTrials& trials,
                          const OnStep& on_step) {
+    const RenderTrials render = without_bad_alloc(trials);
     const nlohmann::ordered_json run = run_of(request);
-    std::optional<Results> before = results_before(request, run);
+    const std::optional<Results> before = results_before(request, run);
     std::optional<Reference> reference;
-    if (before) {
+    const bool is_kept = before && fs::exists(reference_file(request.folder));
+    if (is_kept) {
         reference = reread_reference(reference_file(request.folder));
     } else if (!request.reference_files.empty()) {
         reference = read_reference(request.reference_files, request.base.width, request.base.height);
