@@ -102,11 +102,16 @@ void write_reference(const std::filesystem::path& file, const Reference& referen
 }
 
 Reference reread_reference(const std::filesystem::path& file) {
-    const std::vector<Layer> layers = read_exr(file);
+    std::vector<Layer> layers;
+    try {
+        layers = read_exr(file);
+    } catch (const Error& error) {
+        fail("{}; remove it, and it is made again", error.what());
+    }
     const Image* a = find_layer(layers, "a");
     const Image* b = find_layer(layers, "b");
     if (!a || !b) {
-        fail("reading the reference '{}': it is not of a sweep; remove it", file.string());
+        fail("reading the reference '{}': it is not of a sweep; remove it, and it is made again", file.string());
     }
     return {.a = *a, .b = *b};
 }

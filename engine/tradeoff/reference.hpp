@@ -32,7 +32,7 @@ std::optional<Reference> render_reference(const RenderTrials& render, const Rend
 /// sizes differ.
 Reference read_reference(const std::vector<std::filesystem::path>& files, int width, int height);
 
-/// Keeps a pair in one OpenEXR file, and finds it again.
+/// Keeps a pair in one OpenEXR file, and finds it again. Error, which says that it may be removed, if it is not one.
 void write_reference(const std::filesystem::path& file, const Reference& reference);
 Reference reread_reference(const std::filesystem::path& file);
 

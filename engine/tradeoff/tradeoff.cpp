@@ -5,6 +5,7 @@
 #include "base/fingerprint.hpp"
 #include "base/json.hpp"
 #include "base/read_file.hpp"
+#include "base/text.hpp"
 #include "image/exr.hpp"
 #include "tradeoff/page.hpp"
 #include "tradeoff/parameters.hpp"
@@ -41,9 +42,6 @@ nlohmann::ordered_json run_of(const TradeoffRequest& request) {
     run["height"] = request.base.height;
     run["camera"] = request.base.camera;
     run["seeds"] = request.seeds;
-    if (request.reference_files.empty()) {
-        run["reference_seconds"] = request.reference_seconds;
-    }
     for (const fs::path& file : request.reference_files) {
         const std::vector<std::uint8_t> bytes = read_file(file);
         run["references"].push_back(fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes)))));
@@ -167,6 +165,25 @@ bool measure_setting(const TradeoffRequest& request, const Setting& setting, con
     return true;
 }
 
+/// What is not the same in two runs, with both values.
+std::string differences(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now) {
+    const auto value = [](const nlohmann::ordered_json& run, const std::string& key) {
+        if (!run.contains(key)) {
+            return std::string("none");
+        }
+        return run.at(key).is_string() ? one_line(run.at(key).get<std::string>()) : run.at(key).dump();
+    };
+    nlohmann::ordered_json keys = before;
+    keys.update(now);
+    std::vector<std::string> texts;
+    for (const auto& [key, any] : keys.items()) {
+        if (value(before, key) != value(now, key)) {
+            texts.push_back(fmt::format("{} ({}, now {})", key, value(before, key), value(now, key)));
+        }
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 /// The results so far, which are those of the same run. Nothing if there are none.
 std::optional<Results> results_before(const TradeoffRequest& request, const nlohmann::ordered_json& run) {
     const fs::path file = results_file(request.folder);
@@ -175,8 +192,8 @@ std::optional<Results> results_before(const TradeoffRequest& request, const nloh
     }
     Results results = read_results(file);
     if (results.run != run) {
-        fail("going on with '{}': it is of another scene, size, device, reference or number of seeds; name another folder, "
-             "or remove it", file.string());
+        fail("going on with '{}': it is of another {}; remove the folder, or name another with -o", file.string(),
+             differences(results.run, run));
     }
     std::erase_if(results.measurements,
                   [&](const Measurement& m) { return !fs::exists(request.folder / m.picture); });
@@ -224,7 +241,7 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, con
     if (!reference) {
         return results;
     }
-    if (!before) {
+    if (!is_kept) {
         write_reference(reference_file(request.folder), *reference);
         results.reference_samples = reference->samples;
         results.reference_error = reference->own_error;

@@ -10,7 +10,7 @@ namespace argand {
 
 /// What is to be measured, and where it is kept.
 struct TradeoffRequest {
-    nlohmann::ordered_json run;             ///< see Results; size, seeds and reference are added to it
+    nlohmann::ordered_json run;             ///< see Results; size, seeds and given references are added
     RenderSettings base;                    ///< around which knobs are turned
     std::vector<std::string> methods;
     Extent extent = Extent::full;
@@ -25,7 +25,8 @@ using OnStep = std::function<void(std::string_view work, double done)>;
 
 /// Measures what is not measured yet, and keeps `tradeoff.json`, `tradeoff.csv`, the reference and a picture of each
 /// setting in the folder, after each setting. Then, or if `render` was interrupted, draws `tradeoff.html` and
-/// `tradeoff.png`; Results::complete tells which. Error if the folder holds results of another run.
+/// `tradeoff.png`; Results::complete tells which. A reference that is no
+/// longer in the folder is made again. Error, which says what differs, if the folder holds results of another run.
 Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, const RenderTrials& render,
                          const OnStep& on_step);
 

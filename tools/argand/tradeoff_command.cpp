@@ -128,7 +128,7 @@ void add_tradeoff_command(CLI::App& app) {
                         "Another one with independent noise, so that the noise of neither counts as error");
     command
         ->add_option("--reference-seconds", request.reference_seconds,
-                     "Time for rendering the reference, at most about so long")
+                     "Time for rendering the reference, at most about so long; one that is there stays")
         ->capture_default_str()
         ->check(number_between(0, 1e7));
     command->add_option("--methods", request.methods, fmt::format("{}", fmt::join(method_names(), ",")))->delimiter(',');
