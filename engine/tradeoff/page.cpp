@@ -108,14 +108,16 @@ std::string about(const Results& results) {
 
 void draw_results(const std::filesystem::path& folder, const Results& results, const Reference& reference) {
     const Plot plot = lay_out(results);
-    const std::vector<std::size_t> front = front_of(results.measurements);
+    const std::vector<std::size_t> front = front_of(results);
     write_png(folder / "tradeoff.png", to_image(plot));
     const std::string html =
         fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Error against time</title>\n"
                     "<style>\n{}</style></head><body>\n<h1>Error against time</h1>\n"
                     "<p>Each point is one setting of <code>argand render</code>: to the left is quicker, below is more "
                     "exact. What lies on the Pareto front is outlined: nothing measured is both quicker and more exact. "
-                    "Point at it to see what it is.</p>\n{}{}"
+                    "Point at it to see what it is. The bar at a point is ± the standard deviation of one seed. Below the "
+                    "orange line errors are less than the reference's own: points there are about as exact as it, and which "
+                    "of them is best cannot be told; those at the lower edge may be anywhere below.</p>\n{}{}"
                     "<h2>On the front</h2>\n<p>The picture, and its error: red where it is too bright, blue where it is too "
                     "dark, black where it is right.</p>\n{}<h2>All settings</h2>\n{}</body></html>\n",
                     style, to_svg(plot), about(results), front_pictures(folder, results, front, reference),

@@ -1,3 +1,4 @@
+#include "base/text.hpp"
 #include "tradeoff/plot.hpp"
 
 #include <algorithm>
@@ -8,8 +9,8 @@ namespace argand {
 
 namespace {
 
-constexpr double left = 90, right = 170, top = 50, bottom = 70;     // margins
-constexpr std::uint32_t black = 0x222222, grid = 0xdddddd, front_color = 0x666666;
+constexpr double left = 90, right = 170, top = 70, bottom = 70;     // margins
+constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, front_color = 0x666666, noise_color = 0xc04000;
 
 /// Colours that stay apart to colour-blind eyes (Okabe and Ito 2008, "Color Universal Design").
 constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0xd55e00, 0x56b4e9, 0xf0e442};
@@ -34,17 +35,37 @@ struct Frame {
     }
 };
 
-/// Whether it has a place: errors that are not above 0 have no logarithm, and rounding alone leaves more than this.
+/// Whether it has a place.
 bool can_be_drawn(const Measurement& m) {
-    constexpr double least = 1e-30;
-    return std::isfinite(m.rel_mse.mean) && m.rel_mse.mean > least && m.wall_seconds > least;
+    constexpr double least_seconds = 1e-30;
+    return std::isfinite(m.rel_mse.mean) && m.wall_seconds > least_seconds;
 }
 
-std::string title_of(const Measurement& m) {
+bool is_clamped(const Results& results, const Measurement& m) { return m.rel_mse.mean < results.least_error; }
+
+bool any_clamped(const Results& results) {
+    return std::any_of(results.measurements.begin(), results.measurements.end(),
+                       [&](const Measurement& m) { return can_be_drawn(m) && is_clamped(results, m); });
+}
+
+/// Where errors begin to be about as small as what they are measured with; nothing if no error comes near that.
+std::optional<double> noise_level(const Results& results) {
+    if (results.reference_error && *results.reference_error > results.least_error) {
+        return results.reference_error;
+    }
+    return any_clamped(results) ? std::optional(results.least_error) : std::nullopt;
+}
+
+std::string title_of(const Results& results, const Measurement& m) {
     std::string title = m.knob == "default" ? m.method + ", default" : fmt::format("{}, {} {}", m.method, m.knob, m.value);
     title += fmt::format("\n{:.3g} s, relMSE {:.3g} ± {:.1g}", m.wall_seconds, m.rel_mse.mean, m.rel_mse.deviation);
     if (m.bias) {
         title += fmt::format("\nsquared bias {:.2g}, variance {:.2g}", *m.bias, *m.variance);
+    }
+    if (is_clamped(results, m)) {
+        title += "\nno error that could be told from none: it counts as " + fmt::format("{:.2g}", results.least_error);
+    } else if (results.reference_error && m.rel_mse.mean < *results.reference_error) {
+        title += "\nless than the reference's own error: uncertain";
     }
     return title + "\n" + m.options;
 }
@@ -69,6 +90,51 @@ void add_axes(Plot& plot, const Frame& frame) {
     plot.labels.push_back({{16, end.y - 26}, Align::left, "error (relMSE)", black});
 }
 
+/// What it is of, and which way is better.
+void add_title(Plot& plot, const Results& results) {
+    constexpr std::size_t longest_name = 40;    // that there is room for
+    std::string title = "Error against time";
+    if (results.run.contains("scene")) {
+        title = one_line(results.run.at("scene").get<std::string>(), longest_name) + ": error against time";
+    }
+    const double middle = 0.5 * (left + plot.width - right);
+    plot.labels.push_back({{middle, 18}, PlotLabel::Align::middle, title, black});
+    plot.labels.push_back({{middle, 42}, PlotLabel::Align::middle,
+                           "better is down (more exact) and to the left (quicker)", gray});
+}
+
+void add_noise(Plot& plot, const Results& results, const Frame& frame) {
+    if (const std::optional<double> level = noise_level(results)) {
+        const Place from = frame.at(frame.x.low, *level);
+        plot.lines.push_back({from, frame.at(frame.x.high, *level), noise_color, 1.5});
+        // The lower left is empty: what would be there would be the best of all.
+        const bool is_noise = *level > results.least_error;
+        plot.labels.push_back({{from.x + 8, from.y + (is_noise ? 12 : -12)}, PlotLabel::Align::left,
+                               is_noise ? "below: within the reference's noise" : "on this line: no error found", noise_color});
+    }
+}
+
+/// Half as strong.
+std::uint32_t pale(std::uint32_t color) { return ((color >> 1) & 0x7f7f7f) + 0x808080; }
+
+void add_bars(Plot& plot, const Results& results, const Frame& frame) {
+    constexpr double cap = 3;
+    for (const Measurement& m : results.measurements) {
+        const double deviation = m.rel_mse.deviation;
+        if (!can_be_drawn(m) || !(deviation > 0 && std::isfinite(deviation))) {
+            continue;
+        }
+        const double error = counted_error(results, m);
+        const Place high = frame.at(m.wall_seconds, error + deviation);
+        const Place low = frame.at(m.wall_seconds, std::max(error - deviation, frame.y.low));
+        const std::uint32_t color = pale(color_of(m.method));
+        plot.lines.push_back({low, high, color, 1});
+        for (const Place& end : {low, high}) {
+            plot.lines.push_back({{end.x - cap, end.y}, {end.x + cap, end.y}, color, 1});
+        }
+    }
+}
+
 void add_legend(Plot& plot, const Results& results) {
     double y = top + 10;
     const double x = plot.width - right + 24;
@@ -90,6 +156,13 @@ void add_front(Plot& plot, const std::vector<Place>& front) {
         plot.lines.push_back({front[i - 1], corner, front_color, 2});
         plot.lines.push_back({corner, front[i], front_color, 2});
     }
+}
+
+/// The axis from a number within on.
+LogAxis cut_below(LogAxis axis, double low) {
+    axis.low = low;
+    std::erase_if(axis.ticks, [&](double tick) { return tick < low; });
+    return axis;
 }
 
 } // namespace
@@ -127,25 +200,38 @@ Plot lay_out(const Results& results) {
     for (const Measurement& m : results.measurements) {
         if (can_be_drawn(m)) {
             times.push_back(m.wall_seconds);
-            errors.push_back(m.rel_mse.mean);
+            errors.push_back(counted_error(results, m));
+            if (std::isfinite(m.rel_mse.deviation)) {
+                errors.push_back(errors.back() + m.rel_mse.deviation);
+            }
         }
     }
-    const Frame frame{log_axis(times), log_axis(errors), static_cast<double>(plot.width), static_cast<double>(plot.height)};
+    if (const std::optional<double> level = noise_level(results); level && !errors.empty()) {
+        errors.push_back(*level);
+    }
+    LogAxis y = log_axis(errors);
+    if (any_clamped(results)) {
+        y = cut_below(y, results.least_error);
+    }
+    const Frame frame{log_axis(times), y, static_cast<double>(plot.width), static_cast<double>(plot.height)};
     add_axes(plot, frame);
-    const std::vector<std::size_t> front = front_of(results.measurements);
+    add_title(plot, results);
+    add_noise(plot, results, frame);
+    add_bars(plot, results, frame);
+    const std::vector<std::size_t> front = front_of(results);
     std::vector<Place> steps;
     for (const std::size_t i : front) {
         const Measurement& m = results.measurements[i];
         if (can_be_drawn(m)) {
-            steps.push_back(frame.at(m.wall_seconds, m.rel_mse.mean));
+            steps.push_back(frame.at(m.wall_seconds, counted_error(results, m)));
         }
     }
     add_front(plot, steps);
     for (std::size_t i = 0; i < results.measurements.size(); ++i) {
         const Measurement& m = results.measurements[i];
         if (can_be_drawn(m)) {
-            plot.points.push_back({frame.at(m.wall_seconds, m.rel_mse.mean), color_of(m.method),
-                                   std::find(front.begin(), front.end(), i) != front.end(), title_of(m)});
+            plot.points.push_back({frame.at(m.wall_seconds, counted_error(results, m)), color_of(m.method),
+                                   std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
         }
     }
     add_legend(plot, results);

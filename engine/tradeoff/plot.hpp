@@ -46,13 +46,14 @@ struct PlotLine {
 /// Error against time, both logarithmic, laid out; it is drawn as SVG or PNG from this.
 struct Plot {
     int width = 960, height = 600;
-    std::vector<PlotLine> lines;            ///< grid, axes, front: in the order in which they are drawn
+    std::vector<PlotLine> lines;            ///< grid, axes, noise, bars, front: in the order in which they are drawn
     std::vector<PlotPoint> points;
     std::vector<PlotLabel> labels;
 };
 
-/// A point for each measurement that has an error above 0 and a time; a front drawn in steps, as what lies above and to
-/// the right of a point is worse.
+/// A point at the time and the counted error of each measurement that has both, with a bar of ± the deviation of one seed;
+/// those that count as `least_error` lie on the lower edge. A line at the reference's own error. A front drawn in steps, as
+/// what lies above and to the right of a point is worse.
 Plot lay_out(const Results& results);
 
 /// An <svg> element, without reference to anything outside.

@@ -74,8 +74,14 @@ struct FontVertex {
     unsigned char color[4];
 };
 
+/// The font has the characters of ASCII from the space on.
+std::string drawable(std::string text) {
+    std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
 void draw_text(Image& image, const PlotLabel& label) {
-    std::string text = label.text;
+    std::string text = drawable(label.text);
     std::vector<FontVertex> vertices(4 * (24 * text.size() + 1));
     const int quads = stb_easy_font_print(0, 0, text.data(), nullptr, vertices.data(),
                                           static_cast<int>(vertices.size() * sizeof(FontVertex)));

@@ -43,6 +43,19 @@ Image with_more(const Image& mean, double before, const Image& more, double samp
 
 Image Reference::mean() const { return mean_of(a, b); }
 
+double least_error_of(const Reference& reference) {
+    if (!reference.own_error) {
+        return rounding_error;
+    }
+    double sum = 0, squares = 0;
+    for (const double x : rel_products(reference.a, reference.b, reference.a, reference.b, reference.mean())) {
+        sum += x;
+        squares += x * x;
+    }
+    const double share = sum > 0 ? std::min(2 * std::sqrt(squares) / sum, 1.0) : 1;
+    return std::max(share * *reference.own_error, rounding_error);
+}
+
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
                                           std::span<const Image> pilots, double seconds) {
     const auto start = std::chrono::steady_clock::now();

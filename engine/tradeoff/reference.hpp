@@ -19,6 +19,16 @@ struct Reference {
     Image mean() const;
 };
 
+/// relMSE of a picture whose values are each off by the rounding of single precision, 2^-24 of them.
+inline constexpr double rounding_error = 0x1p-48;
+
+/// The relMSE below which pictures cannot be told apart against this reference. That of a true picture is the mean of
+/// products of the pair's independent noises, each of twice `own_error`; it is 0 on average, and its standard deviation is
+/// about 2 own_error / sqrt(n), where n is the number of pixels that have a part in the noise. Told as (Σx)² / Σx² from the
+/// pair's squared differences x it is too small a number, so that this is about two standard deviations of normal
+/// noise. Not above own_error, nor below `rounding_error`, which it is where the own error is not known.
+double least_error_of(const Reference& reference);
+
 /// A reference is good enough once its own error is this share of the least error that is to be measured.
 inline constexpr double reference_share = 0.1;
 

@@ -25,6 +25,7 @@ Results results_from(const Json& json) {
     if (!reference.at("own_error").is_null()) {
         results.reference_error = reference.at("own_error").get<double>();
     }
+    results.least_error = reference.at("least_error");
     for (const auto& [method, widths] : json.at("learnt").items()) {
         RenderStatistics& statistics = results.learnt[method];
         statistics.radius = widths.at("radius");
@@ -59,7 +60,8 @@ Json to_json(const Results& results) {
     return {{"run", results.run},
             {"reference",
              {{"samples", results.reference_samples},
-              {"own_error", results.reference_error ? Json(*results.reference_error) : Json()}}},
+              {"own_error", results.reference_error ? Json(*results.reference_error) : Json()},
+              {"least_error", results.least_error}}},
             {"learnt", learnt},
             {"failures", failures},
             {"complete", results.complete},
@@ -73,17 +75,21 @@ Results read_results(const std::filesystem::path& file) try {
     fail("going on with '{}': it is not what `argand tradeoff` writes; remove it, or name another folder", file.string());
 }
 
-std::vector<std::size_t> front_of(const std::vector<Measurement>& measurements) {
+double counted_error(const Results& results, const Measurement& measurement) {
+    const double error = measurement.rel_mse.mean;
+    return std::isfinite(error) ? std::max(error, results.least_error) : std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::size_t> front_of(const Results& results) {
     std::vector<TimeAndError> points;
-    for (const Measurement& m : measurements) {
-        const double error = m.rel_mse.mean;
-        points.push_back({m.wall_seconds, error > 0 ? error : std::numeric_limits<double>::infinity()});
+    for (const Measurement& m : results.measurements) {
+        points.push_back({m.wall_seconds, counted_error(results, m)});
     }
     return pareto_front(points);
 }
 
 std::string to_csv(const Results& results) {
-    const std::vector<std::size_t> front = front_of(results.measurements);
+    const std::vector<std::size_t> front = front_of(results);
     std::string csv = "method,knob,value,wall_seconds,device_seconds,peak_bytes,relMSE,relMSE_deviation,SSIM,"
                       "SSIM_deviation,squared_bias,variance,seeds,on_front,options\n";
     for (std::size_t i = 0; i < results.measurements.size(); ++i) {

@@ -245,6 +245,7 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, con
         write_reference(reference_file(request.folder), *reference);
         results.reference_samples = reference->samples;
         results.reference_error = reference->own_error;
+        results.least_error = least_error_of(*reference);
         save(request.folder, results);
     }
     const std::vector<Setting> open = not_measured(settings, results);

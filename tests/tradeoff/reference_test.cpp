@@ -36,6 +36,54 @@ TEST(Reference, KeepsToItsTime) {
     EXPECT_GT(*reference->own_error, 0);
 }
 
+/// relMSE of the true picture against pairs of `deviation` of noise in the first `noisy_rows`, over the least error.
+std::vector<double> true_errors_over_least(int noisy_rows) {
+    constexpr int side = 32, pairs = 50;
+    const Image truth = noisy(side, side, 0, 0, 0);
+    const auto half = [&](std::uint32_t seed) {
+        Image image = noisy(side, side, 0, 0.1, seed);
+        std::copy(truth.pixels.begin() + noisy_rows * side, truth.pixels.end(), image.pixels.begin() + noisy_rows * side);
+        return image;
+    };
+    std::vector<double> ratios;
+    for (std::uint32_t pair = 0; pair < pairs; ++pair) {
+        Reference reference{.a = half(2 * pair + 1), .b = half(2 * pair + 2)};
+        reference.own_error = rel_variance(std::array{reference.a, reference.b}, reference.a, reference.b) / 2;
+        const double least = least_error_of(reference);
+        EXPECT_LT(least, *reference.own_error);
+        ratios.push_back(rel_mse(truth, reference.a, reference.b) / least);
+    }
+    return ratios;
+}
+
+TEST(Reference, ErrorsOfATruePictureAreAboutTheLeastError) {
+    for (const int noisy_rows : {32, 2}) {
+        double squares = 0;
+        std::size_t within = 0;
+        for (const double ratio : true_errors_over_least(noisy_rows)) {
+            squares += ratio * ratio / 50;
+            within += std::abs(ratio) < 1;
+        }
+        // Two standard deviations or so hold 95 %.
+        EXPECT_GE(within, 45u) << noisy_rows;
+        EXPECT_GT(std::sqrt(squares), 0.3) << noisy_rows;
+    }
+}
+
+TEST(Reference, TheLeastErrorOfOneWithoutNoiseIsRounding) {
+    const Image image = noisy(8, 8, 0, 0.1, 1);
+    EXPECT_EQ(least_error_of({.a = image, .b = image, .own_error = 0}), rounding_error);
+    EXPECT_EQ(least_error_of({.a = image, .b = image}), rounding_error);
+    const Image black{1, 1, {glm::vec3(0)}};
+    EXPECT_EQ(least_error_of({.a = black, .b = black, .own_error = 0}), rounding_error);
+}
+
+TEST(Reference, TheLeastErrorIsNotAboveItsOwn) {
+    Image a = noisy(8, 8, 0, 0, 0), b = a;
+    a.pixels[5] = glm::vec3(3);     // all of the noise is in one pixel
+    EXPECT_EQ(least_error_of({.a = a, .b = b, .own_error = 0.01}), 0.01);
+}
+
 TEST(Reference, CanBeInterrupted) {
     FakeRenderer renderer(0);
     EXPECT_FALSE(render_reference(renderer.trials(), small(), {}, 1));

@@ -1,4 +1,5 @@
 #include "fake.hpp"
+#include "image/exr.hpp"
 #include "methods/scenes.hpp"
 #include "scene/gltf.hpp"
 #include "support/expect_error.hpp"
@@ -95,15 +96,103 @@ TEST_F(TradeoffTest, GoesOnAfterASettingThatFails) {
     EXPECT_EQ(again.keys.size(), 1u);
 }
 
+TEST_F(TradeoffTest, WantOfMemoryAtTheLargestSettingLeavesTheOthers) {
+    FakeRenderer whole;
+    const std::size_t all = run(whole, scene_, request("whole")).measurements.size();
+    const auto measured_with = [&](const std::string& folder, const std::function<void()>& give_up) {
+        FakeRenderer renderer;
+        const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+            if (s.method == "photons" && s.photons == 1'000'000) {
+                give_up();
+            }
+            return renderer.trials()(s, seeds);
+        };
+        const Results results = measure_tradeoff(request(folder), scene_, failing, [](std::string_view, double) {});
+        EXPECT_TRUE(results.complete);
+        EXPECT_EQ(results.failures.size(), 1u);
+        EXPECT_EQ(results.failures.at(0).options, "--method photons --photons 1000000");
+        EXPECT_THAT(results.failures.at(0).why, HasSubstr("out of memory"));
+        return results.measurements.size();
+    };
+    EXPECT_EQ(measured_with("a", [] { fail("allocating 'photons': the device is out of memory"); }), all - 1);
+    EXPECT_EQ(measured_with("b", [] { throw std::bad_alloc(); }), all - 1);
+}
+
+TEST_F(TradeoffTest, AMethodThatCannotBeRenderedLeavesTheOthers) {
+    FakeRenderer renderer;
+    const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+        if (s.method == "photons") {
+            fail("allocating 'photons': the device is out of memory");
+        }
+        return renderer.trials()(s, seeds);
+    };
+    const Results results = measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    EXPECT_TRUE(results.complete);
+    EXPECT_EQ(results.measurements.size(), sweep(scene_, request("a").base, {"path"}, {}, Extent::quick).size());
+    EXPECT_THAT(results.failures, Not(IsEmpty()));
+    // Once it can be, its widths are turned too.
+    FakeRenderer again, whole;
+    EXPECT_EQ(run(again, scene_, request("a")).measurements.size(), run(whole, scene_, request("b")).measurements.size());
+}
+
+TEST_F(TradeoffTest, AMethodThatIsNamedTwiceIsMeasuredOnce) {
+    TradeoffRequest twice = request("a");
+    twice.methods = {"path", "path"};
+    FakeRenderer first, second;
+    const Results results = run(first, scene_, twice);
+    EXPECT_TRUE(results.complete);
+    EXPECT_EQ(results.measurements.size(), sweep(scene_, twice.base, {"path"}, {}, Extent::quick).size());
+    run(second, scene_, twice);
+    EXPECT_THAT(second.keys, IsEmpty());
+}
+
+TEST_F(TradeoffTest, AReferenceThatIsLostIsMadeAgain) {
+    FakeRenderer first, second;
+    run(first, scene_, request("a"));
+    const std::string before = text("a/reference.exr"), csv = text("a/tradeoff.csv");
+    std::filesystem::remove(scratch_ / "a/reference.exr");
+    EXPECT_TRUE(run(second, scene_, request("a")).complete);
+    EXPECT_EQ(text("a/reference.exr"), before);
+    EXPECT_EQ(text("a/tradeoff.csv"), csv);
+    write_text(scratch_ / "a/reference.exr", before.substr(0, before.size() / 2));
+    EXPECT_THAT(error_of([&] { run(second, scene_, request("a")); }), HasSubstr("remove it, and it is made again"));
+}
+
+TEST_F(TradeoffTest, AGivenReferenceThatIsLostIsReadAgain) {
+    write_exr(scratch_ / "true.exr", std::array{Layer{"", noisy(16, 16, 0, 0.01, 99)}});
+    TradeoffRequest given = request("a");
+    given.reference_files = {scratch_ / "true.exr"};
+    FakeRenderer first, second;
+    run(first, scene_, given);
+    const std::string before = text("a/reference.exr");
+    std::filesystem::remove(scratch_ / "a/reference.exr");
+    EXPECT_TRUE(run(second, scene_, given).complete);
+    EXPECT_THAT(second.keys, IsEmpty());
+    EXPECT_EQ(text("a/reference.exr"), before);
+}
+
+TEST_F(TradeoffTest, MoreTimeForAFinishedReferenceIsNoOtherRun) {
+    FakeRenderer first, second;
+    run(first, scene_, request("a"));
+    TradeoffRequest longer = request("a");
+    longer.reference_seconds = 5;
+    EXPECT_TRUE(run(second, scene_, longer).complete);
+    EXPECT_THAT(second.keys, IsEmpty());
+}
+
 TEST_F(TradeoffTest, DoesNotMixRuns) {
     FakeRenderer renderer;
     run(renderer, scene_, request("a"));
     TradeoffRequest other = request("a");
     other.seeds = 3;
-    EXPECT_THAT(error_of([&] { run(renderer, scene_, other); }), ::testing::HasSubstr("another folder"));
+    EXPECT_THAT(error_of([&] { run(renderer, scene_, other); }),
+                HasSubstr("another seeds (2, now 3); remove the folder, or name another with -o"));
     other = request("a");
     other.run["scene"] = "another.glb";
-    EXPECT_THAT(error_of([&] { run(renderer, scene_, other); }), ::testing::HasSubstr("another folder"));
+    other.run["build"] = "b";
+    other.base.height = 8;
+    EXPECT_THAT(error_of([&] { run(renderer, scene_, other); }),
+                HasSubstr("another scene (cornell_area.glb, now another.glb), height (16, now 8), build (none, now b);"));
     write_text(scratch_ / "a/tradeoff.json", "{\"run\": ");
     EXPECT_THAT(error_of([&] { run(renderer, scene_, request("a")); }), ::testing::HasSubstr("tradeoff.json"));
 }
@@ -164,6 +253,8 @@ TEST_F(TradeoffTest, OneSeedAndABlackScene) {
     EXPECT_TRUE(results.complete);
     ASSERT_EQ(results.measurements.size(), 2u);
     EXPECT_EQ(results.measurements[0].rel_mse.mean, 0);
+    EXPECT_EQ(front_of(results).size(), 1u);
+    EXPECT_THAT(text("dark/tradeoff.html"), HasSubstr("no error that could be told from none"));
     EXPECT_FALSE(std::regex_search(text("dark/tradeoff.html"), std::regex("\\b(nan|inf)\\b")));
 }
 
