@@ -114,9 +114,6 @@ void add_noise(Plot& plot, const Results& results, const Frame& frame) {
     }
 }
 
-/// Half as strong.
-std::uint32_t pale(std::uint32_t color) { return ((color >> 1) & 0x7f7f7f) + 0x808080; }
-
 void add_bars(Plot& plot, const Results& results, const Frame& frame) {
     constexpr double cap = 3;
     for (const Measurement& m : results.measurements) {
@@ -127,7 +124,7 @@ void add_bars(Plot& plot, const Results& results, const Frame& frame) {
         const double error = counted_error(results, m);
         const Place high = frame.at(m.wall_seconds, error + deviation);
         const Place low = frame.at(m.wall_seconds, std::max(error - deviation, frame.y.low));
-        const std::uint32_t color = pale(color_of(m.method));
+        const std::uint32_t color = color_of(m.method);
         plot.lines.push_back({low, high, color, 1});
         for (const Place& end : {low, high}) {
             plot.lines.push_back({{end.x - cap, end.y}, {end.x + cap, end.y}, color, 1});

@@ -2,6 +2,8 @@
 #include "image/srgb.hpp"
 #include "tradeoff/plot.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <regex>
 
