@@ -1,6 +1,7 @@
 // Ways to add up ten million photons' fluxes: how far they are off, what they cost, and that the engine's
 // hold.
 #include "results.hpp"
+#include "shared/compensated.h"
 #include "shared/fixed_point.h"
 #include "shared/photon.h"
 
@@ -51,15 +52,12 @@ float chunks(const std::vector<float>& terms) {
     return sum;
 }
 
-/// As in query.h and film_add.h.
+/// The kernels' own addition.
 float kahan(const std::vector<float>& terms) {
     float sum = 0;
     float lost = 0;
     for (const float x : terms) {
-        const float y = x - lost;
-        const float t = sum + y;
-        lost = (t - sum) - y;
-        sum = t;
+        add_compensated(sum, lost, x);
     }
     return sum;
 }

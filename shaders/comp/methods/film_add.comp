@@ -1,6 +1,7 @@
 #version 460
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
+#include "shared/compensated.h"
 #include "shared/maths.h"
 #include "shared/path_records.h"
 

@@ -2,6 +2,7 @@
 #include "photon/map_walk.glsl"
 #include "material_features.glsl"
 #include "shared/bsdf.h"
+#include "shared/compensated.h"
 #include "shared/query_record.h"
 
 layout(set = 0, binding = 3) readonly buffer Active { uint active_slots[]; };

@@ -1,12 +1,5 @@
 #include "shared/kernels/interleave.h"
 
-FN void add(INOUT(vec3) sum, INOUT(vec3) lost, vec3 term) {
-    vec3 y = term - lost;
-    vec3 t = sum + y;
-    lost = (t - sum) - y;
-    sum = t;
-}
-
 // One pixel an invocation, its samples in their order: the sum does not depend on scheduling.
 FN void main() {
     uint i = THREAD_INDEX;
@@ -31,9 +24,9 @@ FN void main() {
             f.non_finite += 1u;
             continue;
         }
-        add(direct, lost_direct, vec3(l.direct_r, l.direct_g, l.direct_b));
-        add(indirect, lost_indirect, vec3(l.indirect_r, l.indirect_g, l.indirect_b));
-        add(caustic, lost_caustic, vec3(l.caustic_r, l.caustic_g, l.caustic_b));
+        add_compensated(direct, lost_direct, vec3(l.direct_r, l.direct_g, l.direct_b));
+        add_compensated(indirect, lost_indirect, vec3(l.indirect_r, l.indirect_g, l.indirect_b));
+        add_compensated(caustic, lost_caustic, vec3(l.caustic_r, l.caustic_g, l.caustic_b));
     }
     film[pixel] = FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y, indirect.z, 0u,
                              caustic.x, caustic.y, caustic.z, f.non_finite, lost_direct.x, lost_direct.y, lost_direct.z,

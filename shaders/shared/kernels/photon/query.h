@@ -3,17 +3,12 @@
 #include "shared/kernels/material.h"
 #include "shared/kernels/photon/map_walk.h"
 
-// Sum with compensation for rounding (Kahan), so that a million photons in one point add up.
+// So that a million photons in one point add up.
 struct Sum {
     vec3 value, compensation;
 };
 
-FN void add(INOUT(Sum) sum, vec3 term) {
-    vec3 y = term - sum.compensation;
-    vec3 t = sum.value + y;
-    sum.compensation = (t - sum.value) - y;
-    sum.value = t;
-}
+FN void add(INOUT(Sum) sum, vec3 term) { add_compensated(sum.value, sum.compensation, term); }
 
 struct Query {
     uint slot;
