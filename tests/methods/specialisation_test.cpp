@@ -92,6 +92,16 @@ protected:
 
 SpecialisedCode code_of(const RecordingDevice::Variant& variant) { return specialised(*variant.first, variant.second); }
 
+/// The variant with another value of one constant.
+RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const std::string& name, std::uint32_t value) {
+    for (std::size_t i = 0; i < variant.second.size(); ++i) {
+        if (variant.first->constants[i].name == name) {
+            variant.second[i] = value;
+        }
+    }
+    return variant;
+}
+
 TEST_P(Specialisation, ChangesNoBit) {
     expect_same_bits(diffuse_box(), small(GetParam()));
     expect_same_bits(mixed_scene(), small(GetParam()));
@@ -137,6 +147,55 @@ TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {
     EXPECT_EQ(seen, GetParam() == "path" ? 1u : marks.size());
 }
 
+TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
+    const auto with = recorded(with_glass_sphere(diffuse_box()), false);
+    const auto without = recorded(diffuse_box(), false);
+    Variants glass, diffuse;
+    for (const RecordingDevice::Variant& variant : with->variants()) {
+        glass[variant.first->name] = variant;
+    }
+    for (const RecordingDevice::Variant& variant : without->variants()) {
+        diffuse[variant.first->name] = variant;
+    }
+    constexpr float transmission = 0.04f;
+    std::size_t seen = 0;
+    for (const auto& [kernel, kernel_marks] : marks) {
+        const auto found = glass.find(kernel);
+        if (found == glass.end()) {
+            continue;
+        }
+        ++seen;
+        const SpecialisedCode code = code_of(found->second);
+        const SpecialisedCode bare = code_of(diffuse.at(kernel));
+        for (const float mark : kernel_marks) {
+            if (mark == transmission) {
+                EXPECT_THAT(code.numbers, Contains(mark)) << kernel;
+            } else {
+                EXPECT_THAT(code.numbers, Not(Contains(mark))) << kernel;
+            }
+        }
+        EXPECT_EQ(code.buffers, bare.buffers) << kernel;
+        if (kernel == "photon_emit") {
+            EXPECT_EQ(code.instructions, bare.instructions) << "light is emitted as before";
+            continue;
+        }
+        // Refraction is among what has been added, and rough reflection is not.
+        EXPECT_GT(code.instructions, bare.instructions + 100) << kernel;
+        Plan plan = make_plan(with_glass_sphere(diffuse_box()), {});
+        ASSERT_TRUE(plan.required.contains(Feature::refraction));
+        plan.required.erase(Feature::refraction);
+        EXPECT_LT(code_of(with_constant(found->second, "material_features", plan.material_features())).instructions,
+                  code.instructions)
+            << kernel;
+    }
+    EXPECT_EQ(seen, GetParam() == "path" ? 1u : marks.size());
+    // The same passes, and none of the buffers that it does not need.
+    EXPECT_EQ(with->stages(), without->stages());
+    for (const char* name : {"normals", "light choices"}) {
+        EXPECT_EQ(with->bytes_of(name), 0u) << name;
+    }
+}
+
 // GGX has no literal of its own: it is known by what it adds.
 TEST_P(Specialisation, RoughMetalAddsCode) {
     Scene metal = diffuse_box();
@@ -176,16 +235,6 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
 }
 
 INSTANTIATE_METHODS(Specialisation);
-
-/// The variant with another value of one constant.
-RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const std::string& name, std::uint32_t value) {
-    for (std::size_t i = 0; i < variant.second.size(); ++i) {
-        if (variant.first->constants[i].name == name) {
-            variant.second[i] = value;
-        }
-    }
-    return variant;
-}
 
 // Without any one of them some kernel is smaller, and none larger.
 TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
