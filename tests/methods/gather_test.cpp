@@ -132,6 +132,24 @@ TEST_F(GatherPhotons, FewPhotons) {
     }
 }
 
+TEST_F(GatherPhotons, OneAndTwoInOnePointAreTheExactSum) {
+    const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
+    for (const int n : {1, 2}) {
+        for (const bool caustic : {false, true}) { // the second one
+            std::vector<PhotonRecord> photons;
+            for (int i = 0; i < n; ++i) {
+                photons.push_back(photon({0.25f, 0, -0.5f}, i == 1 && caustic));
+            }
+            const std::vector<Gathered> sums = gather(photons, queries, 0.1f, gather_budget);
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                SCOPED_TRACE(std::to_string(n) + ", " + std::to_string(i));
+                expect_near(sums[i], expected_sum(photons, queries[i], 0.1f), 1e-6);
+            }
+            EXPECT_GT(sums[1].indirect.g, 0);
+        }
+    }
+}
+
 TEST_F(GatherPhotons, MillionInOnePointIsTheExactSum) {
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 1'000'000; ++i) {

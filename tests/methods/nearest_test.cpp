@@ -232,6 +232,22 @@ TEST_F(GatherNearest, EqualDistancesGoByTheOrderOfTheMap) {
     }
 }
 
+TEST_F(GatherNearest, OneAndTwoInOnePoint) {
+    const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
+    for (const int n : {1, 2}) {
+        const std::vector<PhotonRecord> photons(static_cast<std::size_t>(n), photon({0.25f, 0, -0.5f}));
+        for (const std::uint32_t k : {1u, 2u, 500u}) {
+            SCOPED_TRACE(std::to_string(n) + ", " + std::to_string(k));
+            const Answers answers = gather(device(), photons, queries, k, 0.1f);
+            expect_nearest(answers, queries, k, 0.1f);
+            // A disc needs an extent: that of k photons in the query's own point has none.
+            for (const Answer& answer : answers.of) {
+                EXPECT_TRUE(std::isfinite(answer.sums.indirect.g));
+            }
+        }
+    }
+}
+
 TEST_F(GatherNearest, SlowMillionInOnePoint) {
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 1'000'000; ++i) {

@@ -171,6 +171,8 @@ TEST(GltfMaterial, RefusesBadPhong) {
 TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0);
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1}})).ior, 1);
+    EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1 + 1e-7}})).ior, 1 + 0x1p-23f);
+    EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 10}})).ior, 10);
     for (const double ior : {0.5, -1.0, 0.999, 1e300}) {
         EXPECT_THAT(with_material(extension("KHR_materials_ior", {{"ior", ior}})).problem(),
                     ::testing::HasSubstr("index of refraction"));
