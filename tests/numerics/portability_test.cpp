@@ -48,6 +48,7 @@ TEST(Portability, ValidationAndSubgroups) {
     expect_same_bits({{"as it is", "ARGAND_VALIDATION=0", "vulkan"},
                       {"validation", "ARGAND_VALIDATION=1", "vulkan"},
                       {"no subgroups", "ARGAND_DISABLE=subgroups", "vulkan"},
+                      {"kernels of GPUs, subgroups", "ARGAND_DISABLE=lane_serial", "vulkan"},
                       {"no subgroups, kernels of GPUs, 1 thread",
                        "ARGAND_DISABLE=lane_serial,subgroups LP_NUM_THREADS=1", "vulkan"}});
 }
