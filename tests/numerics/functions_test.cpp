@@ -277,7 +277,7 @@ protected:
             };
             EXPECT_LE(worst.bounded, f.bound) << where << "\n" << show(worst.at);
             EXPECT_EQ(worst.wrong_decisions, 0) << where << "\n" << show(worst.wrong_at);
-            EXPECT_LE(worst.borderline, static_cast<int>(count / 2)) << where;
+            EXPECT_LE(worst.borderline, static_cast<int>(f.borderline * static_cast<double>(count))) << where;
         }
         // Of what rounds every division and square root correctly, as the host does.
         const bool exact = device.info().driver.find("llvmpipe") != std::string::npos;
@@ -299,6 +299,7 @@ protected:
                                            : nlohmann::json(std::max(host.conditioned, other.conditioned))},
                        {"bound", f.bound},
                        {"borderline", std::max(host.borderline, other.borderline)},
+                       {"most_borderline", f.borderline},
                        {"unequal", unequal},
                        {"decides_only", std::string(f.parts).find_first_not_of("cd") == std::string::npos},
                        {"at", inputs_in_words(f, cases[host.at], host.at)}});

@@ -36,7 +36,13 @@ CONSTANT uint of_footprint_of_duals = 84u;
 CONSTANT uint of_footprint_extent = 85u;
 CONSTANT uint of_footprint_weight = 86u;
 CONSTANT uint of_pack_dual = 87u;
-CONSTANT uint end_of_lights = 88u;
+CONSTANT uint of_spot_ramp = 88u;
+CONSTANT uint of_sample_spot = 89u;
+CONSTANT uint of_light_weight = 90u;
+CONSTANT uint of_transfer_differential = 91u;
+CONSTANT uint of_reflect_differential = 92u;
+CONSTANT uint of_refract_differential = 93u;
+CONSTANT uint end_of_lights = 94u;
 
 FN LightRecord light_at(IN(Arguments) a, int k, uint kind, uint double_sided) {
     LightRecord l;
@@ -98,6 +104,24 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
     real s, t;
     if (function == of_spot_falloff) {
         r.y[0] = spot_falloff(number_at(a, 0), number_at(a, 1), number_at(a, 2));
+    } else if (function == of_spot_ramp) {
+        r.y[0] = spot_ramp(number_at(a, 0), number_at(a, 1));
+    } else if (function == of_sample_spot) {
+        put3(r, 0, sample_spot(light_at(a, 6, light_spot, 0u), vec4(a.x[0], a.x[1], a.x[2], a.x[3]), vec2_at(a, 4)));
+    } else if (function == of_light_weight) {
+        r.y[0] = light_weight_of_emitter(vec3_at(a, 0));
+    } else if (function == of_transfer_differential) {
+        PhotonDifferential d = differential_at(a, 7);
+        transfer_differential(d, vec3_at(a, 0), number_at(a, 3), vec3_at(a, 4));
+        r = differential_values(d);
+    } else if (function == of_reflect_differential) {
+        PhotonDifferential d = differential_at(a, 12);
+        reflect_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9));
+        r = differential_values(d);
+    } else if (function == of_refract_differential) {
+        PhotonDifferential d = differential_at(a, 13);
+        refract_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9), number_at(a, 12));
+        r = differential_values(d);
     } else if (function == of_spot_solid_angles) {
         r.y[0] = spot_solid_angles(number_at(a, 0), number_at(a, 1), s, t);
         r.y[1] = s;

@@ -86,6 +86,21 @@ std::vector<Function> light_table() {
              d.put(c.x);
              d.put(c.y);
          }, 3, "1", conditioned, 2},
+        {"spot_ramp", of_spot_ramp, "cones 10^-3 … 1.57 rad",
+         [](Draw& d) {
+             const glm::vec2 c = spot_cosines(d);
+             d.put(c.x);
+             d.put(c.y);
+         }, 2, "1", ulp, 1},
+        {"sample_spot", of_sample_spot, "cones 10^-3 … 1.57 rad around any axis, corners of [0, 1)^6",
+         [](Draw& d) {
+             for (int i = 0; i < 6; ++i) {
+                 d.put(d.unit());
+             }
+             put_light(d, spot);
+         }, 20, "3", conditioned, 4},
+        {"light_weight_of_emitter", of_light_weight, "radiances 2^-60 … 2^60, zeros",
+         [](Draw& d) { d.put(glm::abs(d.vector(-60, 60))); }, 3, "1", ulp, 4},
         {"spot_solid_angles", of_spot_solid_angles, "cones 10^-3 … 1.57 rad",
          [](Draw& d) {
              const glm::vec2 c = spot_cosines(d);
@@ -176,6 +191,33 @@ std::vector<Function> light_table() {
              put_normal_change(d, n);
              d.put(d.index_ratio());
          }, 13, "3", conditioned, 8},
+        {"transfer_differential", of_transfer_differential, "any differential, distances 2^-10 … 2^10, grazing by 10^-7",
+         [](Draw& d) {
+             const glm::vec3 n = d.direction();
+             d.put(d.above(n) * d.sign());
+             d.put(d.magnitude(-10, 10));
+             d.put(n);
+             put_differential(d);
+         }, 19, "3333", conditioned, 32},
+        {"reflect_differential", of_reflect_differential, "any differential, curvatures 0 … 2^10, grazing by 10^-7",
+         [](Draw& d) {
+             const glm::vec3 n = d.direction();
+             d.put(-d.above(n));
+             d.put(n);
+             put_normal_change(d, n);
+             put_normal_change(d, n);
+             put_differential(d);
+         }, 24, "3333", conditioned, 8},
+        {"refract_differential", of_refract_differential, "as reflect_differential; ratios 0.1 … 10, 1 ± 10^-7, total reflection",
+         [](Draw& d) {
+             const glm::vec3 n = d.direction();
+             d.put(-d.above(n));
+             d.put(n);
+             put_normal_change(d, n);
+             put_normal_change(d, n);
+             d.put(d.index_ratio());
+             put_differential(d);
+         }, 25, "3333", conditioned, 8},
         {"roulette_differential", of_roulette_differential, "probabilities 0 … 1, any differential",
          [](Draw& d) {
              d.put(d.share());

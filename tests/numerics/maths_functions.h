@@ -41,7 +41,8 @@ CONSTANT uint of_pack_photon_normal = 25u;
 CONSTANT uint of_unpack_photon_normal = 26u;
 CONSTANT uint of_kernel_weight = 27u;
 CONSTANT uint of_flux_units = 28u;
-CONSTANT uint end_of_maths = 29u;
+CONSTANT uint of_disc_radius = 29u;
+CONSTANT uint end_of_maths = 30u;
 
 FN Values evaluate_maths(uint function, IN(Arguments) a) {
     Values r = no_values();
@@ -76,6 +77,9 @@ FN Values evaluate_maths(uint function, IN(Arguments) a) {
         put3(r, 0, to_world(make_frame(vec3_at(a, 0)), vec3_at(a, 3)));
     } else if (function == of_to_local) {
         put3(r, 0, to_local(make_frame(vec3_at(a, 0)), vec3_at(a, 3)));
+    } else if (function == of_disc_radius) {
+        r.y[0] = disc_radius(vec2_at(a, 0), s);
+        r.y[1] = s;
     } else if (function == of_sample_disc) {
         vec2 p = sample_disc(vec2_at(a, 0));
         r.y[0] = p.x;

@@ -32,7 +32,8 @@ CONSTANT uint of_offset_ray_origin = 49u;
 CONSTANT uint of_make_surface = 50u;
 CONSTANT uint of_camera_ray = 51u;
 CONSTANT uint of_intersect_sliver = 52u;
-CONSTANT uint end_of_scatter = 53u;
+CONSTANT uint of_normalize_or = 53u;
+CONSTANT uint end_of_scatter = 54u;
 
 // Sixteen numbers from k on.
 FN MaterialRecord material_at(IN(Arguments) a, int k) {
@@ -135,6 +136,8 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
             unit_and_length(vec3_at(a, 9) - vec3_at(a, 6), s);
             r.y[1] = r.y[1] / s;
         }
+    } else if (function == of_normalize_or) {
+        put3(r, 0, normalize_or(vec3_at(a, 0), vec3_at(a, 3)));
     } else if (function == of_box_reach) {
         r.y[0] = box_reach(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6));
     } else if (function == of_hit_point) {

@@ -129,7 +129,7 @@ std::vector<Function> scatter_table() {
              const double critical = std::sqrt(std::max(1 - double(eta) * double(eta), 0.0));
              d.put(d.once_in(4) ? static_cast<float>(critical) * (1 + d.sign() * d.magnitude(-24, -10)) : d.share());
              d.put(eta);
-         }, 2, "d11", conditioned, 12},
+         }, 2, "d11", conditioned, 12, 0.045},
         {"fresnel_schlick", of_fresnel_schlick, "reflectances and cosines 0 … 1, at grazing the highest",
          [](Draw& d) {
              const float f90 = d.share();
@@ -182,12 +182,12 @@ std::vector<Function> scatter_table() {
              d.put(d.share());
              put_material(d);
              d.put(static_cast<float>(d.bits() % 2));
-         }, 15, "d3311", conditioned, 5},
+         }, 15, "d3311", conditioned, 5, 0.13},
         {"refracted direction (bsdf_sample)", of_refracted, "upright and grazing by 10^-7; ratios 0.1 … 10, 1 ± 10^-7",
          [](Draw& d) {
              d.put(d.upper());
              d.put(d.index_ratio());
-         }, 4, "d3", conditioned, 6},
+         }, 4, "d3", conditioned, 6, 0.02},
         {"lobe_probabilities", of_lobe_probabilities, "cosines 0 … 1, any material",
          [](Draw& d) {
              d.put(d.share());
@@ -215,15 +215,15 @@ std::vector<Function> scatter_table() {
              d.put(d.unit());
              put_material(d);
              d.put(static_cast<float>(d.bits() % 2));
-         }, 20, "d331", conditioned, 50},
+         }, 20, "d331", conditioned, 50, 0.06},
         {"ray_shear", of_ray_shear, "components 2^-60 … 2^60, zeros",
          [](Draw& d) { d.put(d.once_in(2) ? d.direction() : d.nonzero_vector(-60, 60)); }, 3, "d111", ulp, 1},
         {"intersect_triangle", of_intersect_triangle,
          "through insides, edges, vertices and beside; along axes, grazing by 10^-7; 10^5 sizes away",
-         [](Draw& d) { put_ray_and_triangle(d, false); }, 15, "d111", conditioned, 8},
+         [](Draw& d) { put_ray_and_triangle(d, false); }, 15, "d111", conditioned, 8, 0.3},
         {"intersect_triangle, slivers", of_intersect_sliver,
          "slivers of aspect 10^6, through insides and beside; place by the sliver's length",
-         [](Draw& d) { put_ray_and_triangle(d, true); }, 15, "d3", conditioned, 2},
+         [](Draw& d) { put_ray_and_triangle(d, true); }, 15, "d3", conditioned, 2, 0.13},
         {"box_reach", of_box_reach, "points in boxes and outside, boxes of 2^-20 of their place",
          [](Draw& d) {
              d.put(d.vector(-20, 20));
@@ -247,6 +247,12 @@ std::vector<Function> scatter_table() {
              d.put(n);
              d.put(d.above(n) * d.sign());
          }, 12, "3", ulp, 4},
+        {"normalize_or", of_normalize_or, "vectors 2^-100 … 2^100, zeros, any fallback",
+         [](Draw& d) {
+             const int middle = static_cast<int>(d.bits() % 180) - 90;
+             d.put(d.once_in(4) ? glm::vec3(0) : d.nonzero_vector(middle - 10, middle + 10));
+             d.put(d.direction());
+         }, 6, "3", ulp, 4},
         {"make_surface", of_make_surface, "any point of any triangle, smooth normals up to 45° off, rays grazing by 10^-7",
          [](Draw& d) {
              const Triangle t = any_triangle(d, d.once_in(4));
@@ -261,7 +267,7 @@ std::vector<Function> scatter_table() {
              for (int i = 0; i < 3; ++i) {
                  d.put(smooth ? rounded(glm::normalize(glm::dvec3(n) + 0.7 * glm::dvec3(d.direction()))) : glm::vec3(0));
              }
-         }, 23, "d333d", conditioned, 6},
+         }, 23, "d333d", conditioned, 6, 0.45},
         {"camera_ray, perspective", of_camera_ray, "any place of pictures up to 4096², angles 7° … 90°, any place",
          [](Draw& d) { put_camera(d, false); }, 14, "33", conditioned, 6},
         {"camera_ray, orthographic", of_camera_ray, "any place of pictures up to 4096², any size and place",
