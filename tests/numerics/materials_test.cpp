@@ -1,6 +1,10 @@
 // Indices of refraction, roughnesses and albedos at their ends.
 #include "extremes.hpp"
 
+#include "support/scratch_directory.hpp"
+
+#include <fstream>
+
 namespace argand::testing {
 namespace {
 
@@ -39,6 +43,50 @@ TEST_F(Extremes, GlassOfAnyIndexLosesNothing) {
     }
     record_extreme("index of refraction 0, 1, 1 + 10^-7, 1.5, 10, solid and thin",
                    "path, footprints: a block of it under a white sky is white; mean within 5 %",
+                   worst.text());
+}
+
+/// A file of a cubic border between glass of this index and nothing.
+Scene load_cube_of_glass(const char* ior, bool solid) {
+    const ScratchDirectory directory;
+    nlohmann::json file = nlohmann::json::parse(read_text(ARGAND_SOURCE_DIR "/assets/closed_box.gltf"));
+    for (nlohmann::json& material : file.at("materials")) {
+        material = nlohmann::json::parse(fmt::format(
+            R"({{"pbrMetallicRoughness": {{"metallicFactor": 0, "roughnessFactor": 0}}, "extensions": {{
+                "KHR_materials_transmission": {{"transmissionFactor": 1}},
+                "KHR_materials_volume": {{"thicknessFactor": {}}},
+                "KHR_materials_ior": {{"ior": {}}}}}}})",
+            solid ? 1 : 0, ior));
+    }
+    std::ofstream(directory / "cube.gltf") << file;
+    Scene scene = load_gltf(directory / "cube.gltf");
+    scene.sky = glm::vec3(1);
+    scene.cameras = {look_at({4, 3, 6}, {0, 0, 0}, 35)};
+    return scene;
+}
+
+TEST_F(Extremes, GlassOfAnyIndexFromAFile) {
+    const std::pair<const char*, float> indices[] = {
+        {"0", 0.0f}, {"1", 1.0f}, {"1.0000001", 1 + 0x1p-23f}, {"10", 10.0f}};
+    Largest worst;
+    for (const auto& [written, read] : indices) {
+        for (const bool solid : {true, false}) {
+            const Scene scene = load_cube_of_glass(written, solid);
+            EXPECT_EQ(scene.materials.at(scene.triangle_material.at(0)).ior, read);
+            for (const std::string& method : method_names()) {
+                const RenderResult result = sound(scene, small(method, 16, 8));
+                if (method == "path" || method == "footprints") {
+                    const double found = mean(layer(result, "")).g;
+                    EXPECT_NEAR(found, 1, 0.05) << written << ", " << solid << ", " << method;
+                    worst.take(std::abs(found - 1),
+                               fmt::format("{} {} {}", method, solid ? "solid" : "thin", written));
+                }
+            }
+        }
+    }
+    record_extreme("files with an index of refraction of 0, 1, 1 + 10^-7 and 10",
+                   "read to the bit, pictures finite; path, footprints: a cube of it under a white sky is white, mean "
+                   "within 5 %",
                    worst.text());
 }
 

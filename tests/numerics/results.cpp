@@ -22,6 +22,19 @@ public:
         if (path.empty()) {
             return;
         }
+        const ::testing::UnitTest& run = *::testing::UnitTest::GetInstance();
+        for (int suite = 0; suite < run.total_test_suite_count(); ++suite) {
+            const ::testing::TestSuite& tests = *run.GetTestSuite(suite);
+            for (int i = 0; i < tests.total_test_count(); ++i) {
+                const ::testing::TestInfo& test = *tests.GetTestInfo(i);
+                if (test.should_run()) {
+                    record_result("tests", {{"name", fmt::format("{}.{}", test.test_suite_name(), test.name())},
+                                            {"result", test.result()->Failed()    ? "failed"
+                                                       : test.result()->Skipped() ? "skipped"
+                                                                                  : "passed"}});
+                }
+            }
+        }
         std::ofstream file(path);
         file << results().dump(1) << '\n';
         ASSERT_TRUE(file.flush()) << path;

@@ -5,7 +5,7 @@
 
 namespace argand::testing {
 
-/// What tests measured, by section. Written as JSON to the file that ARGAND_NUMERICS_RESULTS names, if any,
+/// What tests measured, by section, and "tests": each one's name and whether it passed. Written as JSON to the file that ARGAND_NUMERICS_RESULTS names, if any,
 /// when the tests have run; tools/results_numerics makes docs/results/numerics.md of it.
 void record_result(const std::string& section, const nlohmann::json& row);
 

@@ -43,38 +43,52 @@ RenderResult darker(RenderResult result, double factor) {
 
 TEST_F(Extremes, ScenesAMillionTimesAsLargeOrSmall) {
     Largest worst;
+    Largest worst_pixels;
     for (const char* name : scene_names) {
         const Scene scene = load_asset(name);
         for (const std::string& method : method_names()) {
             const RenderResult expected = sound(scene, small(method, 8));
             for (const float factor : {1e-6f, 1e6f}) {
                 const RenderResult found = sound(scaled(scene, factor), small(method, 8));
+                const std::string where = fmt::format("{} {} × {:.0e}", method, name, factor);
                 const double error = difference_of_means(found, expected);
-                EXPECT_LT(error, 0.02) << name << ", " << method << ", " << factor;
-                worst.take(error, fmt::format("{} {} × {:.0e}", method, name, factor));
+                EXPECT_LT(error, 0.02) << where;
+                worst.take(error, where);
+                const double pixels = difference(found, expected);
+                EXPECT_LT(pixels, 2e-3) << where;
+                worst_pixels.take(pixels, where);
             }
         }
     }
-    record_extreme("scene scaled by 10^±6", "same picture; mean within 2 % (rounding sends paths other ways)",
-                   worst.text());
+    record_extreme("scene scaled by 10^±6",
+                   "same picture: mean within 2 %, relMSE below 0.002 (rounding sends single paths other ways)",
+                   fmt::format("{}; relMSE {}", worst.text(), worst_pixels.text()));
 }
 
 TEST_F(Extremes, ScenesFarFromTheOrigin) {
     const Scene scene = room_scene();
     const double bounds_of_means[] = {0.02, 0.4};
+    const double bounds_of_pixels[] = {0.02, 0.3};
     const float sizes[] = {1e3f, 1e5f};
     for (int i = 0; i < 2; ++i) {
         Largest worst;
+        Largest worst_pixels;
         // 2 is the room's size.
         const Scene far = moved(scene, glm::vec3(1, -0.7f, 0.6f) * (2 * sizes[i]));
         for (const std::string& method : method_names()) {
-            const double error =
-                difference_of_means(sound(far, small(method, 8)), sound(scene, small(method, 8)));
+            const RenderResult expected = sound(scene, small(method, 8));
+            const RenderResult found = sound(far, small(method, 8));
+            const double error = difference_of_means(found, expected);
             EXPECT_LT(error, bounds_of_means[i]) << method;
             worst.take(error, method);
+            const double pixels = difference(found, expected);
+            EXPECT_LT(pixels, bounds_of_pixels[i]) << method;
+            worst_pixels.take(pixels, method);
         }
         record_extreme(fmt::format("scene moved {:.0e} of its sizes from the origin", sizes[i]),
-                       fmt::format("mean within {:.0f} %", 100 * bounds_of_means[i]), worst.text());
+                       fmt::format("mean within {:.0f} %, relMSE below {}", 100 * bounds_of_means[i],
+                                   shown(bounds_of_pixels[i])),
+                       fmt::format("{}; relMSE {}", worst.text(), worst_pixels.text()));
     }
 }
 
