@@ -13,9 +13,9 @@ namespace {
 using testing::read_text;
 namespace fs = std::filesystem;
 
-/// Folders of tests with a test whose name has or has not "Slow" in it.
+/// Folders of tests with a test, or an instance of tests, whose name has or has not "Slow" in it.
 std::set<std::string> folders_with_tests(bool slow) {
-    const std::regex begin(R"((TEST|TEST_F|TEST_P)\(\s*\w+,\s*\w+\s*\)\s*\{)");
+    const std::regex begin(R"((TEST|TEST_F|TEST_P)\(\s*\w+,\s*\w+\s*\)\s*\{|INSTANTIATE_TEST_SUITE_P\(Slow)");
     std::set<std::string> folders;
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(fs::path(ARGAND_SOURCE_DIR) / "tests")) {
