@@ -20,21 +20,26 @@ using Clock = std::chrono::steady_clock;
 constexpr double share_of_pilots = 0.2;
 constexpr double share_of_refinement = 0.1;
 constexpr double share_of_truth = 0.1;
-// What sweeps find on the front (docs/results/tradeoff_*.csv): few samples a pass, with photons few or many. What makes more of
-// the noise is tried with more.
+// Photons of a pass, and about as many eye paths, fewer than which do not fill a device. What makes more of the noise is tried
+// with more of it.
 constexpr std::uint64_t few_photons = 50'000;
-constexpr std::uint64_t many_photons = 200'000;
-constexpr std::uint32_t many_samples = 4;
+constexpr std::uint32_t most_few_samples = 16;
+constexpr std::uint32_t times_more = 4;
 const std::vector<std::string> tried_methods{"photons", "path", "footprints"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::uint32_t few_samples(const RenderSettings& base) {
+    const std::uint64_t pixels = static_cast<std::uint64_t>(base.width) * static_cast<std::uint64_t>(base.height);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>((few_photons + pixels - 1) / pixels, most_few_samples));
+}
 
 RenderSettings settings_of_pass(const RenderSettings& base, const Chosen& chosen, const std::string& method,
                                 std::uint64_t photons) {
     RenderSettings pass = base;
     pass.budget.reset();
     pass.method = chosen.method ? base.method : method;
-    pass.samples = chosen.samples ? base.samples : 1;
+    pass.samples = chosen.samples ? base.samples : few_samples(base);
     pass.photons = chosen.photons ? base.photons : photons;
     pass.photons_per_pass = std::max<std::uint64_t>(std::min(pass.photons, base.photons_per_pass), 1);
     return pass;
@@ -70,9 +75,9 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
     }
     RenderSettings more = best().settings;
     if (eye_paths_rule) {
-        more.samples = many_samples;
+        more.samples *= times_more;
     } else {
-        more.photons = more.photons_per_pass = many_photons;
+        more.photons = more.photons_per_pass = times_more * more.photons;
     }
     return pilots.run(more);
 }
