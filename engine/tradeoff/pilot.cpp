@@ -27,52 +27,50 @@ Image part_of(const Image& mean, const Image& before, double others) {
 
 } // namespace
 
-std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings, double seconds) {
+std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings, const IsEnough& is_enough) {
     using Clock = std::chrono::steady_clock;
+    constexpr std::uint64_t half = pilot_passes / 2;
     Pilot pilot{.settings = settings};
     const Clock::time_point start = Clock::now();
-    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     double halfway = 0;
     Image before, estimated_before;
+    /// Takes a pass's pictures. Those that are lacking so far are taken for like what there is.
+    const auto add = [&](const PictureSoFar& so_far) {
+        const std::vector<Layer> layers = so_far.layers();
+        const Image &mean = layers.front().image, estimated = estimated_light(layers);
+        const auto others = static_cast<double>(so_far.passes - 1);
+        const bool is_narrow = so_far.passes > half;
+        const std::size_t stream = (so_far.passes - 1) % 2;
+        (is_narrow ? pilot.narrow : pilot.wide)[stream] = part_of(mean, before, others);
+        (is_narrow ? pilot.estimated_narrow : pilot.estimated_wide)[stream] = part_of(estimated, estimated_before, others);
+        if (so_far.passes == 1) {
+            pilot.wide[1] = pilot.wide[0];
+            pilot.estimated_wide[1] = pilot.estimated_wide[0];
+        }
+        if (!is_narrow) {
+            pilot.narrow = pilot.wide;
+            pilot.estimated_narrow = pilot.estimated_wide;
+        }
+        before = mean;
+        estimated_before = estimated;
+        pilot.passes = so_far.passes;
+        pilot.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        halfway = is_narrow ? halfway : pilot.seconds;
+        pilot.seconds_per_pass = is_narrow ? (pilot.seconds - halfway) / static_cast<double>(pilot.passes - half)
+                                           : pilot.seconds / static_cast<double>(pilot.passes);
+    };
     const RenderResult result = render(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
-        constexpr std::uint64_t half = pilot_passes / 2;
         if (so_far.passes > 0) {
-            const std::vector<Layer> layers = so_far.layers();
-            const Image &mean = layers.front().image, estimated = estimated_light(layers);
-            const std::uint64_t done = so_far.passes - 1;
-            const auto others = static_cast<double>(done);
-            (done < half ? pilot.wide : pilot.narrow)[done % 2] = part_of(mean, before, others);
-            (done < half ? pilot.estimated_wide : pilot.estimated_narrow)[done % 2] =
-                part_of(estimated, estimated_before, others);
-            before = mean;
-            estimated_before = estimated;
-            pilot.passes = so_far.passes;
+            add(so_far);
         }
-        if (so_far.passes == half) {
-            halfway = elapsed();
-        }
-        const bool took_too_long = so_far.passes > 0 && so_far.passes <= half && elapsed() > seconds;
-        if (so_far.passes == pilot_passes || took_too_long) {
+        const bool may_end = so_far.passes > 0 && so_far.passes <= half;
+        if (so_far.passes == pilot_passes || (may_end && is_enough(pilot))) {
             return std::nullopt;
         }
         return PassPlan{.expected = so_far.passes < half ? 1.0 : narrow_passes,
                         .stream = static_cast<std::uint32_t>(so_far.passes % 2)};
     });
-    pilot.seconds = elapsed();
-    if (result.statistics.interrupted || pilot.passes == 0) {
-        return std::nullopt;
-    }
-    const bool is_whole = pilot.passes == pilot_passes;
-    pilot.seconds_per_pass = (pilot.seconds - (is_whole ? halfway : 0)) / static_cast<double>(is_whole ? pilot_passes / 2 : pilot.passes);
-    if (pilot.passes == 1) {
-        pilot.wide[1] = pilot.wide[0];
-        pilot.estimated_wide[1] = pilot.estimated_wide[0];
-    }
-    if (!is_whole) {
-        pilot.narrow = pilot.wide;
-        pilot.estimated_narrow = pilot.estimated_wide;
-    }
-    return pilot;
+    return result.statistics.interrupted || pilot.passes == 0 ? std::nullopt : std::optional(std::move(pilot));
 }
 
 Image best_guess(const std::vector<Pilot>& pilots) {

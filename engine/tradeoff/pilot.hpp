@@ -5,7 +5,6 @@
 
 #include <array>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -31,9 +30,11 @@ struct Pilot {
     double seconds = 0;                 ///< that it took
 };
 
-/// Ends early once it has taken so many seconds. Nothing if it was interrupted.
-std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings,
-                               double seconds = std::numeric_limits<double>::infinity());
+/// Asked after each wide pass whether the pilot so far is enough.
+using IsEnough = std::function<bool(const Pilot& so_far)>;
+
+/// Nothing if it was interrupted.
+std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings, const IsEnough& is_enough);
 
 /// What relMSE divides by, as far as it is known: guess_from() the least noisy pilot, smoothed.
 Image best_guess(const std::vector<Pilot>& pilots);

@@ -8,8 +8,22 @@
 
 namespace argand {
 
+namespace {
+
+// To the error, up to which narrow passes of the pilot would be too much of the work.
+constexpr double few_passes = 24;
+
+bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
+    return pilot.passes > 1 && aim.error &&
+           passes_for(model_of(pilot, nullptr, best_guess({pilot})), *aim.error) <= few_passes;
+}
+
+} // namespace
+
 bool Pilots::run(const RenderSettings& settings, double seconds) {
-    std::optional<Pilot> pilot = run_pilot(render_, settings, seconds);
+    std::optional<Pilot> pilot = run_pilot(render_, settings, [&](const Pilot& so_far) {
+        return so_far.seconds > seconds || takes_few_passes(so_far, aim_);
+    });
     if (!pilot) {
         return false;
     }
@@ -34,7 +48,7 @@ bool Pilots::improve_truth(double seconds) {
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
-    const std::optional<Pilot> pilot = run_pilot(render_, more);
+    const std::optional<Pilot> pilot = run_pilot(render_, more, [](const Pilot&) { return false; });
     if (pilot) {
         add_truth(*pilot);
         seconds_ += pilot->seconds;
@@ -63,10 +77,10 @@ void Pilots::look_ahead() {
 
 /// By its samples; its wide and narrow pictures are alike.
 void Pilots::add_truth(const Pilot& path) {
-    if (path.passes < pilot_passes) {
+    if (path.passes < pilot_passes / 2) {
         return;
     }
-    const double samples = path.settings.samples;
+    const double samples = static_cast<double>(path.passes) * path.settings.samples;
     const Pair &a = path.estimated_wide, &b = path.estimated_narrow;
     const Pair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
     truth_ = truth_ ? Pair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),

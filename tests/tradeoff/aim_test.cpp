@@ -183,6 +183,15 @@ TEST(Aim, NoiseThatDoesNotFallEndsInTime) {
     EXPECT_FALSE(course.reached());
 }
 
+TEST(Aim, PilotsAreShortWhereFewPassesDo) {
+    FakePasses fake;
+    fake.interrupted_after = pilot_passes;
+    const AimedRender few = aim_at(fake, box(), {.error = 0.01, .seconds = {}});
+    EXPECT_FALSE(few.prospects.empty());
+    fake.total = 0;
+    EXPECT_TRUE(aim_at(fake, box(), {.error = 0.0005, .seconds = {}}).prospects.empty());
+}
+
 TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
     FakePasses fake;
     fake.map_seconds = 0.2;
@@ -197,7 +206,7 @@ TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
 
 TEST(Aim, InterruptedRenderSaysWhatItKnows) {
     FakePasses fake;
-    fake.interrupted_after = pilot_passes + 1;
+    fake.interrupted_after = pilot_passes / 2 + 1;     // so few passes do that a half pilot is enough
     const AimedRender aimed = aim_at(fake, box(), {.error = 0.005, .seconds = {}});
     EXPECT_TRUE(aimed.result.statistics.interrupted);
     EXPECT_EQ(aimed.result.statistics.passes, 1u);
