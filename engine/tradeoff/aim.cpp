@@ -34,13 +34,12 @@ std::uint32_t few_samples(const RenderSettings& base) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>((few_photons + pixels - 1) / pixels, most_few_samples));
 }
 
-RenderSettings settings_of_pass(const RenderSettings& base, const Chosen& chosen, const std::string& method,
-                                std::uint64_t photons) {
+RenderSettings settings_of_pass(const RenderSettings& base, const Chosen& chosen, const std::string& method) {
     RenderSettings pass = base;
     pass.budget.reset();
     pass.method = chosen.method ? base.method : method;
     pass.samples = chosen.samples ? base.samples : few_samples(base);
-    pass.photons = chosen.photons ? base.photons : photons;
+    pass.photons = chosen.photons ? base.photons : few_photons;
     pass.photons_per_pass = std::max<std::uint64_t>(std::min(pass.photons, base.photons_per_pass), 1);
     return pass;
 }
@@ -54,7 +53,7 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
         return one_more <= share * (aim.seconds ? *aim.seconds : best().seconds + one_more);
     };
     const double first_seconds = aim.seconds ? share_of_pilots * *aim.seconds : std::numeric_limits<double>::infinity();
-    if (!pilots.run(settings_of_pass(base, chosen, tried_methods.front(), few_photons), first_seconds)) {
+    if (!pilots.run(settings_of_pass(base, chosen, tried_methods.front()), first_seconds)) {
         return false;
     }
     Chosen numbers = chosen;
@@ -63,7 +62,7 @@ bool explore(Pilots& pilots, const RenderSettings& base, const Chosen& chosen, c
         // Paths tell the bias of the others as well, but for what they cannot find.
         const bool wanted = method == "path" ? path_is_true : !chosen.method;
         if (wanted && !pilots.has(method) && is_worth(share_of_pilots) &&
-            !pilots.run(settings_of_pass(base, numbers, method, few_photons))) {
+            !pilots.run(settings_of_pass(base, numbers, method))) {
             return false;
         }
     }

@@ -44,14 +44,16 @@ std::optional<PassPlan> Course::operator()(const PictureSoFar& so_far) {
 void Course::measure(const PictureSoFar& so_far) {
     const std::vector<Layer> layers = so_far.layers();
     halves_.add(layers.front().image);
-    estimated_.add(estimated_light(layers));
+    const bool by_truth = truth_ && prospect_.settings.method != "path";
+    if (by_truth) {
+        estimated_.add(estimated_light(layers));
+    }
     if (!halves_.are_equal()) {
         return;
     }
     const auto passes = static_cast<double>(so_far.passes);
     const Pair& means = halves_.means();
     const Image guess = passes < passes_for_pixels ? guess_from({smoothed(means[0]), smoothed(means[1])}) : guess_from(means);
-    const bool by_truth = truth_ && prospect_.settings.method != "path";
     measured_ = {.passes = passes,
                  .noise = halves_.noise(guess),
                  .bias = by_truth ? bias_of(estimated_.means(), prospect_.model, passes, *truth_, guess)

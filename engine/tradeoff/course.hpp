@@ -42,7 +42,7 @@ private:
     const std::optional<Pair>& truth_;
     Budget budget_;
     std::chrono::steady_clock::time_point start_;
-    Halves halves_, estimated_;     ///< of the whole picture, of its estimated light
+    Halves halves_, estimated_;     ///< of the whole picture; of its estimated light, if its truth is known
     std::optional<Measured> measured_;
     bool reached_ = false;
 };

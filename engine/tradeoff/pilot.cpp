@@ -41,15 +41,15 @@ std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings&
         const auto others = static_cast<double>(so_far.passes - 1);
         const bool is_narrow = so_far.passes > half;
         const std::size_t stream = (so_far.passes - 1) % 2;
-        (is_narrow ? pilot.narrow : pilot.wide)[stream] = part_of(mean, before, others);
-        (is_narrow ? pilot.estimated_narrow : pilot.estimated_wide)[stream] = part_of(estimated, estimated_before, others);
+        PilotPictures& pictures = is_narrow ? pilot.narrow : pilot.wide;
+        pictures.whole[stream] = part_of(mean, before, others);
+        pictures.estimated[stream] = part_of(estimated, estimated_before, others);
         if (so_far.passes == 1) {
-            pilot.wide[1] = pilot.wide[0];
-            pilot.estimated_wide[1] = pilot.estimated_wide[0];
+            pictures.whole[1] = pictures.whole[0];
+            pictures.estimated[1] = pictures.estimated[0];
         }
         if (!is_narrow) {
             pilot.narrow = pilot.wide;
-            pilot.estimated_narrow = pilot.estimated_wide;
         }
         before = mean;
         estimated_before = estimated;
@@ -77,9 +77,9 @@ Image best_guess(const std::vector<Pilot>& pilots) {
     Image best;
     double least = std::numeric_limits<double>::infinity();
     for (const Pilot& pilot : pilots) {
-        const auto half = [&](std::size_t i) { return smoothed(mean_of(pilot.wide[i], pilot.narrow[i])); };
+        const auto half = [&](std::size_t i) { return smoothed(mean_of(pilot.wide.whole[i], pilot.narrow.whole[i])); };
         const Image guess = guess_from({half(0), half(1)});
-        const double variance = variance_of(pilot.narrow, guess);
+        const double variance = variance_of(pilot.narrow.whole, guess);
         if (variance < least || best.pixels.empty()) {
             least = variance;
             best = guess;
@@ -102,12 +102,12 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
     if (pilot.passes < 2) {
         return {.fixed = std::numeric_limits<double>::infinity()};
     }
-    const double wide = variance_of(pilot.wide, guess);
+    const double wide = variance_of(pilot.wide.whole, guess);
     if (pilot.settings.method == "path") {
-        return {.fixed = 0.5 * (wide + variance_of(pilot.narrow, guess)), .density = 0, .bias = {0, 0}};
+        return {.fixed = 0.5 * (wide + variance_of(pilot.narrow.whole, guess)), .density = 0, .bias = {0, 0}};
     }
-    const double estimated = variance_of(pilot.estimated_wide, guess);
-    const double growth = variance_of(pilot.estimated_narrow, guess) - estimated;
+    const double estimated = variance_of(pilot.wide.estimated, guess);
+    const double growth = variance_of(pilot.narrow.estimated, guess) - estimated;
     ErrorModel model = fit_noise(wide, wide + growth, narrow_passes);
     // The bias at a narrower width is a share of that at a wide one, and so is their difference.
     const double narrow_share = bias_share(narrow_passes), lost = 1 - std::sqrt(narrow_share);
@@ -118,12 +118,12 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
         }
     };
     if (pilot.passes == pilot_passes) {
-        add(pilot.estimated_wide, pilot.estimated_narrow, 1 / (lost * lost));
+        add(pilot.wide.estimated, pilot.narrow.estimated, 1 / (lost * lost));
     }
     if (truth) {
-        add(pilot.estimated_wide, *truth, 1);
+        add(pilot.wide.estimated, *truth, 1);
         if (pilot.passes == pilot_passes) {
-            add(pilot.estimated_narrow, *truth, 1 / narrow_share);
+            add(pilot.narrow.estimated, *truth, 1 / narrow_share);
         }
     }
     model.bias = posterior(usual_bias * estimated, spread_of_bias, estimates);

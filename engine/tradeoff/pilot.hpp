@@ -16,6 +16,10 @@ using RenderPasses = std::function<RenderResult(const RenderSettings& settings, 
 /// Passes for whose widths of estimation a pilot's later pictures are.
 inline constexpr double narrow_passes = 8;
 
+struct PilotPictures {
+    Pair whole, estimated;  ///< all light; that which is estimated from photons
+};
+
 /// Passes of a whole pilot.
 inline constexpr std::uint64_t pilot_passes = 4;
 
@@ -24,8 +28,7 @@ inline constexpr std::uint64_t pilot_passes = 4;
 struct Pilot {
     RenderSettings settings;            ///< of one pass
     std::uint64_t passes = 0;           ///< fewer than all: it took too long; 2: no narrow ones; 1: one picture is all there is
-    Pair wide, narrow;                  ///< whole pictures
-    Pair estimated_wide, estimated_narrow;  ///< of the light in them that is estimated from photons
+    PilotPictures wide, narrow;
     double seconds_per_pass = 0;        ///< of the narrow ones
     double seconds = 0;                 ///< that it took
 };

@@ -81,7 +81,7 @@ void Pilots::add_truth(const Pilot& path) {
         return;
     }
     const double samples = static_cast<double>(path.passes) * path.settings.samples;
-    const Pair &a = path.estimated_wide, &b = path.estimated_narrow;
+    const Pair &a = path.wide.estimated, &b = path.narrow.estimated;
     const Pair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
     truth_ = truth_ ? Pair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
                            weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}

@@ -80,10 +80,11 @@ protected:
     }
 
     /// Of each kernel that a render dispatches, by its name, one.
-    Variants variants(const Scene& scene, bool everything) {
+    Variants variants(const Scene& scene, bool everything) { return by_name(*recorded(scene, everything)); }
+
+    static Variants by_name(const RecordingDevice& recording) {
         Variants found;
-        const std::unique_ptr<RecordingDevice> recording = recorded(scene, everything);
-        for (const RecordingDevice::Variant& variant : recording->variants()) {
+        for (const RecordingDevice::Variant& variant : recording.variants()) {
             found[variant.first->name] = variant;
         }
         return found;
@@ -150,13 +151,7 @@ TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {
 TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
     const auto with = recorded(with_glass_sphere(diffuse_box()), false);
     const auto without = recorded(diffuse_box(), false);
-    Variants glass, diffuse;
-    for (const RecordingDevice::Variant& variant : with->variants()) {
-        glass[variant.first->name] = variant;
-    }
-    for (const RecordingDevice::Variant& variant : without->variants()) {
-        diffuse[variant.first->name] = variant;
-    }
+    const Variants glass = by_name(*with), diffuse = by_name(*without);
     constexpr float transmission = 0.04f;
     std::size_t seen = 0;
     for (const auto& [kernel, kernel_marks] : marks) {

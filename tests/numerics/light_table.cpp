@@ -49,6 +49,15 @@ void put_normal_change(Draw& d, glm::vec3 n) {
     d.put(d.once_in(4) ? glm::vec3(0) : rounded(d.across(glm::dvec3(n)) * double(d.magnitude(-12, 10))));
 }
 
+/// A direction that comes in, the normal there, and its changes with both parameters.
+void put_curved_hit(Draw& d) {
+    const glm::vec3 n = d.direction();
+    d.put(-d.above(n));
+    d.put(n);
+    put_normal_change(d, n);
+    put_normal_change(d, n);
+}
+
 void put_differential(Draw& d) {
     const int size = static_cast<int>(d.bits() % 40) - 20;
     put_pair(d, size - 3, size);
@@ -201,20 +210,12 @@ std::vector<Function> light_table() {
          }, 19, "3333", conditioned, 32},
         {"reflect_differential", of_reflect_differential, "any differential, curvatures 0 … 2^10, grazing by 10^-7",
          [](Draw& d) {
-             const glm::vec3 n = d.direction();
-             d.put(-d.above(n));
-             d.put(n);
-             put_normal_change(d, n);
-             put_normal_change(d, n);
+             put_curved_hit(d);
              put_differential(d);
          }, 24, "3333", conditioned, 8},
         {"refract_differential", of_refract_differential, "as reflect_differential; ratios 0.1 … 10, 1 ± 10^-7, total reflection",
          [](Draw& d) {
-             const glm::vec3 n = d.direction();
-             d.put(-d.above(n));
-             d.put(n);
-             put_normal_change(d, n);
-             put_normal_change(d, n);
+             put_curved_hit(d);
              d.put(d.index_ratio());
              put_differential(d);
          }, 25, "3333", conditioned, 8},
