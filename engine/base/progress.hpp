@@ -1,6 +1,7 @@
 #pragma once
 
-#include <chrono>
+#include "base/clock.hpp"
+
 #include <string>
 #include <string_view>
 
@@ -23,7 +24,6 @@ public:
     void erase();
 
 private:
-    using Clock = std::chrono::steady_clock;
     std::string work_;
     int descriptor_;
     bool active_;

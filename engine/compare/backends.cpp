@@ -1,5 +1,6 @@
 #include "compare/backends.hpp"
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "compare/golden_device.hpp"
 #include "compare/paired_device.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <string_view>
 
 namespace argand {
@@ -24,9 +24,9 @@ bool keep_going(double) { return true; }
 
 RenderResult render_timed(Device& device, const Scene& scene, const RenderSettings& settings, double& seconds) {
     render(device, scene, settings, keep_going);    // compiles what it needs
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     RenderResult result = render(device, scene, settings, keep_going);
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds = seconds_since(start);
     return result;
 }
 

@@ -1,11 +1,11 @@
 #include "compare/paired_device.hpp"
 
+#include "base/clock.hpp"
 #include "compare/paired_primitives.hpp"
 #include "compare/stage.hpp"
 #include "compare/unordered.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 namespace argand {
@@ -33,10 +33,10 @@ KernelArguments side_of(KernelArguments arguments, Buffer PairedBuffer::* side) 
 
 double seconds_of(Device& device, const std::function<void()>& work) {
     device.wait();
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     work();
     device.wait();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_since(start);
 }
 
 std::vector<std::uint32_t> words_of(Device& device, const BufferView& range) {

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "base/clock.hpp"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -54,8 +55,7 @@ public:
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
-    double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double elapsed() const { return seconds_since(start_); }
 
     std::optional<double> seconds_;
     Clock::time_point start_ = Clock::now();

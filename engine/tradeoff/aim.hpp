@@ -2,6 +2,7 @@
 
 #include "scene/scene.hpp"
 #include "tradeoff/course.hpp"
+#include "tradeoff/exploration.hpp"
 
 #include <functional>
 #include <optional>
@@ -9,11 +10,6 @@
 #include <vector>
 
 namespace argand {
-
-/// What the user has chosen nevertheless.
-struct Chosen {
-    bool method = false, samples = false, photons = false;
-};
 
 struct AimedRender {
     Aim aim;

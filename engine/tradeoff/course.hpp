@@ -1,10 +1,10 @@
 #pragma once
 
+#include "base/clock.hpp"
 #include "methods/budget.hpp"
 #include "tradeoff/halves.hpp"
 #include "tradeoff/prospect.hpp"
 
-#include <chrono>
 #include <optional>
 
 namespace argand {
@@ -26,6 +26,9 @@ public:
     /// truth: the estimated light without bias, if it is known. spent: seconds before this.
     Course(const Aim& aim, const Prospect& prospect, const std::optional<Pair>& truth, double spent);
 
+    /// Goes on from the passes of a pilot, which are the picture's first. Called before the first of its own.
+    void go_on_from(const Pilot& pilot);
+
     std::optional<PassPlan> operator()(const PictureSoFar& so_far);
 
     /// Nothing before both halves have a pass.
@@ -33,16 +36,24 @@ public:
     bool reached() const { return reached_; }
 
 private:
-    void measure(const PictureSoFar& so_far);
+    void add(const Image& mean_so_far, const Image& estimated_so_far);
+    void measure();
+    bool has_time(std::uint64_t done);
+    double passes_in_time(std::uint64_t done) const;
+    bool tells_bias() const;
+    bool asks_estimated() const;
     double to_error() const;
     bool takes_too_long(double times) const;
 
     const Aim& aim_;
     const Prospect& prospect_;
     const std::optional<Pair>& truth_;
+    ErrorModel model_;
+    double seconds_;                ///< for passes of its own
     Budget budget_;
-    std::chrono::steady_clock::time_point start_;
-    Halves halves_, estimated_;     ///< of the whole picture; of its estimated light, if its truth is known
+    Clock::time_point start_;
+    std::uint64_t begun_ = 0;       ///< passes of the pilot
+    Halves halves_, estimated_;     ///< of the whole picture; of its estimated light, where it is asked
     std::optional<Measured> measured_;
     bool reached_ = false;
 };

@@ -7,12 +7,19 @@
 namespace argand {
 
 double noise_after(const ErrorModel& model, double passes) {
-    return (model.fixed + model.density * std::cbrt(passes)) / passes;
+    const double wide = std::min(model.wide, passes) / passes;
+    return (model.fixed + model.density * (wide + (1 - wide) * std::cbrt(passes))) / passes;
 }
 
-double bias_share(double passes) { return 1 / std::cbrt(passes); }
+double bias_share(double passes, double wide) {
+    const double share = std::min(wide, passes) / passes;
+    const double amplitude = share + (1 - share) / std::cbrt(std::sqrt(passes));
+    return amplitude * amplitude;
+}
 
-Estimate bias_after(const ErrorModel& model, double passes) { return scaled(model.bias, bias_share(passes)); }
+Estimate bias_after(const ErrorModel& model, double passes) {
+    return scaled(model.bias, bias_share(passes, model.wide));
+}
 
 double error_after(const ErrorModel& model, double passes) {
     return noise_after(model, passes) + bias_after(model, passes).value;

@@ -17,6 +17,9 @@ public:
     /// Passes in all at the end of this turn.
     std::uint64_t next() const { return done_ + length_; }
 
+    /// Passes in all at the end of the last turn.
+    std::uint64_t passes() const { return done_; }
+
     /// Told the mean of all passes at the end of each turn.
     void add(const Image& mean_so_far);
 

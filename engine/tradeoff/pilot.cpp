@@ -5,7 +5,6 @@
 #include "image/metrics.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -27,50 +26,42 @@ Image part_of(const Image& mean, const Image& before, double others) {
 
 } // namespace
 
-std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings, const IsEnough& is_enough) {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::uint64_t half = pilot_passes / 2;
-    Pilot pilot{.settings = settings};
-    const Clock::time_point start = Clock::now();
-    double halfway = 0;
-    Image before, estimated_before;
-    /// Takes a pass's pictures. Those that are lacking so far are taken for like what there is.
-    const auto add = [&](const PictureSoFar& so_far) {
-        const std::vector<Layer> layers = so_far.layers();
-        const Image &mean = layers.front().image, estimated = estimated_light(layers);
-        const auto others = static_cast<double>(so_far.passes - 1);
-        const bool is_narrow = so_far.passes > half;
-        const std::size_t stream = (so_far.passes - 1) % 2;
-        PilotPictures& pictures = is_narrow ? pilot.narrow : pilot.wide;
-        pictures.whole[stream] = part_of(mean, before, others);
-        pictures.estimated[stream] = part_of(estimated, estimated_before, others);
-        if (so_far.passes == 1) {
-            pictures.whole[1] = pictures.whole[0];
-            pictures.estimated[1] = pictures.estimated[0];
-        }
-        if (!is_narrow) {
-            pilot.narrow = pilot.wide;
-        }
-        before = mean;
-        estimated_before = estimated;
-        pilot.passes = so_far.passes;
-        pilot.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        halfway = is_narrow ? halfway : pilot.seconds;
-        pilot.seconds_per_pass = is_narrow ? (pilot.seconds - halfway) / static_cast<double>(pilot.passes - half)
-                                           : pilot.seconds / static_cast<double>(pilot.passes);
-    };
-    const RenderResult result = render(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
-        if (so_far.passes > 0) {
-            add(so_far);
-        }
-        const bool may_end = so_far.passes > 0 && so_far.passes <= half;
-        if (so_far.passes == pilot_passes || (may_end && is_enough(pilot))) {
-            return std::nullopt;
-        }
-        return PassPlan{.expected = so_far.passes < half ? 1.0 : narrow_passes,
-                        .stream = static_cast<std::uint32_t>(so_far.passes % 2)};
-    });
-    return result.statistics.interrupted || pilot.passes == 0 ? std::nullopt : std::optional(std::move(pilot));
+std::optional<PassPlan> PilotCourse::operator()(const PictureSoFar& so_far) {
+    if (so_far.passes > 0) {
+        add(so_far);
+    }
+    const bool may_end = so_far.passes > 0 && so_far.passes <= wide_passes;
+    if (so_far.passes == pilot_passes || (may_end && is_enough_(pilot_))) {
+        return std::nullopt;
+    }
+    return PassPlan{.expected = so_far.passes < wide_passes ? 1.0 : narrow_passes,
+                    .stream = static_cast<std::uint32_t>(so_far.passes % 2)};
+}
+
+/// Takes a pass's pictures. Those that are lacking so far are taken for like what there is.
+void PilotCourse::add(const PictureSoFar& so_far) {
+    const std::vector<Layer> layers = so_far.layers();
+    const Image &mean = layers.front().image, estimated = estimated_light(layers);
+    const auto others = static_cast<double>(so_far.passes - 1);
+    const bool is_narrow = so_far.passes > wide_passes;
+    const std::size_t stream = (so_far.passes - 1) % 2;
+    PilotPictures& pictures = is_narrow ? pilot_.narrow : pilot_.wide;
+    pictures.whole[stream] = part_of(mean, before_, others);
+    pictures.estimated[stream] = part_of(estimated, estimated_before_, others);
+    if (so_far.passes == 1) {
+        pictures.whole[1] = pictures.whole[0];
+        pictures.estimated[1] = pictures.estimated[0];
+    }
+    if (!is_narrow) {
+        pilot_.narrow = pilot_.wide;
+    }
+    before_ = mean;
+    estimated_before_ = estimated;
+    pilot_.passes = so_far.passes;
+    pilot_.seconds = seconds_since(start_);
+    halfway_ = is_narrow ? halfway_ : pilot_.seconds;
+    pilot_.seconds_per_pass = is_narrow ? (pilot_.seconds - halfway_) / static_cast<double>(pilot_.passes - wide_passes)
+                                        : pilot_.seconds / static_cast<double>(pilot_.passes);
 }
 
 Image best_guess(const std::vector<Pilot>& pilots) {
@@ -132,7 +123,7 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
 }
 
 Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth, const Image& guess) {
-    return posterior(usual_bias * model.estimated * bias_share(passes), spread_of_bias,
+    return posterior(usual_bias * model.estimated * bias_share(passes, model.wide), spread_of_bias,
                      squared_difference(estimated, truth, guess));
 }
 

@@ -1,17 +1,15 @@
 #pragma once
 
+#include "base/clock.hpp"
 #include "methods/render.hpp"
 #include "tradeoff/error_model.hpp"
 
-#include <array>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace argand {
-
-/// Renders the settings' samples and photons again and again, as argand::render with `on_pass`.
-using RenderPasses = std::function<RenderResult(const RenderSettings& settings, const OnPass& on_pass)>;
 
 /// Passes for whose widths of estimation a pilot's later pictures are.
 inline constexpr double narrow_passes = 8;
@@ -22,6 +20,7 @@ struct PilotPictures {
 
 /// Passes of a whole pilot.
 inline constexpr std::uint64_t pilot_passes = 4;
+inline constexpr std::uint64_t wide_passes = pilot_passes / 2;
 
 /// A few passes of some settings, to learn what they cost and how far from the truth they are. Half of them are at the
 /// widths of estimation for one pass, half at those for `narrow_passes`; all are alike if the method has no such widths.
@@ -36,8 +35,26 @@ struct Pilot {
 /// Asked after each wide pass whether the pilot so far is enough.
 using IsEnough = std::function<bool(const Pilot& so_far)>;
 
-/// Nothing if it was interrupted.
-std::optional<Pilot> run_pilot(const RenderPasses& render, const RenderSettings& settings, const IsEnough& is_enough);
+/// Decides on a pilot's passes, and takes their pictures.
+class PilotCourse {
+public:
+    PilotCourse(const RenderSettings& settings, IsEnough is_enough)
+        : is_enough_(std::move(is_enough)), pilot_{.settings = settings}, start_(Clock::now()) {}
+
+    /// Nothing once the pilot is whole, or enough.
+    std::optional<PassPlan> operator()(const PictureSoFar& so_far);
+
+    const Pilot& pilot() const { return pilot_; }
+
+private:
+    void add(const PictureSoFar& so_far);
+
+    IsEnough is_enough_;
+    Pilot pilot_;
+    Clock::time_point start_;
+    double halfway_ = 0;            ///< seconds
+    Image before_, estimated_before_;
+};
 
 /// What relMSE divides by, as far as it is known: guess_from() the least noisy pilot, smoothed.
 Image best_guess(const std::vector<Pilot>& pilots);

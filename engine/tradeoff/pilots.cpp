@@ -13,6 +13,8 @@ namespace {
 // To the error, up to which narrow passes of the pilot would be too much of the work.
 constexpr double few_passes = 24;
 
+bool is_path(const Pilot& pilot) { return pilot.settings.method == "path"; }
+
 bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
     return pilot.passes > 1 && aim.error &&
            passes_for(model_of(pilot, nullptr, best_guess({pilot})), *aim.error) <= few_passes;
@@ -20,25 +22,36 @@ bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
 
 } // namespace
 
-bool Pilots::run(const RenderSettings& settings, double seconds) {
-    std::optional<Pilot> pilot = run_pilot(render_, settings, [&](const Pilot& so_far) {
+RenderResult Pilots::run(const RenderSettings& settings, double seconds, const GoOn& go_on) {
+    PilotCourse pilot(settings, [&](const Pilot& so_far) {
         return so_far.seconds > seconds || takes_few_passes(so_far, aim_);
     });
-    if (!pilot) {
-        return false;
+    bool is_complete = false;
+    OnPass next;
+    RenderResult result = render_(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
+        if (!is_complete) {
+            if (const std::optional<PassPlan> plan = pilot(so_far)) {
+                return plan;
+            }
+            is_complete = true;
+            add(pilot.pilot());
+            next = go_on();
+        }
+        return next ? next(so_far) : std::nullopt;
+    });
+    // There may be no random numbers for more passes.
+    if (!is_complete && !result.statistics.interrupted) {
+        add(pilot.pilot());
     }
-    if (pilot->settings.method == "path") {
-        add_truth(*pilot);
+    if (!next) {
+        look_ahead(false);
     }
-    seconds_ += pilot->seconds;
-    pilots_.push_back(std::move(*pilot));
-    look_ahead();
-    return true;
+    return result;
 }
 
 bool Pilots::improve_truth(double seconds) {
-    const Pilot* path = find("path");
-    if (!path) {
+    const auto path = std::find_if(pilots_.begin(), pilots_.end(), is_path);
+    if (path == pilots_.end()) {
         return true;
     }
     RenderSettings more = path->settings;
@@ -48,27 +61,46 @@ bool Pilots::improve_truth(double seconds) {
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
-    const std::optional<Pilot> pilot = run_pilot(render_, more, [](const Pilot&) { return false; });
-    if (pilot) {
-        add_truth(*pilot);
-        seconds_ += pilot->seconds;
-        look_ahead();
+    PilotCourse pilot(more, [](const Pilot&) { return false; });
+    if (render_(more, std::ref(pilot)).statistics.interrupted) {
+        return false;
     }
-    return pilot.has_value();
+    add_truth(pilot.pilot());
+    seconds_ += pilot.pilot().seconds;
+    learn();
+    look_ahead(false);
+    return true;
 }
 
-const Pilot* Pilots::find(const std::string& method) const {
-    const auto found =
-        std::find_if(pilots_.begin(), pilots_.end(), [&](const Pilot& pilot) { return pilot.settings.method == method; });
-    return found == pilots_.end() ? nullptr : &*found;
+std::size_t Pilots::count(const std::string& method) const {
+    return static_cast<std::size_t>(std::count_if(
+        pilots_.begin(), pilots_.end(), [&](const Pilot& pilot) { return pilot.settings.method == method; }));
 }
 
-void Pilots::look_ahead() {
+void Pilots::add(const Pilot& pilot) {
+    if (is_path(pilot)) {
+        add_truth(pilot);
+    }
+    seconds_ += pilot.seconds;
+    pilots_.push_back(pilot);
+    learn();
+    look_ahead(true);
+}
+
+void Pilots::learn() {
     const Image guess = best_guess(pilots_);
-    prospects_.clear();
+    models_.clear();
     for (const Pilot& pilot : pilots_) {
-        if (pilot.settings.method != "path" || with_path_) {
-            prospects_.push_back(prospect_of(pilot, model_of(pilot, truth_ ? &*truth_ : nullptr, guess), aim_, seconds_));
+        models_.push_back(model_of(pilot, truth_ ? &*truth_ : nullptr, guess));
+    }
+}
+
+void Pilots::look_ahead(bool last_goes_on) {
+    prospects_.clear();
+    for (std::size_t i = 0; i < pilots_.size(); ++i) {
+        const bool goes_on = last_goes_on && i + 1 == pilots_.size();
+        if (!is_path(pilots_[i]) || with_path_) {
+            prospects_.push_back(prospect_of(pilots_[i], models_[i], aim_, seconds_, goes_on));
         }
     }
     std::sort(prospects_.begin(), prospects_.end(),
@@ -77,7 +109,7 @@ void Pilots::look_ahead() {
 
 /// By its samples; its wide and narrow pictures are alike.
 void Pilots::add_truth(const Pilot& path) {
-    if (path.passes < pilot_passes / 2) {
+    if (path.passes < wide_passes) {
         return;
     }
     const double samples = static_cast<double>(path.passes) * path.settings.samples;

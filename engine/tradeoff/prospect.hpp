@@ -18,12 +18,13 @@ struct Prospect {
     ErrorModel model;
     double seconds_per_pass = 0;
     double passes = 1;                  ///< to the aim; infinite: it cannot be reached
-    double seconds = 0;                 ///< that these take
+    double seconds = 0;                 ///< that these take, but for those which the pilot has made
     double error = 0;                   ///< relMSE then; infinite: its pilot was too short to tell
+    bool goes_on = false;               ///< the pilot's own passes are part of the picture
 };
 
 /// Of a pilot's settings: to the error, or in what is left of the time after so many seconds.
-Prospect prospect_of(const Pilot& pilot, const ErrorModel& model, const Aim& aim, double spent);
+Prospect prospect_of(const Pilot& pilot, const ErrorModel& model, const Aim& aim, double spent, bool goes_on);
 
 /// Whether the error is expected to be met.
 bool reaches(const Prospect& prospect, const Aim& aim);

@@ -1,5 +1,6 @@
 #include "tradeoff/reference.hpp"
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "image/exr.hpp"
 #include "image/files.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -58,8 +58,7 @@ double least_error_of(const Reference& reference) {
 
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
                                           std::span<const Image> pilots, double seconds) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const Clock::time_point start = Clock::now();
     Reference reference;
     RenderSettings settings = base;
     settings.method = "path";
@@ -67,7 +66,7 @@ std::optional<Reference> render_reference(const RenderTrials& render, const Rend
     for (std::uint32_t round = 0;; ++round) {
         settings.samples = static_cast<std::uint32_t>(samples);
         const std::array seeds{first_seed + 2 * round, first_seed + 2 * round + 1};
-        const double before = elapsed();
+        const double before = seconds_since(start);
         const std::optional<Trials> pair = render(settings, seeds);
         if (!pair) {
             return std::nullopt;
@@ -81,8 +80,8 @@ std::optional<Reference> render_reference(const RenderTrials& render, const Rend
             return reference;
         }
         // Twice as many, or as many as there is time for.
-        const double round_seconds = std::max(elapsed() - before, 1e-6);
-        samples = std::floor(samples * std::min(2.0, (seconds - elapsed()) / round_seconds));
+        const double round_seconds = std::max(seconds_since(start) - before, 1e-6);
+        samples = std::floor(samples * std::min(2.0, (seconds - seconds_since(start)) / round_seconds));
         if (samples < 1) {
             return reference;
         }

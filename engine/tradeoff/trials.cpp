@@ -1,10 +1,10 @@
 #include "tradeoff/trials.hpp"
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "image/files.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace argand {
 
@@ -25,10 +25,10 @@ RenderSettings warm_up(RenderSettings settings) {
 std::optional<Trial> render_once(Device& device, const Scene& scene, const RenderSettings& settings,
                                  const std::function<bool()>& go_on) {
     device.reset_stage_times();
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     RenderResult result = render(device, scene, settings, [&](double) { return go_on(); });
     Trial trial;
-    trial.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    trial.wall_seconds = seconds_since(start);
     if (result.statistics.interrupted || !go_on()) {
         return std::nullopt;
     }

@@ -28,5 +28,16 @@ TEST(ErrorModel, NoiseIsSplitByHowItGrowsAsWidthsShrink) {
     EXPECT_EQ(fit_noise(0.04, 10, 8).fixed, 0);
 }
 
+TEST(ErrorModel, FirstPassesAreAtTheWidthsForOne) {
+    const ErrorModel model{.fixed = 0.03, .density = 0.01, .bias = {0.002, 0.001}, .wide = 2};
+    EXPECT_NEAR(noise_after(model, 2), (0.03 + 0.01) / 2, 1e-12);
+    EXPECT_EQ(bias_after(model, 2).value, 0.002);
+    // Of eight passes two are wide; the widths for eight let 1 / sqrt(2) of the bias remain.
+    EXPECT_NEAR(noise_after(model, 8), (2 * 0.04 + 6 * 0.05) / 64, 1e-12);
+    const double share = 0.25 + 0.75 / std::sqrt(2);
+    EXPECT_NEAR(bias_after(model, 8).value, 0.002 * share * share, 1e-12);
+    EXPECT_NEAR(bias_after(model, 8).error, 0.001 * share * share, 1e-12);
+}
+
 } // namespace
 } // namespace argand

@@ -2,6 +2,7 @@
 
 #include "backend_options.hpp"
 #include "base/atomic_write.hpp"
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
@@ -18,7 +19,6 @@
 #include "tradeoff/aim.hpp"
 
 #include <charconv>
-#include <chrono>
 #include <map>
 #include <memory>
 
@@ -165,10 +165,6 @@ std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& 
 }
 
 void render_file(RenderOptions& options, const CLI::App& command) {
-    using Clock = std::chrono::steady_clock;
-    const auto seconds_since = [](Clock::time_point start) {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
     const PictureSize size = parse_picture_size(options.size);
     options.settings.width = size.width;
     options.settings.height = size.height;

@@ -119,19 +119,19 @@ void HostDevice::download(const Buffer& from, std::uint64_t offset, std::span<st
 
 void HostDevice::begin_stage(std::string_view name) {
     stage_ = name;
-    stage_start_ = std::chrono::steady_clock::now();
+    stage_start_ = Clock::now();
 }
 
 void HostDevice::end_stage() {
     if (!info_.features.timestamps) {
         return;
     }
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - stage_start_;
+    const double spent = seconds_since(stage_start_);
     auto found = std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.name == stage_; });
     if (found == times_.end()) {
         found = times_.insert(times_.end(), {stage_, 0, 0});
     }
-    found->seconds += spent.count();
+    found->seconds += spent;
     ++found->runs;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "base/clock.hpp"
 #include "device/device.hpp"
 #include "device/host/host_primitives.hpp"
 #include "device/memory_ledger.hpp"
 
-#include <chrono>
 #include <memory>
 
 namespace argand::host {
@@ -55,7 +55,7 @@ private:
     HostPrimitives primitives_;
     std::vector<StageTime> times_;
     std::string stage_;
-    std::chrono::steady_clock::time_point stage_start_;
+    Clock::time_point stage_start_;
 };
 
 } // namespace argand::host

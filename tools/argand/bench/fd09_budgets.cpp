@@ -1,8 +1,8 @@
+#include "base/clock.hpp"
 #include "bench.hpp"
 #include "fd09.hpp"
 #include "fd09_reference.hpp"
 
-#include <chrono>
 #include <fmt/format.h>
 
 namespace argand {
@@ -23,9 +23,9 @@ void measure_budgets(Device& device, const Scene& scene, RenderSettings settings
             RenderStatistics last;
             for (int run = 0; run < runs; ++run) {
                 settings.seed = static_cast<std::uint32_t>(run);
-                const auto start = std::chrono::steady_clock::now();
+                const Clock::time_point start = Clock::now();
                 const RenderResult result = render_all(device, scene, settings);
-                seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+                seconds.push_back(seconds_since(start));
                 error += rel_mse(result, references, "") / runs;
                 indirect += rel_mse(result, references, "indirect") / runs;
                 last = result.statistics;

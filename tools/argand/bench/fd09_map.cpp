@@ -1,10 +1,10 @@
 #include "fd09_map.hpp"
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "plan/radius.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 
 namespace argand {
@@ -50,12 +50,12 @@ PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size) {
 double seconds_of(Device& device, const std::function<void()>& work) {
     device.wait();
     const std::clock_t processor = std::clock();
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     work();
     device.wait();
     return device.info().kind == DeviceKind::cpu
                ? static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC
-               : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+               : seconds_since(start);
 }
 
 } // namespace argand

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "tradeoff/pilots.hpp"
+
+#include <optional>
+
+namespace argand {
+
+/// What the user has chosen nevertheless.
+struct Chosen {
+    bool method = false, samples = false, photons = false;
+};
+
+/// Which pilots there are to be, one after the other.
+struct Exploration {
+    const Pilots& pilots;           ///< so far
+    const RenderSettings& base;
+    const Chosen& chosen;
+    const Aim& aim;
+    bool path_is_true;              ///< paths from the eye find all light
+
+    /// Nothing: no other is worth its time.
+    std::optional<RenderSettings> next() const;
+
+    /// After which the next one may end early.
+    double most_seconds() const;
+
+private:
+    std::optional<RenderSettings> other_method() const;
+    bool is_worth(double share) const;
+};
+
+} // namespace argand
