@@ -35,7 +35,7 @@ FN vec3 unpack_photon_normal(uint packed) {
 CONSTANT uint most_scatterings_known = 63u;
 
 // Where a photon came from, with the number of its scatterings in the lowest bits of both coordinates. Read by
-// unpack_unit as it is, the direction is off by at most 6e-4.
+// unpack_unit as it is, the direction is off by at most 1e-3.
 FN uint pack_photon_direction(vec3 direction, uint scatterings) {
     uint n = scatterings < most_scatterings_known ? scatterings : most_scatterings_known;
     return (pack_unit(direction) & 0xfff8fff8u) | (n & 7u) | ((n >> 3) << 16);

@@ -2,6 +2,7 @@
 // precision.
 #include "device_fixture.hpp"
 #include "functions.h"
+#include "kernels/evaluate_codes.hpp"
 #include "kernels/evaluate_lights.hpp"
 #include "kernels/evaluate_maths.hpp"
 #include "kernels/evaluate_scatter.hpp"
@@ -233,8 +234,11 @@ protected:
         } else if (f.id < end_of_scatter) {
             dispatch(device, kernels::evaluate_scatter{.inputs = in, .outputs = out, .which = which},
                      inputs.size());
-        } else {
+        } else if (f.id < end_of_lights) {
             dispatch(device, kernels::evaluate_lights{.inputs = in, .outputs = out, .which = which},
+                     inputs.size());
+        } else {
+            dispatch(device, kernels::evaluate_codes{.inputs = in, .outputs = out, .which = which},
                      inputs.size());
         }
         return download<Values>(device, out, inputs.size());
@@ -308,7 +312,7 @@ protected:
     void check_all(std::size_t count) {
         Device& device = open();
         std::vector<Function> table = maths_table();
-        for (std::vector<Function> part : {scatter_table(), light_table()}) {
+        for (std::vector<Function> part : {scatter_table(), light_table(), codes_table()}) {
             std::move(part.begin(), part.end(), std::back_inserter(table));
         }
         record_result("devices", device.info().name + ", " + device.info().driver);

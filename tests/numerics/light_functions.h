@@ -3,6 +3,7 @@
 #define ARGAND_TEST_LIGHT_FUNCTIONS_H
 
 #include "arguments.h"
+#include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/light_differential.h"
 
@@ -42,7 +43,10 @@ CONSTANT uint of_light_weight = 90u;
 CONSTANT uint of_transfer_differential = 91u;
 CONSTANT uint of_reflect_differential = 92u;
 CONSTANT uint of_refract_differential = 93u;
-CONSTANT uint end_of_lights = 94u;
+CONSTANT uint of_differential_record = 94u;
+CONSTANT uint of_unpack_dual = 95u;
+CONSTANT uint of_dual_read = 96u;
+CONSTANT uint end_of_lights = 97u;
 
 FN LightRecord light_at(IN(Arguments) a, int k, uint kind, uint double_sided) {
     LightRecord l;
@@ -238,6 +242,14 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         uvec2 packed = pack_dual(vec3_at(a, 0));
         put_word(r, 0, packed.x);
         put_word(r, 2, packed.y);
+    } else if (function == of_unpack_dual) {
+        put3(r, 0, unpack_dual(word_at(a, 0), word_at(a, 2)));
+    } else if (function == of_dual_read) {
+        uvec2 packed = pack_dual(vec3_at(a, 0));
+        put3(r, 0, must_be(unpack_dual(packed.x, packed.y), vec3_at(a, 0)));
+    } else if (function == of_differential_record) {
+        PhotonDifferential d = load_differential(differential_record(differential_at(a, 0)));
+        r = must_be(differential_values(d), differential_values(differential_at(a, 0)));
     }
     return r;
 }

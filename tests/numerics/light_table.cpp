@@ -341,6 +341,24 @@ std::vector<Function> light_table() {
              const int size = static_cast<int>(d.bits() % 180) - 90;
              d.put(d.vector(size - 8, size));
          }, 3, "ccdc", ulp, 0},
+        {"unpack_dual", of_unpack_dual, "codes 1 … 65,535 thrice, exponents -99 … 100",
+         [](Draw& d) {
+             const auto code = [&] {
+                 const std::uint32_t ends[] = {1, 32768, 65535};
+                 return d.once_in(6) ? ends[d.bits() % 3] : static_cast<std::uint32_t>(1 + d.bits() % 65535);
+             };
+             const std::uint32_t x = code();
+             const std::uint32_t y = code();
+             d.put_word(x | (y << 16));
+             d.put_word(code() | (static_cast<std::uint32_t>(28 + d.bits() % 200) << 23));
+         }, 0, "3", ulp, 1.5},
+        {"unpack_dual of pack_dual: the vector", of_dual_read, "vectors 2^-90 … 2^90, zeros",
+         [](Draw& d) {
+             const int size = static_cast<int>(d.bits() % 180) - 90;
+             d.put(d.vector(size - 8, size));
+         }, 3, "3", ulp, 900},    // 2^-15 of the largest component in each
+        {"load_differential of differential_record: the differential", of_differential_record, "any differential",
+         put_differential, 12, "dddddddddddd", ulp, 0},
     };
 }
 

@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
+#include "shared/follow.h"
 #include "shared/surface.h"
 
 ARGAND_SHARED_BEGIN
@@ -22,7 +23,7 @@ CONSTANT uint of_bsdf_border = 39u;
 CONSTANT uint of_refracted = 40u;
 CONSTANT uint of_lobe_probabilities = 41u;
 CONSTANT uint of_bsdf_albedo = 42u;
-CONSTANT uint of_bsdf_eval = 43u;
+CONSTANT uint of_bsdf_eval_and_pdf = 43u;
 CONSTANT uint of_bsdf_sample = 44u;
 CONSTANT uint of_ray_shear = 45u;
 CONSTANT uint of_intersect_triangle = 46u;
@@ -33,7 +34,11 @@ CONSTANT uint of_make_surface = 50u;
 CONSTANT uint of_camera_ray = 51u;
 CONSTANT uint of_intersect_sliver = 52u;
 CONSTANT uint of_normalize_or = 53u;
-CONSTANT uint end_of_scatter = 54u;
+CONSTANT uint of_bsdf_eval = 54u;
+CONSTANT uint of_bsdf_pdf = 55u;
+CONSTANT uint of_followed_lobes = 56u;
+CONSTANT uint of_path_state = 57u;
+CONSTANT uint end_of_scatter = 58u;
 
 // Sixteen numbers from k on.
 FN MaterialRecord material_at(IN(Arguments) a, int k) {
@@ -57,6 +62,24 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.absent = m.pad = 0u;
     return m;
 }
+
+#ifdef ARGAND_REAL_DOUBLE
+// State and layer of a path, told from all of its vertices at once.
+FN uvec2 path_by_vertices(uint vertices, uint followed) {
+    uint first = 0u;    // that is estimated
+    while (first < vertices && ((followed >> first) & 1u) != 0u) {
+        ++first;
+    }
+    if (first == vertices) {
+        return uvec2(0u, layer_direct);
+    }
+    uint behind = vertices - first - 1u;
+    uint all = (1u << behind) - 1u;
+    bool caustic = ((followed >> (first + 1u)) & all) == all;
+    return uvec2(path_estimated | (caustic ? path_followed : 0u) | behind,
+                 behind == 0u ? layer_direct : caustic ? layer_caustic : layer_indirect);
+}
+#endif
 
 FN Values evaluate_scatter(uint function, IN(Arguments) a) {
     Values r = no_values();
@@ -102,12 +125,43 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         put3(r, 0, lobe_probabilities(material_at(a, 1), number_at(a, 0), LOBES_ALL));
     } else if (function == of_bsdf_albedo) {
         put3(r, 0, bsdf_albedo(material_at(a, 3), vec3_at(a, 0), small_at(a, 17) != 0u, LOBES_ALL));
-    } else if (function == of_bsdf_eval) {
+    } else if (function == of_bsdf_eval_and_pdf) {
         MaterialRecord m = material_at(a, 6);
         real pdf;
         put3(r, 0, bsdf_eval_and_pdf(m, vec3_at(a, 0), vec3_at(a, 3), LOBES_ALL,
                                      lobe_probabilities(m, number_at(a, 2), LOBES_ALL), pdf));
         r.y[3] = pdf;
+    } else if (function == of_bsdf_eval || function == of_bsdf_pdf) {
+        MaterialRecord m = material_at(a, 6);
+        vec3 wo = vec3_at(a, 0);
+        vec3 wi = vec3_at(a, 3);
+        uint lobes = small_at(a, 20);
+        real pdf;
+        vec3 f = bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
+        // The glossy lobe by itself may scale powers that are subnormal, or 0 where devices flush those.
+        const real negligible = real(1e-30);
+        if (function == of_bsdf_eval) {
+            vec3 alone = bsdf_eval(m, wo, wi, lobes);
+            put3(r, 0, alone + vec3(negligible));
+            r.y[3] = must_be(alone == f ? real(1.0) : real(0.0), real(1.0));
+        } else {
+            real alone = bsdf_pdf(m, wo, wi, lobes);
+            r.y[0] = alone + negligible;
+            r.y[1] = must_be(alone == pdf ? real(1.0) : real(0.0), real(1.0));
+        }
+    } else if (function == of_followed_lobes) {
+        MaterialRecord m = material_at(a, 1);
+        uint followed = followed_lobes(m, number_at(a, 0));
+        r.y[0] = real(followed);
+        r.y[1] = real(must_be(estimated_lobes(m, number_at(a, 0)), bsdf_lobes(m) - followed));
+        r.y[2] = is_lambertian(m) ? real(1.0) : real(0.0);
+    } else if (function == of_path_state) {
+        uint state = 0u;
+        for (uint i = 0u; i < small_at(a, 0); ++i) {
+            state = state_after(state, ((small_at(a, 1) >> i) & 1u) != 0u);
+        }
+        put_word(r, 0, must_be(state, path_by_vertices(small_at(a, 0), small_at(a, 1)).x));
+        r.y[2] = real(must_be(layer_of_emission(state), path_by_vertices(small_at(a, 0), small_at(a, 1)).y));
     } else if (function == of_bsdf_sample) {
         BsdfSample sample_;
         bool scattered = bsdf_sample(material_at(a, 6), vec3_at(a, 0), small_at(a, 20) != 0u, LOBES_ALL,

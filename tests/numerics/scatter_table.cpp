@@ -30,6 +30,28 @@ void put_material(Draw& d) {
     d.put(phong ? exponent : -1);
 }
 
+/// Directions and a material.
+void put_scattering(Draw& d) {
+    const glm::vec3 wo = d.upper();
+    glm::dvec3 wi(-wo.x, -wo.y, wo.z);
+    wi += d.across(wi) * double(d.magnitude(-20, 0));
+    wi.z = std::abs(wi.z);
+    d.put(wo);
+    d.put(d.once_in(2) ? d.upper() : rounded(glm::normalize(wi)));
+    put_material(d);
+}
+
+/// And the lobes that are asked for; directions from below among them.
+void put_scattering_by_lobes(Draw& d) {
+    put_scattering(d);
+    const std::uint32_t lobes[] = {LOBES_ALL, LOBES_ALL, LOBE_DIFFUSE, LOBE_GLOSSY, LOBES_DELTA, LOBE_DIFFUSE | LOBE_GLOSSY};
+    d.put(static_cast<float>(lobes[d.bits() % 6]));
+    if (d.once_in(12)) {
+        const std::size_t z = d.once_in(2) ? 2 : 5;
+        d.x[z] = -d.x[z];
+    }
+}
+
 void put_wo_and_u(Draw& d) {
     d.put(d.upper());
     d.put(d.unit());
@@ -199,16 +221,31 @@ std::vector<Function> scatter_table() {
              put_material(d);
              d.put(static_cast<float>(d.bits() % 2));
          }, 17, "3", conditioned, 8},
-        {"bsdf_eval_and_pdf", of_bsdf_eval, "upright and grazing, near the mirror's direction, any material",
+        {"bsdf_eval_and_pdf", of_bsdf_eval_and_pdf, "upright and grazing, near the mirror's direction, any material",
+         put_scattering, 20, "31", conditioned, 10},
+        {"bsdf_eval", of_bsdf_eval, "as bsdf_eval_and_pdf, whose value is equal; any lobes, from below as well (below 10^-30 of absolute error)",
+         put_scattering_by_lobes, 20, "3d", conditioned, 10},
+        {"bsdf_pdf", of_bsdf_pdf, "as bsdf_eval_and_pdf, whose density is equal; any lobes, from below as well (below 10^-30 of absolute error)",
+         put_scattering_by_lobes, 20, "1d", conditioned, 7},
+        {"followed_lobes, estimated_lobes, is_lambertian", of_followed_lobes, "any material, Lambertian ones among them; roughness followed 0 … 1 and the material's",
          [](Draw& d) {
-             const glm::vec3 wo = d.upper();
-             glm::dvec3 wi(-wo.x, -wo.y, wo.z);
-             wi += d.across(wi) * double(d.magnitude(-20, 0));
-             wi.z = std::abs(wi.z);
-             d.put(wo);
-             d.put(d.once_in(2) ? d.upper() : rounded(glm::normalize(wi)));
+             d.put(d.share());
              put_material(d);
-         }, 20, "31", conditioned, 10},
+             if (d.once_in(3)) {
+                 d.x[0] = d.x[9]; // roughness
+             }
+             if (d.once_in(4)) {
+                 d.x[4] = d.x[8] = d.x[10] = 0; // metallic, specular, transmission
+             }
+         }, 0, "ddd", ulp, 0},
+        {"state_after, layer_of_emission", of_path_state, "paths of 0 … 12 vertices, followed or estimated",
+         [](Draw& d) {
+             const auto vertices = static_cast<std::uint32_t>(d.bits() % 13);
+             auto followed = static_cast<std::uint32_t>(d.bits() % 4096);
+             followed = d.once_in(3) ? followed : 4095u ^ (1u << (d.bits() % 13)); // one estimated
+             d.put(static_cast<float>(vertices));
+             d.put(static_cast<float>(followed & 4095u));
+         }, 0, "ddd", ulp, 0},
         {"bsdf_sample", of_bsdf_sample, "upright and grazing, corners of [0, 1)³, any material",
          [](Draw& d) {
              put_wo_and_u(d);

@@ -30,5 +30,6 @@ struct Function {
 std::vector<Function> maths_table();
 std::vector<Function> scatter_table();
 std::vector<Function> light_table();
+std::vector<Function> codes_table();
 
 } // namespace argand::testing
