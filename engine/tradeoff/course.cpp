@@ -85,7 +85,7 @@ void Course::add(const Image& mean_so_far, const Image& estimated_so_far) {
     if (asks_estimated()) {
         estimated_.add(estimated_so_far);
     }
-    if (halves_.are_equal()) {
+    if (halves_.are_two()) {
         measure();
     }
 }

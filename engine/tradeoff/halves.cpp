@@ -29,6 +29,10 @@ void Halves::add(const Image& mean_so_far) {
     }
 }
 
-double Halves::noise(const Image& reference) const { return rel_variance(means_, reference, reference) / 2; }
+double Halves::noise(const Image& reference) const {
+    // If a pass has a variance of v, the mean of n has v / n, and the means of a + b = n differ by v (1/a + 1/b), squared.
+    const double all = passes_[0] + passes_[1];
+    return 2 * rel_variance(means_, reference, reference) * passes_[0] * passes_[1] / (all * all);
+}
 
 } // namespace argand

@@ -7,7 +7,7 @@
 
 namespace argand {
 
-/// The passes of a picture, half of them of one stream and half of another, whose difference tells its noise while it is
+/// The passes of a picture, about half of them of one stream and half of another, whose difference tells its noise while it is
 /// being rendered. The streams take turns of more and more passes, so that a long render is rarely looked at.
 class Halves {
 public:
@@ -23,10 +23,10 @@ public:
     /// Told the mean of all passes at the end of each turn.
     void add(const Image& mean_so_far);
 
-    /// Whether the halves have as many passes, and some.
-    bool are_equal() const { return stream() == 0 && done_ > 0; }
+    /// Whether both have passes.
+    bool are_two() const { return passes_[1] > 0; }
 
-    /// relMSE of the mean that is due to noise, where the halves are equal. reference: what relMSE divides by.
+    /// relMSE of the mean that is due to noise, where there are two. reference: what relMSE divides by.
     double noise(const Image& reference) const;
 
     const std::array<Image, 2>& means() const { return means_; }

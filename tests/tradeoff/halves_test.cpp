@@ -47,7 +47,7 @@ TEST(Halves, NoiseOfTheMeanIsToldAtAnyNumberOfPasses) {
         }
         halves.add(mean);
         ++looked;
-        if (halves.are_equal()) {
+        if (halves.are_two()) {
             const double scale = 1.01 * true_radiance * true_radiance;
             const double expected = deviation * deviation / static_cast<double>(done) / scale;
             EXPECT_NEAR(halves.noise(reference) / expected, 1, 0.1) << done;
@@ -61,10 +61,10 @@ TEST(Halves, StreamsTakeTurnsAndTheFirstIsZero) {
     EXPECT_EQ(halves.stream(), 0u);
     halves.add(noisy(4, 4, 0, 1, 1));
     EXPECT_EQ(halves.stream(), 1u);
-    EXPECT_FALSE(halves.are_equal());
+    EXPECT_FALSE(halves.are_two());
     halves.add(noisy(4, 4, 0, 1, 2));
     EXPECT_EQ(halves.stream(), 0u);
-    EXPECT_TRUE(halves.are_equal());
+    EXPECT_TRUE(halves.are_two());
 }
 
 TEST(Estimate, SquaredDifferenceIsFreeOfNoise) {
