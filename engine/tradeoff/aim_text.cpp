@@ -24,8 +24,9 @@ std::string error_of(const Prospect& prospect) {
 
 std::string describe_pick(const AimedRender& render) {
     const Prospect& best = render.prospects.front();
-    std::string text = fmt::format("{}, {}: {} expected after {} in {:.2g} s", best.settings.method, numbers_of(best.settings), error_of(best),
-                                   counted(best.passes, "pass", "passes"), best.seconds);
+    std::string text = fmt::format("{}, {}: {} expected after {}, in {:.2g} s{}", best.settings.method,
+                                   numbers_of(best.settings), error_of(best), counted(best.passes, "pass", "passes"),
+                                   best.seconds, best.goes_on ? " more" : "");
     for (std::size_t i = 1; i < render.prospects.size(); ++i) {
         const Prospect& other = render.prospects[i];
         text += i == 1 ? "; not " : ", ";
