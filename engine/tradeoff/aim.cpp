@@ -47,45 +47,53 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
                  "with --budget how long it may take", scene.name, *aim.error, best.settings.method, best.seconds);
         }
         aimed.prospects = pilots.prospects();
+        aimed.settings = best.settings;
         aimed.pilot_seconds = seconds_since(start);
         on_pick(aimed);
         course.emplace(aim, aimed.prospects.front(), pilots.truth(), aimed.pilot_seconds);
     };
-    std::optional<RenderSettings> next = exploration.next();
     const GoOn go_on = [&]() -> OnPass {
-        next = exploration.next();
         const Prospect& best = pilots.prospects().front();
         // The others' bias is better known after more paths.
         const bool asks_truth = pilots.truth() && best.settings.method != "path";
-        if (next || !best.goes_on || asks_truth) {
+        if (!best.goes_on || asks_truth || exploration.next()) {
             return nullptr;
         }
         pick();
         course->go_on_from(pilots.last());
         return std::ref(*course);
     };
-    while (next && !course) {
-        const RenderSettings settings = *std::exchange(next, std::nullopt);
-        RenderResult result = pilots.run(settings, exploration.most_seconds(), go_on);
-        if (course) {
+    while (!course) {
+        const std::optional<RenderSettings> settings = exploration.next();
+        if (!settings) {
+            break;
+        }
+        RenderResult result = pilots.run(*settings, exploration.most_seconds(), go_on);
+        const bool interrupted = result.statistics.interrupted;
+        // The best pilot's picture is for those who do not wait for a better one.
+        if (course || (interrupted ? aimed.result.statistics.samples == 0 : pilots.last_is_best())) {
             aimed.result = std::move(result);
-        } else if (result.statistics.interrupted) {
+            aimed.settings = *settings;
+        }
+        if (interrupted) {
             aimed.result.statistics.interrupted = true;
-            return aimed;
+            break;
         }
     }
-    if (!course) {
+    if (!course && !aimed.result.statistics.interrupted) {
         const Prospect& best = pilots.prospects().front();
-        if (best.settings.method != "path" && best.seconds <= most_seconds &&
-            !pilots.improve_truth(share_of_truth * best.seconds)) {
+        const bool asks_truth = best.settings.method != "path" && best.seconds <= most_seconds;
+        if (asks_truth && !pilots.improve_truth(share_of_truth * best.seconds)) {
             aimed.result.statistics.interrupted = true;
-            return aimed;
+        } else {
+            pick();
+            aimed.result = render(aimed.settings, std::ref(*course));
         }
-        pick();
-        aimed.result = render(aimed.prospects.front().settings, std::ref(*course));
     }
-    aimed.measured = course->measured();
-    aimed.reached = course->reached();
+    if (course) {
+        aimed.measured = course->measured();
+        aimed.reached = course->reached();
+    }
     return aimed;
 }
 

@@ -13,8 +13,9 @@ namespace argand {
 
 struct AimedRender {
     Aim aim;
-    RenderResult result;
-    std::vector<Prospect> prospects;    ///< best first, whose settings are the result's; empty: interrupted before
+    RenderResult result;                ///< if pilots were interrupted, of one of them
+    RenderSettings settings;            ///< of one pass of the result
+    std::vector<Prospect> prospects;    ///< best first, which the result follows; empty: pilots were interrupted
     double pilot_seconds = 0;
     std::optional<Measured> measured;   ///< of the result; nothing: it has too few passes
     bool reached = false;               ///< the error that was asked for

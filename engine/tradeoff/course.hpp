@@ -46,7 +46,7 @@ private:
     bool takes_too_long(double times) const;
 
     const Aim& aim_;
-    const Prospect& prospect_;
+    Prospect prospect_;
     const std::optional<Pair>& truth_;
     ErrorModel model_;
     double seconds_;                ///< for passes of its own

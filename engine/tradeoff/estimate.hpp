@@ -33,7 +33,8 @@ std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const I
 Image smoothed(const Image& image);
 
 /// What relMSE divides by, as far as two pictures tell: the root of the product of the two. Their mean would take the bright
-/// dots that few paths or photons make for bright places, and the errors there for small ones.
+/// dots that few paths or photons make for bright places, and the errors there for small ones; so no more than 1.2 times the
+/// darker of the two.
 Image guess_from(const Pair& pictures);
 
 } // namespace argand

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace argand {
 
@@ -20,7 +18,7 @@ constexpr std::uint32_t most_few_samples = 16;
 constexpr std::uint64_t times_photons = 4;
 constexpr double times_samples = 16;
 constexpr double pilots_in_all = 2;
-const std::vector<std::string> tried_methods{"photons", "path", "footprints"};
+constexpr const char* first_method = "photons";
 
 std::uint32_t few_samples(const RenderSettings& base) {
     const std::uint64_t pixels = static_cast<std::uint64_t>(base.width) * static_cast<std::uint64_t>(base.height);
@@ -49,7 +47,11 @@ std::uint32_t times_more_samples(const Prospect& prospect) {
 
 std::optional<RenderSettings> Exploration::next() const {
     if (pilots.prospects().empty()) {
-        return settings_of_pass(base, chosen, tried_methods.front());
+        return settings_of_pass(base, chosen, first_method);
+    }
+    // Paths tell the bias of the others as well, but for what they cannot find.
+    if (path_is_true && is_worth("path")) {
+        return of_method("path");
     }
     const Prospect& best = pilots.prospects().front();
     const bool is_refined = pilots.count(best.settings.method) > 1 || best.settings.method == "path";
@@ -59,30 +61,27 @@ std::optional<RenderSettings> Exploration::next() const {
         more.samples *= times;
         return more;
     }
-    if (std::optional<RenderSettings> other = other_method()) {
-        return other;
+    if (!chosen.method && is_worth("footprints")) {
+        return of_method("footprints");
     }
     const bool photons_rule = best.model.fixed + best.model.density < 2 * best.model.estimated;
-    if (!is_refined && photons_rule && !chosen.photons && is_worth(share_of_refinement)) {
+    if (!is_refined && photons_rule && !chosen.photons && has_time(share_of_refinement)) {
         more.photons = more.photons_per_pass = times_photons * more.photons;
         return more;
     }
     return std::nullopt;
 }
 
-std::optional<RenderSettings> Exploration::other_method() const {
+RenderSettings Exploration::of_method(const std::string& method) const {
     Chosen numbers = chosen;
     numbers.method = false;
-    for (const std::string& method : tried_methods) {
-        // Paths tell the bias of the others as well, but for what they cannot find.
-        const bool wanted = method == "path" ? path_is_true : !chosen.method;
-        if (wanted && pilots.count(method) == 0 && is_worth(share_of_pilots)) {
-            RenderSettings other = settings_of_pass(base, numbers, method);
-            other.samples = pilots.last().settings.samples;
-            return other;
-        }
-    }
-    return std::nullopt;
+    RenderSettings other = settings_of_pass(base, numbers, method);
+    other.samples = pilots.last().settings.samples;
+    return other;
+}
+
+bool Exploration::is_worth(const std::string& method) const {
+    return pilots.count(method) == 0 && has_time(share_of_pilots);
 }
 
 double Exploration::most_seconds() const {
@@ -92,7 +91,7 @@ double Exploration::most_seconds() const {
 }
 
 /// One more pilot will take about as long as those before.
-bool Exploration::is_worth(double share) const {
+bool Exploration::has_time(double share) const {
     const double one_more = pilots.seconds() + pilots.seconds_each();
     return one_more <= share * (aim.seconds ? *aim.seconds : pilots.prospects().front().seconds + one_more);
 }

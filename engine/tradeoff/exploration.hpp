@@ -3,6 +3,7 @@
 #include "tradeoff/pilots.hpp"
 
 #include <optional>
+#include <string>
 
 namespace argand {
 
@@ -26,8 +27,9 @@ struct Exploration {
     double most_seconds() const;
 
 private:
-    std::optional<RenderSettings> other_method() const;
-    bool is_worth(double share) const;
+    RenderSettings of_method(const std::string& method) const;
+    bool is_worth(const std::string& method) const;
+    bool has_time(double share) const;
 };
 
 } // namespace argand

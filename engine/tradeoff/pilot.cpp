@@ -29,6 +29,8 @@ Image part_of(const Image& mean, const Image& before, double others) {
 std::optional<PassPlan> PilotCourse::operator()(const PictureSoFar& so_far) {
     if (so_far.passes > 0) {
         add(so_far);
+    } else {
+        seconds_before_ = seconds_since(start_);
     }
     const bool may_end = so_far.passes > 0 && so_far.passes <= wide_passes;
     if (so_far.passes == pilot_passes || (may_end && is_enough_(pilot_))) {
@@ -59,12 +61,14 @@ void PilotCourse::add(const PictureSoFar& so_far) {
     estimated_before_ = estimated;
     pilot_.passes = so_far.passes;
     pilot_.seconds = seconds_since(start_);
-    halfway_ = is_narrow ? halfway_ : pilot_.seconds;
-    pilot_.seconds_per_pass = is_narrow ? (pilot_.seconds - halfway_) / static_cast<double>(pilot_.passes - wide_passes)
-                                        : pilot_.seconds / static_cast<double>(pilot_.passes);
+    pilot_.seconds_per_pass = (pilot_.seconds - seconds_before_) / static_cast<double>(pilot_.passes - passes_before_);
+    if (!is_narrow) {
+        seconds_before_ = pilot_.seconds;
+        passes_before_ = pilot_.passes;
+    }
 }
 
-Image best_guess(const std::vector<Pilot>& pilots) {
+Image best_guess(std::span<const Pilot> pilots) {
     Image best;
     double least = std::numeric_limits<double>::infinity();
     for (const Pilot& pilot : pilots) {

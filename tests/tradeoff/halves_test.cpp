@@ -110,6 +110,7 @@ TEST(Estimate, GuessIsThePictureButForDotsOfOneOfTheTwo) {
         mean += pixel.g / static_cast<double>(guess.pixels.size());
     }
     EXPECT_NEAR(mean, true_radiance, 0.03);
+    EXPECT_LT(guess.pixels[side * 20 + 30].g, 1.5 * true_radiance);
     // As dark as the other one says, and finite where a mean without a pass is a rounding below 0.
     for (std::size_t half = 0; half < 2; ++half) {
         pictures[1 - half].pixels.assign(pictures[half].pixels.size(), glm::vec3(-1e-9f));

@@ -139,10 +139,8 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, c
         progress.emplace("rendering", options.quiet);
         picked_one = true;
     });
-    if (!aimed.prospects.empty()) {
-        options.settings = aimed.prospects.front().settings;
-        options.settings.budget = aim.seconds;
-    }
+    options.settings = aimed.settings;
+    options.settings.budget = aim.seconds;
     RenderResult result = std::move(aimed.result);
     return {std::move(result), std::move(aimed)};
 }
