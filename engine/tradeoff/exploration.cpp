@@ -28,7 +28,7 @@ std::uint32_t few_samples(const RenderSettings& base) {
 RenderSettings settings_of_pass(const RenderSettings& base, const Chosen& chosen, const std::string& method) {
     RenderSettings pass = base;
     pass.budget.reset();
-    pass.method = chosen.method ? base.method : method;
+    pass.method = method;
     pass.samples = chosen.samples ? base.samples : few_samples(base);
     pass.photons = chosen.photons ? base.photons : few_photons;
     pass.photons_per_pass = std::max<std::uint64_t>(std::min(pass.photons, base.photons_per_pass), 1);
@@ -47,7 +47,7 @@ std::uint32_t times_more_samples(const Prospect& prospect) {
 
 std::optional<RenderSettings> Exploration::next() const {
     if (pilots.prospects().empty()) {
-        return settings_of_pass(base, chosen, first_method);
+        return settings_of_pass(base, chosen, chosen.method ? base.method : first_method);
     }
     // Paths tell the bias of the others as well, but for what they cannot find.
     if (path_is_true && is_worth("path")) {
@@ -73,9 +73,7 @@ std::optional<RenderSettings> Exploration::next() const {
 }
 
 RenderSettings Exploration::of_method(const std::string& method) const {
-    Chosen numbers = chosen;
-    numbers.method = false;
-    RenderSettings other = settings_of_pass(base, numbers, method);
+    RenderSettings other = settings_of_pass(base, chosen, method);
     other.samples = pilots.last().settings.samples;
     return other;
 }

@@ -3,7 +3,6 @@
 #include "tradeoff/prospect.hpp"
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

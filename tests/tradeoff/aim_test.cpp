@@ -129,7 +129,7 @@ TEST(Aim, TimeIsKeptWithPilotsIncluded) {
     const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.6});
     const double seconds = seconds_since(start);
     EXPECT_GT(seconds, 0.45);
-    EXPECT_LT(seconds, 1.2);
+    EXPECT_LT(seconds, 0.9);
     ASSERT_TRUE(aimed.measured);
     EXPECT_GT(aimed.measured->noise, 0);
     EXPECT_GT(aimed.result.statistics.passes, 20u);
@@ -156,7 +156,7 @@ TEST(Aim, ErrorThatTheChosenMethodCannotReachIsRefusedAtOnce) {
     const Clock::time_point start = Clock::now();
     EXPECT_THAT(testing::error_of([&] { aim_at(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings); }),
                 ::testing::HasSubstr("ask for more error"));
-    EXPECT_LT(seconds_since(start), 20);
+    EXPECT_LT(seconds_since(start), 2);
 }
 
 TEST(Aim, BiasFarFromWhatIsUsualIsSeen) {
@@ -219,7 +219,7 @@ TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
     const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.9});
     ASSERT_EQ(aimed.prospects.size(), 1u);
     EXPECT_EQ(fake.methods.size(), 1u);
-    EXPECT_LT(aimed.pilot_seconds, 0.6);
+    EXPECT_LT(aimed.pilot_seconds, 0.35);
     EXPECT_GE(aimed.result.statistics.passes, 2u);
     EXPECT_THAT(describe_pick(aimed), ::testing::HasSubstr("unknown error"));
     // What the pilot was too short to tell is told in the end.
