@@ -46,19 +46,18 @@ struct DeviceSetting {
     std::string limit;   ///< ARGAND_LIMIT
 };
 
-inline void PrintTo(const DeviceSetting& setting, std::ostream* out) {
-    *out << setting.name;
-}
+inline void PrintTo(const DeviceSetting& setting, std::ostream* out) { *out << setting.name; }
 
-/// The paths that kernels with variants take; a device without lanes that run serially takes the second
-/// twice. "least" is the least that Argand is content with.
+/// The paths that kernels with variants take; a device without lanes that run serially takes the
+/// second twice. "least" is the least that Argand is content with.
 inline std::vector<DeviceSetting> variant_settings() {
     return {{"default", "", ""},
             {"subgroups", "lane_serial", ""},
             {"shared", "lane_serial,subgroups", ""},
             {"least", "lane_serial,subgroups,push_descriptors,timestamps",
-             fmt::format("invocations={},shared_memory={},storage_buffers={}", Requirements::invocations,
-                         Requirements::shared_memory, Requirements::storage_buffers)}};
+             fmt::format("invocations={},shared_memory={},storage_buffers={}",
+                         Requirements::invocations, Requirements::shared_memory,
+                         Requirements::storage_buffers)}};
 }
 
 /// Opens devices with the API's validation on; any message from it fails the test.
@@ -90,8 +89,8 @@ protected:
     Device& open_variant() { return open(GetParam()); }
 };
 
-#define INSTANTIATE_VARIANTS(suite)                                                                          \
-    INSTANTIATE_TEST_SUITE_P(Variants, suite, ::testing::ValuesIn(argand::variant_settings()),                 \
+#define INSTANTIATE_VARIANTS(suite)                                                                \
+    INSTANTIATE_TEST_SUITE_P(Variants, suite, ::testing::ValuesIn(argand::variant_settings()),     \
                              [](const auto& variant) { return variant.param.name; })
 
 } // namespace argand

@@ -30,12 +30,13 @@ std::vector<LightChoice> alias_table(const std::vector<double>& weights) {
             small.push_back(rich);
         }
     }
-    // What is left over has a scaled probability of 1 but for rounding, unless its weight is 0: then it sends on.
+    // What is left over has a scaled probability of 1 but for rounding, unless its weight is 0:
+    // then it sends on.
     for (const std::uint32_t i : small) {
         if (sum > 0 && !(weights[i] > 0)) {
             table[i].keep = 0;
-            table[i].alias =
-                static_cast<std::uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+            table[i].alias = static_cast<std::uint32_t>(
+                std::max_element(weights.begin(), weights.end()) - weights.begin());
         }
     }
     return table;

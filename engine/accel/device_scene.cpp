@@ -17,7 +17,7 @@ namespace {
 
 LightRecord record_of(const Light& light) {
     LightRecord record{};
-    record.kind = light.kind == LightKind::point ? light_point
+    record.kind = light.kind == LightKind::point  ? light_point
                   : light.kind == LightKind::spot ? light_spot
                                                   : light_directional;
     record.x = light.position.x;
@@ -90,8 +90,8 @@ struct HashCorners {
     }
 };
 
-/// Area of each triangle; 0 of one that is there already, with the same front, for only one of them is ever hit: what lies
-/// there twice would count twice as a surface that photons may lie on.
+/// Area of each triangle; 0 of one that is there already, with the same front, for only one of them
+/// is ever hit: what lies there twice would count twice as a surface that photons may lie on.
 std::vector<double> areas_that_can_be_hit(const Scene& scene) {
     std::vector<double> areas;
     areas.reserve(scene.triangles.size());
@@ -117,7 +117,8 @@ std::vector<std::uint32_t> area_sums(const std::vector<double>& areas, double to
     sums.reserve(areas.size());
     double sum = 0;
     for (const double area : areas) {
-        sums.push_back(static_cast<std::uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
+        sums.push_back(
+            static_cast<std::uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
         sum += area;
     }
     return sums;
@@ -191,8 +192,9 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     }
     result.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
     result.positions = upload(device, "positions", padded(scene.positions));
-    result.normals =
-        plan.needs(Feature::smooth_normals) ? upload(device, "normals", padded(scene.normals)) : nothing(device);
+    result.normals = plan.needs(Feature::smooth_normals)
+                         ? upload(device, "normals", padded(scene.normals))
+                         : nothing(device);
     result.triangles = upload(device, "triangles", triangles);
     result.materials = upload(device, "materials", materials);
     result.lights = upload(device, "lights", lights);
@@ -203,9 +205,11 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     } else {
         result.area_sums = nothing(device);
     }
-    result.light_choices =
-        plan.needs(Feature::several_lights) ? upload(device, "light choices", alias_table(weights)) : nothing(device);
-    result.bvh = build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
+    result.light_choices = plan.needs(Feature::several_lights)
+                               ? upload(device, "light choices", alias_table(weights))
+                               : nothing(device);
+    result.bvh =
+        build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
     return result;
 }
 
@@ -214,7 +218,8 @@ CameraRecord camera_record(const Camera& camera, int width, int height) {
     const auto h = static_cast<float>(height);
     const bool perspective = camera.kind == CameraKind::perspective;
     // Half the picture's height at unit distance, or in the scene's units.
-    const float half = perspective ? std::tan(0.5f * camera.vertical_angle) : camera.vertical_extent;
+    const float half =
+        perspective ? std::tan(0.5f * camera.vertical_angle) : camera.vertical_extent;
     const glm::vec3 across = camera.right * (2 * half / h);
     const glm::vec3 down = -camera.up * (2 * half / h);
     const glm::vec3 corner = -0.5f * w * across - 0.5f * h * down;

@@ -30,9 +30,10 @@ void dispatch_count(Device& device, const Kernel& kernel, const Count& count) {
     }
 }
 
-void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& distances, const Count& count, bool for_rays,
-         bool in_order) {
-    const Buffer ends = device.scratch("lbvh: ends", std::max<std::uint64_t>(count.bound, 1) * sizeof(std::uint32_t));
+void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& distances,
+         const Count& count, bool for_rays, bool in_order) {
+    const Buffer ends = device.scratch("lbvh: ends", std::max<std::uint64_t>(count.bound, 1) *
+                                                         sizeof(std::uint32_t));
     device.fill(ends, lbvh_end);
     dispatch_count(device,
                    kernels::lbvh_fit{.boxes = boxes,
@@ -44,7 +45,8 @@ void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& dis
                                      .costs = for_rays ? bvh.costs : ends,
                                      .parents = for_rays ? bvh.parents : ends,
                                      .params = {count_record(count)},
-                                     .constants = {.fences = needs_fences(device), .for_rays = for_rays,
+                                     .constants = {.fences = needs_fences(device),
+                                                   .for_rays = for_rays,
                                                    .in_order = in_order}},
                    count);
 }
@@ -82,7 +84,8 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
 }
 
 Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide) {
-    Buffer distances = device.scratch("code distances", std::max<std::uint64_t>(count.bound, 1) * sizeof(std::uint32_t));
+    Buffer distances = device.scratch("code distances", std::max<std::uint64_t>(count.bound, 1) *
+                                                            sizeof(std::uint32_t));
     dispatch_count(device,
                    kernels::code_distances{.codes = codes,
                                            .counts = counts_or(count, codes),
@@ -93,10 +96,11 @@ Buffer code_distances(Device& device, const Buffer& codes, const Count& count, b
     return distances;
 }
 
-Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& distances, const Buffer& order,
-                         const Count& count) {
+Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& distances,
+                         const Buffer& order, const Count& count) {
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
-    const Lbvh bvh{.order = order, .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
+    const Lbvh bvh{.order = order,
+                   .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
     if (count.bound > 0) {
         fit(device, bvh, boxes, distances, count, false, true);
     }

@@ -25,10 +25,10 @@ struct Work {
     const Count& count;
 };
 
-using RunKernel = void (*)(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads);
+using RunKernel = void (*)(const Work& work, const TraceParams& params, bool resume,
+                           std::uint64_t threads);
 
-template <class Kernel>
-void run(const Work& work, const Kernel& kernel, std::uint64_t threads) {
+template <class Kernel> void run(const Work& work, const Kernel& kernel, std::uint64_t threads) {
     if (!kernel.constants.resume && kernel.params.count.on_device != 0) {
         dispatch_indirect(work.device, kernel, work.count.buffer, work.count.index);
     } else {
@@ -84,7 +84,8 @@ void record(const Work& work, RunKernel run_kernel) {
     // No node is visited twice, so few triangles cannot use up the steps.
     const bool may_suspend = 2ull * work.bvh.triangle_count > params.step_limit;
     if (may_suspend) {
-        work.device.fill(BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
+        work.device.fill(
+            BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
     }
     run_kernel(work, params, false, work.count.bound);
     if (may_suspend) {
@@ -104,12 +105,15 @@ void run_to_the_end(const Work& work, RunKernel run_kernel) {
     params.count.on_device = 0;
     for (std::uint64_t first = 0; first < count; first += params.slot_count) {
         params.first = static_cast<std::uint32_t>(first);
-        params.count.number = static_cast<std::uint32_t>(std::min(count, first + params.slot_count));
-        work.device.fill(BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
+        params.count.number =
+            static_cast<std::uint32_t>(std::min(count, first + params.slot_count));
+        work.device.fill(
+            BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
         run_kernel(work, params, false, params.count.number - params.first);
         while (download<std::uint32_t>(work.device, work.traversal.suspended, 1, 1)[0] > 0) {
             work.device.fill(
-                BufferView(work.traversal.suspended, sizeof(std::uint32_t), sizeof(std::uint32_t)), 0);
+                BufferView(work.traversal.suspended, sizeof(std::uint32_t), sizeof(std::uint32_t)),
+                0);
             run_kernel(work, params, true, params.slot_count);
         }
     }
@@ -128,26 +132,29 @@ void trace(const Work& work, RunKernel run_kernel) {
 Traversal make_traversal(Device& device, std::uint64_t max_rays) {
     Traversal traversal;
     const std::uint64_t range = device.info().limits.storage_range / sizeof(std::uint32_t);
-    const std::uint64_t most = std::min<std::uint64_t>(max_slots, (range - suspended_head) / suspended_stride);
+    const std::uint64_t most =
+        std::min<std::uint64_t>(max_slots, (range - suspended_head) / suspended_stride);
     traversal.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max_rays, 1, most));
     traversal.unfinished = device.allocate("unfinished rays", sizeof(std::uint32_t));
     traversal.suspended = device.allocate(
-        "suspended rays",
-        (suspended_head + std::uint64_t(traversal.slots) * suspended_stride) * sizeof(std::uint32_t));
+        "suspended rays", (suspended_head + std::uint64_t(traversal.slots) * suspended_stride) *
+                              sizeof(std::uint32_t));
     return traversal;
 }
 
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                    const Buffer& active, const Buffer& hits, const Count& count) {
     trace({device, bvh, traversal, rays, active, hits, count},
-          read_as_texels(device, bvh.nodes, bvh.triangles) ? run_closest<kernels::trace_closest_texels>
-                                      : run_closest<kernels::trace_closest>);
+          read_as_texels(device, bvh.nodes, bvh.triangles)
+              ? run_closest<kernels::trace_closest_texels>
+              : run_closest<kernels::trace_closest>);
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                const Buffer& active, const Buffer& occluded, const Count& count) {
     trace({device, bvh, traversal, rays, active, occluded, count},
-          read_as_texels(device, bvh.nodes, bvh.triangles) ? run_any<kernels::trace_any_texels> : run_any<kernels::trace_any>);
+          read_as_texels(device, bvh.nodes, bvh.triangles) ? run_any<kernels::trace_any_texels>
+                                                           : run_any<kernels::trace_any>);
 }
 
 } // namespace argand

@@ -18,13 +18,15 @@ namespace argand {
 TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Buffer& triangles,
                                std::uint32_t count) {
     if (count > max_ray_nodes) {
-        fail("building the acceleration structure: {} triangles are more than the {} it can hold; simplify "
+        fail("building the acceleration structure: {} triangles are more than the {} it can hold; "
+             "simplify "
              "the scene",
              count, max_ray_nodes);
     }
     const std::uint64_t bound = std::max<std::uint64_t>(count, 1);
     TriangleBvh bvh{.nodes = device.allocate("triangle bvh nodes", bound * sizeof(RayNode)),
-                    .triangles = device.allocate("triangle bvh triangles", bound * sizeof(RayTriangle)),
+                    .triangles =
+                        device.allocate("triangle bvh triangles", bound * sizeof(RayTriangle)),
                     .triangle_count = count};
     const Buffer boxes = device.scratch("triangle bvh: boxes", bound * sizeof(BoxRecord));
     const AccelParams params{count_record(count)};
@@ -35,16 +37,18 @@ TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Bu
     const Lbvh tree = build_lbvh(device, boxes, count, true);
     const Buffer ranks = device.scratch("triangle bvh: ranks", bound * sizeof(std::uint32_t));
     const std::uint64_t inner = count > 0 ? count - 1 : 0;
-    dispatch(
-        device,
-        kernels::wide_roots{.costs = tree.costs, .parents = tree.parents, .roots = ranks, .params = params},
-        inner);
+    dispatch(device,
+             kernels::wide_roots{
+                 .costs = tree.costs, .parents = tree.parents, .roots = ranks, .params = params},
+             inner);
     inclusive_scan(device, ranks, ranks, inner);
-    dispatch(
-        device,
-        kernels::ray_nodes{
-            .tree = tree.nodes, .costs = tree.costs, .ranks = ranks, .nodes = bvh.nodes, .params = params},
-        inner);
+    dispatch(device,
+             kernels::ray_nodes{.tree = tree.nodes,
+                                .costs = tree.costs,
+                                .ranks = ranks,
+                                .nodes = bvh.nodes,
+                                .params = params},
+             inner);
     dispatch(device,
              kernels::ray_triangles{.positions = positions,
                                     .triangles = triangles,

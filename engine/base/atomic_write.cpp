@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail_to_write(const fs::path& target, std::string_view reason, std::string_view advice) {
+[[noreturn]] void fail_to_write(const fs::path& target, std::string_view reason,
+                                std::string_view advice) {
     fail("cannot write '{}': {}; {}", one_line(target.string(), 4096), reason, advice);
 }
 
@@ -49,8 +50,8 @@ struct Scratch {
     }
 };
 
-/// The path to replace: links are followed, so that they stay links. `mode` gets the existing file's
-/// permissions, `special` whether it is a pipe or a device.
+/// The path to replace: links are followed, so that they stay links. `mode` gets the existing
+/// file's permissions, `special` whether it is a pipe or a device.
 struct Destination {
     fs::path path;
     bool exists = false;
@@ -81,7 +82,8 @@ Destination resolve(const fs::path& target) {
             fail_to_write(target, "it is a directory", "give a file name");
         }
         if (::faccessat(AT_FDCWD, destination.path.c_str(), W_OK, AT_EACCESS) != 0) {
-            fail_to_write(target, "it is write-protected", "change its permissions or choose another name");
+            fail_to_write(target, "it is write-protected",
+                          "change its permissions or choose another name");
         }
         return destination;
     }
@@ -90,9 +92,10 @@ Destination resolve(const fs::path& target) {
     const fs::path parent =
         destination.path.has_parent_path() ? destination.path.parent_path() : fs::path(".");
     if (code == ENOENT && !fs::exists(parent, none)) {
-        fail_to_write(target,
-                      fmt::format("the directory '{}' does not exist", one_line(parent.string(), 4096)),
-                      "create it or choose another place");
+        fail_to_write(
+            target,
+            fmt::format("the directory '{}' does not exist", one_line(parent.string(), 4096)),
+            "create it or choose another place");
     }
     if (code == ENOENT && !destination.path.has_filename()) {
         fail_to_write(target, "it is a directory", "give a file name");
@@ -108,8 +111,8 @@ void open_beside(const fs::path& target, const Destination& destination, Scratch
     static std::atomic<unsigned> counter{0};
     for (;;) {
         // A short name of its own: the target's may already be as long as a name can be.
-        fs::path path =
-            destination.path.parent_path() / fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
+        fs::path path = destination.path.parent_path() /
+                        fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
         const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) {
             scratch.path = std::move(path);
@@ -171,7 +174,8 @@ void write_atomically(const fs::path& target, std::span<const std::uint8_t> byte
 }
 
 void write_atomically(const fs::path& target, std::string_view text) {
-    write_atomically(target, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    write_atomically(target,
+                     std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 void check_writable(const fs::path& target) {

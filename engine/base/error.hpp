@@ -6,7 +6,8 @@
 
 namespace argand {
 
-/// What a user is told: one line that says what was done, to what, what is wrong and what to do. Exit status 1.
+/// What a user is told: one line that says what was done, to what, what is wrong and what to do.
+/// Exit status 1.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -18,7 +19,8 @@ struct UsageError : Error {
 
 /// A device that stopped working while it was opened or used; one of another backend may do.
 struct DeviceFault : Error {
-    DeviceFault(std::string of, const std::string& message) : Error(message), backend(std::move(of)) {}
+    DeviceFault(std::string of, const std::string& message)
+        : Error(message), backend(std::move(of)) {}
 
     std::string backend;
 };

@@ -8,8 +8,10 @@ namespace argand {
 
 inline constexpr std::uint64_t empty_fingerprint = 0xcbf29ce484222325u;
 
-/// FNV-1a of 64 bits, to tell files apart that are not meant to be alike; `before`: of what comes before these bytes.
-inline std::uint64_t fingerprint(std::span<const std::byte> bytes, std::uint64_t before = empty_fingerprint) {
+/// FNV-1a of 64 bits, to tell files apart that are not meant to be alike; `before`: of what comes
+/// before these bytes.
+inline std::uint64_t fingerprint(std::span<const std::byte> bytes,
+                                 std::uint64_t before = empty_fingerprint) {
     std::uint64_t hash = before;
     for (const std::byte byte : bytes) {
         hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;

@@ -25,7 +25,8 @@ void catch_interrupts() {
     action.sa_flags = SA_RESTART; // reads and writes in flight go on
     sigemptyset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM}) {
-        // What was started with the signal ignored (nohup, a script's background job) keeps ignoring it.
+        // What was started with the signal ignored (nohup, a script's background job) keeps
+        // ignoring it.
         struct sigaction before {};
         if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) {
             ::sigaction(signal, &action, nullptr);
@@ -33,12 +34,8 @@ void catch_interrupts() {
     }
 }
 
-bool interrupted() {
-    return signalled.load(std::memory_order_relaxed);
-}
+bool interrupted() { return signalled.load(std::memory_order_relaxed); }
 
-void forget_interrupt() {
-    signalled.store(false);
-}
+void forget_interrupt() { signalled.store(false); }
 
 } // namespace argand

@@ -2,9 +2,9 @@
 
 namespace argand {
 
-/// From now on SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program, so that long work can
-/// stop at its next step and leave nothing half-written. A second one ends the program at once, with status
-/// 128 + signal.
+/// From now on SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program, so that long
+/// work can stop at its next step and leave nothing half-written. A second one ends the program at
+/// once, with status 128 + signal.
 void catch_interrupts();
 
 /// True once such a signal has come.

@@ -40,11 +40,10 @@ std::string progress_line(std::string_view work, double fraction, double seconds
 }
 
 Progress::Progress(std::string work, bool quiet, int descriptor)
-    : work_(std::move(work)), descriptor_(descriptor), active_(!quiet && ::isatty(descriptor) == 1) {}
+    : work_(std::move(work)), descriptor_(descriptor),
+      active_(!quiet && ::isatty(descriptor) == 1) {}
 
-Progress::~Progress() {
-    erase();
-}
+Progress::~Progress() { erase(); }
 
 void Progress::update(double fraction) {
     const Clock::time_point now = Clock::now();

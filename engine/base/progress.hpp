@@ -7,9 +7,9 @@
 
 namespace argand {
 
-/// One line on a terminal that says how far the work is, "tracing photons  42 %  12 s left", redrawn in place
-/// at most ten times a second and erased at the end. Where the output is not a terminal, or `quiet`, nothing
-/// is printed.
+/// One line on a terminal that says how far the work is, "tracing photons  42 %  12 s left",
+/// redrawn in place at most ten times a second and erased at the end. Where the output is not a
+/// terminal, or `quiet`, nothing is printed.
 class Progress {
 public:
     explicit Progress(std::string work, bool quiet = false, int descriptor = 2);

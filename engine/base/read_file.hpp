@@ -6,8 +6,8 @@
 
 namespace argand {
 
-/// The bytes of a regular file (which may be empty). Error if it is missing, a directory or another special
-/// file, or cannot be read.
+/// The bytes of a regular file (which may be empty). Error if it is missing, a directory or another
+/// special file, or cannot be read.
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path);
 
 } // namespace argand

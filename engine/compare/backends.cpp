@@ -16,22 +16,24 @@ namespace argand {
 namespace {
 
 constexpr std::array<std::string_view, 17> exact_stages{
-    sort_stage,     scan_stage,       segmented_scan_stage, reduce_stage,    reduce_box_stage, compact_stage,
-    "lbvh_codes",   "code_distances", "lbvh_fit",      "wide_roots",   "triangle_boxes", "photon_codes",
-    "photon_count", "photon_leaves", "photon_order",   "photon_tally", "query_owners"};
+    sort_stage,       scan_stage,     segmented_scan_stage, reduce_stage,    reduce_box_stage,
+    compact_stage,    "lbvh_codes",   "code_distances",     "lbvh_fit",      "wide_roots",
+    "triangle_boxes", "photon_codes", "photon_count",       "photon_leaves", "photon_order",
+    "photon_tally",   "query_owners"};
 
 bool keep_going(double) { return true; }
 
-RenderResult render_timed(Device& device, const Scene& scene, const RenderSettings& settings, double& seconds) {
-    render(device, scene, settings, keep_going);    // compiles what it needs
+RenderResult render_timed(Device& device, const Scene& scene, const RenderSettings& settings,
+                          double& seconds) {
+    render(device, scene, settings, keep_going); // compiles what it needs
     const Clock::time_point start = Clock::now();
     RenderResult result = render(device, scene, settings, keep_going);
     seconds = seconds_since(start);
     return result;
 }
 
-std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& scene, const RenderSettings& settings,
-                                            Pairing pairing) {
+std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& scene,
+                                            const RenderSettings& settings, Pairing pairing) {
     PairedDevice pair(a, b, pairing);
     render(pair, scene, settings, keep_going);
     return pair.comparisons();
@@ -39,11 +41,13 @@ std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& s
 
 } // namespace
 
-BackendComparison compare_backends(Device& a, Device& b, const Scene& scene, const RenderSettings& settings) {
+BackendComparison compare_backends(Device& a, Device& b, const Scene& scene,
+                                   const RenderSettings& settings) {
     BackendComparison result;
     const RenderResult picture_a = render_timed(a, scene, settings, result.seconds_a);
     const RenderResult picture_b = render_timed(b, scene, settings, result.seconds_b);
-    result.rel_mse = compare(picture_b.layers.front().image, picture_a.layers.front().image, "B", "A").rel_mse;
+    result.rel_mse =
+        compare(picture_b.layers.front().image, picture_a.layers.front().image, "B", "A").rel_mse;
     result.isolated = compare_stages(a, b, scene, settings, Pairing::isolated);
     result.end_to_end = compare_stages(a, b, scene, settings, Pairing::end_to_end);
     return result;
@@ -70,7 +74,8 @@ bool passes_end_to_end(const StageComparison& stage) { return within(stage, end_
 bool passes(const BackendComparison& comparison) {
     return comparison.rel_mse <= picture_tolerance &&
            std::all_of(comparison.isolated.begin(), comparison.isolated.end(), passes_isolated) &&
-           std::all_of(comparison.end_to_end.begin(), comparison.end_to_end.end(), passes_end_to_end);
+           std::all_of(comparison.end_to_end.begin(), comparison.end_to_end.end(),
+                       passes_end_to_end);
 }
 
 GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings) {
@@ -93,15 +98,17 @@ RenderSettings settings_of(const Golden& golden, const std::string& method) {
     return settings;
 }
 
-std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method, Device& device,
-                                                 const Scene& scene) {
+std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method,
+                                                 Device& device, const Scene& scene) {
     const auto capture = golden.captures.find(method);
     if (capture == golden.captures.end()) {
-        fail("comparing with a golden capture of '{}': it has none of method {}", golden.scene, method);
+        fail("comparing with a golden capture of '{}': it has none of method {}", golden.scene,
+             method);
     }
     if (scene.name != golden.scene || fingerprint(scene) != golden.fingerprint) {
-        fail("comparing '{}' with a golden capture: it is of '{}' as that was; take that scene, or record it anew", scene.name,
-             golden.scene);
+        fail("comparing '{}' with a golden capture: it is of '{}' as that was; take that scene, or "
+             "record it anew",
+             scene.name, golden.scene);
     }
     GoldenDevice recorded(golden, capture->second);
     PairedDevice pair(recorded, device, Pairing::isolated);

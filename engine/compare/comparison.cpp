@@ -32,8 +32,8 @@ std::vector<double> largest_floats(std::span<const std::uint32_t> words, std::st
     return largest;
 }
 
-Difference difference(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b, std::string_view layout,
-                      std::span<const double> largest, double tolerance) {
+Difference difference(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b,
+                      std::string_view layout, std::span<const double> largest, double tolerance) {
     Difference worst;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (a[i] == b[i]) {
@@ -42,13 +42,16 @@ Difference difference(std::span<const std::uint32_t> a, std::span<const std::uin
         const double x = std::bit_cast<float>(a[i]);
         const double y = std::bit_cast<float>(b[i]);
         if (layout[i] != 'f' || !std::isfinite(x) || !std::isfinite(y)) {
-            worst.diverged = worst.diverged || layout[i] != 'f' || !(std::isnan(x) && std::isnan(y));
+            worst.diverged =
+                worst.diverged || layout[i] != 'f' || !(std::isnan(x) && std::isnan(y));
             continue;
         }
-        const double relative = x == y ? 0 : std::abs(x - y) / std::max({std::abs(x), std::abs(y), 1e-3 * largest[i]});
+        const double relative =
+            x == y ? 0 : std::abs(x - y) / std::max({std::abs(x), std::abs(y), 1e-3 * largest[i]});
         worst.diverged = worst.diverged || relative > tolerance;
         worst.relative = std::max(worst.relative, relative);
-        worst.ulp = std::max(worst.ulp, static_cast<std::uint64_t>(std::abs(ordinal(a[i]) - ordinal(b[i]))));
+        worst.ulp = std::max(worst.ulp,
+                             static_cast<std::uint64_t>(std::abs(ordinal(a[i]) - ordinal(b[i]))));
     }
     return worst;
 }
@@ -60,8 +63,8 @@ bool same_value(std::uint32_t a, std::uint32_t b, char kind) {
 
 } // namespace
 
-void compare_items(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b, std::string_view layout,
-                   double tolerance, StageComparison& result) {
+void compare_items(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b,
+                   std::string_view layout, double tolerance, StageComparison& result) {
     const std::vector<double> largest = largest_floats(a, layout);
     const std::size_t count = std::min(a.size(), b.size()) / layout.size();
     result.items += count;

@@ -20,8 +20,8 @@ using Words = std::vector<std::uint32_t>;
 constexpr int format = 2;
 constexpr std::uint64_t most_bytes = std::uint64_t(64) << 20;
 
-/// A file is, packed by zlib: the number of bytes of a JSON text, the text (padded to a multiple of 4), and the words that
-/// it counts, in its order: of each write the runs, then what is in them.
+/// A file is, packed by zlib: the number of bytes of a JSON text, the text (padded to a multiple of
+/// 4), and the words that it counts, in its order: of each write the runs, then what is in them.
 struct Unpacked {
     Json header;
     Words words;
@@ -32,7 +32,8 @@ std::vector<std::uint8_t> packed(const std::vector<std::uint8_t>& bytes) {
     std::vector<std::uint8_t> result(sizeof(std::uint64_t) + size);
     const std::uint64_t unpacked = bytes.size();
     std::memcpy(result.data(), &unpacked, sizeof(unpacked));
-    compress2(result.data() + sizeof(unpacked), &size, bytes.data(), bytes.size(), Z_BEST_COMPRESSION);
+    compress2(result.data() + sizeof(unpacked), &size, bytes.data(), bytes.size(),
+              Z_BEST_COMPRESSION);
     result.resize(sizeof(unpacked) + size);
     return result;
 }
@@ -97,10 +98,10 @@ GoldenWrite read_write(const Json& counts, Reader& reader) {
     return write;
 }
 
-template <class T>
-T within(const Json& value, std::uint64_t low, std::uint64_t high) {
+template <class T> T within(const Json& value, std::uint64_t low, std::uint64_t high) {
     const auto number = value.get<std::int64_t>();
-    if (number < 0 || static_cast<std::uint64_t>(number) < low || static_cast<std::uint64_t>(number) > high) {
+    if (number < 0 || static_cast<std::uint64_t>(number) < low ||
+        static_cast<std::uint64_t>(number) > high) {
         fail("it asks for what cannot be rendered");
     }
     return static_cast<T>(number);
@@ -163,9 +164,10 @@ GoldenWrite changes(std::span<const std::uint32_t> before, std::span<const std::
 void apply_changes(const GoldenWrite& write, std::span<std::uint32_t> words) {
     std::size_t from = 0;
     for (const GoldenWrite::Run& run : write.runs) {
-        if (write.size != words.size() || run.count > words.size() || run.first > words.size() - run.count ||
-            run.count > write.words.size() - from) {
-            fail("comparing with a golden capture: it is of another scene or version; record it anew");
+        if (write.size != words.size() || run.count > words.size() ||
+            run.first > words.size() - run.count || run.count > write.words.size() - from) {
+            fail("comparing with a golden capture: it is of another scene or version; record it "
+                 "anew");
         }
         std::copy_n(write.words.begin() + static_cast<std::ptrdiff_t>(from), run.count,
                     words.begin() + static_cast<std::ptrdiff_t>(run.first));
@@ -213,8 +215,9 @@ void write_golden(const std::filesystem::path& file, const Golden& golden) {
     bytes.resize(head + data.size());
     std::memcpy(bytes.data() + head, data.data(), data.size());
     if (bytes.size() > most_bytes) {
-        fail("recording '{}': the capture is larger than {} MiB; take a smaller picture or fewer photons", file.string(),
-             most_bytes >> 20);
+        fail("recording '{}': the capture is larger than {} MiB; take a smaller picture or fewer "
+             "photons",
+             file.string(), most_bytes >> 20);
     }
     write_atomically(file, packed(bytes));
 }
@@ -224,10 +227,13 @@ Golden read_golden(const std::filesystem::path& file) {
     try {
         return golden_of(unpack(bytes));
     } catch (const Json::exception&) {
-        fail("reading golden capture '{}': it is not one; record it with `argand compare-backends --record`", file.string());
+        fail("reading golden capture '{}': it is not one; record it with `argand compare-backends "
+             "--record`",
+             file.string());
     } catch (const Error& error) {
-        fail("reading golden capture '{}': {}; record it anew with `argand compare-backends --record`", file.string(),
-             error.what());
+        fail("reading golden capture '{}': {}; record it anew with `argand compare-backends "
+             "--record`",
+             file.string(), error.what());
     }
 }
 

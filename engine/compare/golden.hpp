@@ -17,9 +17,9 @@ struct GoldenWrite {
     struct Run {
         std::uint32_t first, count;
     };
-    std::uint32_t size = 0;             ///< words of the buffer
-    std::vector<Run> runs;              ///< ascending, apart
-    std::vector<std::uint32_t> words;   ///< of all runs, one after another
+    std::uint32_t size = 0;           ///< words of the buffer
+    std::vector<Run> runs;            ///< ascending, apart
+    std::vector<std::uint32_t> words; ///< of all runs, one after another
 };
 
 /// The changed words between two states of a buffer.
@@ -29,22 +29,23 @@ void apply_changes(const GoldenWrite& write, std::span<std::uint32_t> words);
 
 struct GoldenStep {
     std::string stage;
-    std::vector<GoldenWrite> writes;    ///< one for each buffer that the stage writes
+    std::vector<GoldenWrite> writes; ///< one for each buffer that the stage writes
 };
 
 /// All that a device did while it rendered a picture with one method.
 using GoldenCapture = std::vector<GoldenStep>;
 
-/// What a file holds. Like a program, a capture is to be trusted: what it says is read by kernels, which check no index.
+/// What a file holds. Like a program, a capture is to be trusted: what it says is read by kernels,
+/// which check no index.
 struct Golden {
-    std::string scene;                  ///< its file's name
-    std::uint64_t fingerprint = 0;      ///< of its geometry, see scene/fingerprint.hpp
-    std::string device, driver, revision;   ///< where and from what it was recorded
-    Features features;                  ///< of that device; they decide which stages there are
+    std::string scene;                    ///< its file's name
+    std::uint64_t fingerprint = 0;        ///< of its geometry, see scene/fingerprint.hpp
+    std::string device, driver, revision; ///< where and from what it was recorded
+    Features features;                    ///< of that device; they decide which stages there are
     int width = 0, height = 0;
     std::uint32_t samples = 0, seed = 0;
     std::uint64_t photons = 0;
-    std::map<std::string, GoldenCapture> captures;  ///< by method
+    std::map<std::string, GoldenCapture> captures; ///< by method
 };
 
 void write_golden(const std::filesystem::path& file, const Golden& golden);

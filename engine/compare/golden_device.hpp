@@ -5,13 +5,14 @@
 
 namespace argand {
 
-/// Plays a capture back: instead of running a stage, it writes what the recorded device wrote. Throws Error where what is
-/// asked for is not what was recorded next.
+/// Plays a capture back: instead of running a stage, it writes what the recorded device wrote.
+/// Throws Error where what is asked for is not what was recorded next.
 class GoldenDevice final : public host::HostDevice {
 public:
     GoldenDevice(const Golden& golden, const GoldenCapture& capture);
 
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override;
     Primitives* primitives() override { return primitives_.get(); }
 
     /// Throws Error if there are steps that were recorded and have not been played.

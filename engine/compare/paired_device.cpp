@@ -20,11 +20,12 @@ constexpr std::size_t most_decision_bytes = 256;
 
 PairedBuffer& paired(const Buffer& buffer) { return static_cast<PairedBuffer&>(*buffer.storage()); }
 
-BufferView view(const BufferView& of, Buffer PairedBuffer::* side) {
-    return BufferView(paired(*of.buffer).*side, of.offset, of.size > 0 ? of.size : of.buffer->size() - of.offset);
+BufferView view(const BufferView& of, Buffer PairedBuffer::*side) {
+    return BufferView(paired(*of.buffer).*side, of.offset,
+                      of.size > 0 ? of.size : of.buffer->size() - of.offset);
 }
 
-KernelArguments side_of(KernelArguments arguments, Buffer PairedBuffer::* side) {
+KernelArguments side_of(KernelArguments arguments, Buffer PairedBuffer::*side) {
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
         arguments.buffers[i] = &(paired(*arguments.buffers[i]).*side);
     }
@@ -47,10 +48,12 @@ std::vector<std::uint32_t> words_of(Device& device, const BufferView& range) {
 } // namespace
 
 PairedDevice::PairedDevice(Device& a, Device& b, Pairing pairing)
-    : a_(a), b_(b), pairing_(pairing), info_(a.info()), primitives_(make_paired_primitives(*this, a, b)) {
+    : a_(a), b_(b), pairing_(pairing), info_(a.info()),
+      primitives_(make_paired_primitives(*this, a, b)) {
     // What kernels must do without on one of them, they do without on both.
     info_.driver += " and " + b.info().driver;
-    info_.limits.storage_range = std::min(a.info().limits.storage_range, b.info().limits.storage_range);
+    info_.limits.storage_range =
+        std::min(a.info().limits.storage_range, b.info().limits.storage_range);
     info_.limits.memory = std::min(a.info().limits.memory, b.info().limits.memory);
 }
 
@@ -83,8 +86,9 @@ void PairedDevice::copy(const BufferView& from, const BufferView& to) {
 }
 
 StageComparison& PairedDevice::comparison(const std::string& stage) {
-    const auto found = std::find_if(comparisons_.begin(), comparisons_.end(),
-                                    [&](const StageComparison& comparison) { return comparison.name == stage; });
+    const auto found =
+        std::find_if(comparisons_.begin(), comparisons_.end(),
+                     [&](const StageComparison& comparison) { return comparison.name == stage; });
     if (found != comparisons_.end()) {
         return *found;
     }
@@ -92,7 +96,8 @@ StageComparison& PairedDevice::comparison(const std::string& stage) {
     return comparisons_.back();
 }
 
-void PairedDevice::run(const std::string& stage, const std::function<void()>& on_a, const std::function<void()>& on_b,
+void PairedDevice::run(const std::string& stage, const std::function<void()>& on_a,
+                       const std::function<void()>& on_b,
                        const std::vector<WrittenBinding>& written) {
     const bool has_cells = stage == cells_stage;
     std::vector<std::vector<std::uint32_t>> before;
@@ -141,14 +146,17 @@ double PairedDevice::tolerance() const {
 }
 
 void PairedDevice::compare_cells(const std::vector<std::vector<std::uint32_t>>& before,
-                                 const std::vector<WrittenBinding>& written, StageComparison& found) {
+                                 const std::vector<WrittenBinding>& written,
+                                 StageComparison& found) {
     CellTables a, b;
     std::vector<std::uint32_t> old;
     for (std::size_t i = 0; i < written.size(); ++i) {
         const bool is_owners = written[i].name == "owners";
         if (is_owners || written[i].name == "sources") {
-            (is_owners ? a.owners : a.sources) = words_of(a_, view(written[i].view, &PairedBuffer::a));
-            (is_owners ? b.owners : b.sources) = words_of(b_, view(written[i].view, &PairedBuffer::b));
+            (is_owners ? a.owners : a.sources) =
+                words_of(a_, view(written[i].view, &PairedBuffer::a));
+            (is_owners ? b.owners : b.sources) =
+                words_of(b_, view(written[i].view, &PairedBuffer::b));
             old = is_owners ? old : before[i];
         }
     }
@@ -163,20 +171,24 @@ void PairedDevice::compare_cells(const std::vector<std::vector<std::uint32_t>>& 
     compare_items(owners_a, owners_b, "u", tolerance(), found);
 }
 
-void PairedDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
-    run(stage_name(kernel), [&] { a_.dispatch(kernel, side_of(arguments, &PairedBuffer::a), threads); },
+void PairedDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                            std::uint64_t threads) {
+    run(
+        stage_name(kernel),
+        [&] { a_.dispatch(kernel, side_of(arguments, &PairedBuffer::a), threads); },
         [&] { b_.dispatch(kernel, side_of(arguments, &PairedBuffer::b), threads); },
         written_bindings(kernel, arguments));
 }
 
-void PairedDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                                     std::uint32_t count_index) {
-    const auto on = [&](Device& device, Buffer PairedBuffer::* side) {
-        return [&kernel, &device, side, arguments = side_of(arguments, side), count = paired(counts).*side, count_index] {
-            device.dispatch_indirect(kernel, arguments, count, count_index);
-        };
+void PairedDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                                     const Buffer& counts, std::uint32_t count_index) {
+    const auto on = [&](Device& device, Buffer PairedBuffer::*side) {
+        return [&kernel, &device, side, arguments = side_of(arguments, side),
+                count = paired(counts).*side,
+                count_index] { device.dispatch_indirect(kernel, arguments, count, count_index); };
     };
-    run(stage_name(kernel), on(a_, &PairedBuffer::a), on(b_, &PairedBuffer::b), written_bindings(kernel, arguments));
+    run(stage_name(kernel), on(a_, &PairedBuffer::a), on(b_, &PairedBuffer::b),
+        written_bindings(kernel, arguments));
 }
 
 void PairedDevice::wait() {

@@ -12,8 +12,8 @@
 namespace argand {
 
 enum class Pairing {
-    isolated,   ///< every stage of the second device starts from what the first one had before it
-    end_to_end  ///< the second device goes on with its own results
+    isolated,  ///< every stage of the second device starts from what the first one had before it
+    end_to_end ///< the second device goes on with its own results
 };
 
 /// A buffer on either device.
@@ -21,8 +21,8 @@ struct PairedBuffer final : BufferStorage {
     Buffer a, b;
 };
 
-/// Two devices as one: what is recorded runs on both, stage by stage, and what they write is compared. What is
-/// downloaded is the first device's.
+/// Two devices as one: what is recorded runs on both, stage by stage, and what they write is
+/// compared. What is downloaded is the first device's.
 class PairedDevice final : public Device {
 public:
     PairedDevice(Device& a, Device& b, Pairing pairing);
@@ -33,9 +33,10 @@ public:
     void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
     void fill(const BufferView& to, std::uint32_t value) override;
     void copy(const BufferView& from, const BufferView& to) override;
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
-    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                           std::uint32_t count_index) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                           const Buffer& counts, std::uint32_t count_index) override;
     Primitives* primitives() override { return primitives_.get(); }
     void submit() override {}
     void wait() override;
@@ -44,16 +45,21 @@ public:
     void end_stage() override {}
     std::vector<StageTime> stage_times() override { return {}; }
     void reset_stage_times() override {}
-    const std::map<std::string, MemoryUse>& memory_by_name() const override { return a_.memory_by_name(); }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override {
+        return a_.memory_by_name();
+    }
     MemoryUse memory() const override { return a_.memory(); }
-    std::vector<std::string> validation_messages() const override { return a_.validation_messages(); }
+    std::vector<std::string> validation_messages() const override {
+        return a_.validation_messages();
+    }
 
     /// In the order of their first runs.
     const std::vector<StageComparison>& comparisons() const { return comparisons_; }
 
-    /// Runs a stage on both devices, compares what it wrote, and if isolated gives the first one's to the second.
-    void run(const std::string& stage, const std::function<void()>& on_a, const std::function<void()>& on_b,
-             const std::vector<WrittenBinding>& written);
+    /// Runs a stage on both devices, compares what it wrote, and if isolated gives the first one's
+    /// to the second.
+    void run(const std::string& stage, const std::function<void()>& on_a,
+             const std::function<void()>& on_b, const std::vector<WrittenBinding>& written);
 
     /// From now on, what the first device does is added to a capture.
     void record(GoldenCapture& capture) { recorder_ = &capture; }
@@ -62,8 +68,8 @@ private:
     StageComparison& comparison(const std::string& stage);
     double tolerance() const;
     /// Compares what query_cells found, whatever entries of its table the cells have.
-    void compare_cells(const std::vector<std::vector<std::uint32_t>>& before, const std::vector<WrittenBinding>& written,
-                       StageComparison& found);
+    void compare_cells(const std::vector<std::vector<std::uint32_t>>& before,
+                       const std::vector<WrittenBinding>& written, StageComparison& found);
 
     Device& a_;
     Device& b_;

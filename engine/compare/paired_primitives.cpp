@@ -52,10 +52,11 @@ public:
         run(scan_stage, work, {words(out)});
     }
 
-    void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out, const Count& count) override {
+    void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out,
+                        const Count& count) override {
         const auto work = [&](Device& device, Side side) {
-            argand::segmented_scan(device, side_of(in, side), side_of(heads, side), side_of(out, side),
-                                   side_of(count, side));
+            argand::segmented_scan(device, side_of(in, side), side_of(heads, side),
+                                   side_of(out, side), side_of(count, side));
         };
         run(segmented_scan_stage, work, {words(out)});
     }
@@ -63,15 +64,19 @@ public:
     void reduce(const Buffer& in, const Buffer& out, std::uint32_t out_index, const Count& count,
                 std::uint32_t op) override {
         const auto work = [&](Device& device, Side side) {
-            const auto reduce = op == reduce_op_min ? reduce_min : op == reduce_op_max ? reduce_max : reduce_sum;
+            const auto reduce = op == reduce_op_min   ? reduce_min
+                                : op == reduce_op_max ? reduce_max
+                                                      : reduce_sum;
             reduce(device, side_of(in, side), side_of(out, side), out_index, side_of(count, side));
         };
         run(reduce_stage, work, {words(out)});
     }
 
-    void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index, const Count& count) override {
+    void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index,
+                    const Count& count) override {
         const auto work = [&](Device& device, Side side) {
-            argand::reduce_box(device, side_of(boxes, side), side_of(out, side), out_index, side_of(count, side));
+            argand::reduce_box(device, side_of(boxes, side), side_of(out, side), out_index,
+                               side_of(count, side));
         };
         run(reduce_box_stage, work, {words(out)});
     }
@@ -90,7 +95,9 @@ private:
 
     template <class Work>
     void run(const char* stage, const Work& work, const std::vector<WrittenBinding>& written) {
-        pair_.run(stage, [&] { work(a_, &PairedBuffer::a); }, [&] { work(b_, &PairedBuffer::b); }, written);
+        pair_.run(
+            stage, [&] { work(a_, &PairedBuffer::a); }, [&] { work(b_, &PairedBuffer::b); },
+            written);
     }
 
     PairedDevice& pair_;

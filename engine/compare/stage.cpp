@@ -29,15 +29,18 @@ std::string stage_name(const KernelInfo& kernel) {
     return name;
 }
 
-std::vector<WrittenBinding> written_bindings(const KernelInfo& kernel, const KernelArguments& arguments) {
+std::vector<WrittenBinding> written_bindings(const KernelInfo& kernel,
+                                             const KernelArguments& arguments) {
     const std::string stage = stage_name(kernel);
     std::vector<WrittenBinding> written;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
         const auto earlier = arguments.buffers.begin() + i;
-        const bool again = std::find(arguments.buffers.begin(), earlier, arguments.buffers[i]) != earlier;
+        const bool again =
+            std::find(arguments.buffers.begin(), earlier, arguments.buffers[i]) != earlier;
         if (kernel.bindings[i].access != Access::read && !again) {
-            written.push_back({BufferView(*arguments.buffers[i], arguments.offsets[i], arguments.sizes[i]),
-                               kernel.bindings[i].name, layout_of(stage, kernel.bindings[i])});
+            written.push_back(
+                {BufferView(*arguments.buffers[i], arguments.offsets[i], arguments.sizes[i]),
+                 kernel.bindings[i].name, layout_of(stage, kernel.bindings[i])});
         }
     }
     return written;

@@ -22,10 +22,12 @@ std::string stage_name(const KernelInfo& kernel);
 struct WrittenBinding {
     BufferView view;
     std::string name;
-    std::string layout;                 ///< an item's words: 'f' a float, 'u' any other
+    std::string layout; ///< an item's words: 'f' a float, 'u' any other
 };
 
-/// What a kernel writes, each buffer once: what it does not need is bound to one that is bound anyway.
-std::vector<WrittenBinding> written_bindings(const KernelInfo& kernel, const KernelArguments& arguments);
+/// What a kernel writes, each buffer once: what it does not need is bound to one that is bound
+/// anyway.
+std::vector<WrittenBinding> written_bindings(const KernelInfo& kernel,
+                                             const KernelArguments& arguments);
 
 } // namespace argand

@@ -13,8 +13,8 @@ namespace {
 
 struct Unordered {
     std::string_view stage, buffer;
-    std::size_t head;       ///< words before the records
-    std::size_t stride;     ///< words of a record
+    std::size_t head;   ///< words before the records
+    std::size_t stride; ///< words of a record
 };
 
 constexpr Unordered unordered[] = {
@@ -51,7 +51,8 @@ std::uint32_t owner_of(const CellTables& tables, std::size_t query) {
 
 bool is_incidental(std::string_view stage, std::string_view buffer) {
     // Which entry of the table a cell of queries gets; its owner is compared.
-    const bool is_cell = stage == cells_stage && (buffer == "table" || buffer == "owners" || buffer == "sources");
+    const bool is_cell =
+        stage == cells_stage && (buffer == "table" || buffer == "owners" || buffer == "sources");
     // Which of two children came first to their parent; the nodes are compared.
     return is_cell || (stage == "lbvh_fit" && buffer == "ends");
 }

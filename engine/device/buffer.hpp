@@ -9,8 +9,9 @@ namespace argand {
 /// A backend's side of a buffer; backends derive from it.
 struct BufferStorage {
     std::string name;
-    std::uint64_t size = 0;             ///< bytes asked for
-    std::uint64_t read_epoch = 0;       ///< barrier epoch of the last recorded read and write, see HazardTracker
+    std::uint64_t size = 0; ///< bytes asked for
+    std::uint64_t read_epoch =
+        0; ///< barrier epoch of the last recorded read and write, see HazardTracker
     std::uint64_t write_epoch = 0;
 
     BufferStorage() = default;
@@ -19,8 +20,8 @@ struct BufferStorage {
     virtual ~BufferStorage() = default;
 };
 
-/// Memory on a device, known by a name. A handle: copies share the memory, the last one frees it, and commands that
-/// are under way keep it alive.
+/// Memory on a device, known by a name. A handle: copies share the memory, the last one frees it,
+/// and commands that are under way keep it alive.
 class Buffer {
 public:
     Buffer() = default;

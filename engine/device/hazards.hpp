@@ -1,12 +1,12 @@
 #pragma once
 
-#include "device/kernel.hpp"
 #include "device/buffer.hpp"
+#include "device/kernel.hpp"
 
 namespace argand {
 
-/// Decides from declared reads and writes when a command needs a barrier before it. Whole buffers are tracked: two
-/// ranges of one buffer count as the same.
+/// Decides from declared reads and writes when a command needs a barrier before it. Whole buffers
+/// are tracked: two ranges of one buffer count as the same.
 class HazardTracker {
 public:
     /// True if accessing the buffer conflicts with what was recorded since the last barrier.

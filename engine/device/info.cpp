@@ -13,11 +13,16 @@ namespace argand {
 
 const char* to_string(DeviceKind kind) {
     switch (kind) {
-    case DeviceKind::discrete: return "discrete GPU";
-    case DeviceKind::integrated: return "integrated GPU";
-    case DeviceKind::virtual_gpu: return "virtual GPU";
-    case DeviceKind::cpu: return "CPU";
-    case DeviceKind::other: return "other";
+    case DeviceKind::discrete:
+        return "discrete GPU";
+    case DeviceKind::integrated:
+        return "integrated GPU";
+    case DeviceKind::virtual_gpu:
+        return "virtual GPU";
+    case DeviceKind::cpu:
+        return "CPU";
+    case DeviceKind::other:
+        return "other";
     }
     return "other";
 }
@@ -44,13 +49,13 @@ std::uint64_t parse_bytes(std::string_view text) {
         {"", 1}, {"KiB", 1ull << 10}, {"MiB", 1ull << 20}, {"GiB", 1ull << 30}};
     const auto scale = units.find(unit);
     if (error != std::errc() || scale == units.end()) {
-        throw UsageError(fmt::format("reading ARGAND_LIMIT: '{}' is not a number of bytes; write e.g. 1MiB", text));
+        throw UsageError(fmt::format(
+            "reading ARGAND_LIMIT: '{}' is not a number of bytes; write e.g. 1MiB", text));
     }
     return value * scale->second;
 }
 
-template <class Map>
-std::string names_of(const Map& map) {
+template <class Map> std::string names_of(const Map& map) {
     std::string names;
     for (const auto& entry : map) {
         names += (names.empty() ? "" : ", ") + std::string(entry.first);
@@ -61,16 +66,18 @@ std::string names_of(const Map& map) {
 } // namespace
 
 void apply_environment(DeviceInfo& info) {
-    const std::map<std::string_view, bool*> switches{{"subgroups", &info.features.subgroups},
-                                                     {"push_descriptors", &info.features.push_descriptors},
-                                                     {"timestamps", &info.features.timestamps},
-                                                     {"lane_serial", &info.features.lane_serial}};
+    const std::map<std::string_view, bool*> switches{
+        {"subgroups", &info.features.subgroups},
+        {"push_descriptors", &info.features.push_descriptors},
+        {"timestamps", &info.features.timestamps},
+        {"lane_serial", &info.features.lane_serial}};
     const std::string disabled = environment("ARGAND_DISABLE");
     for (const std::string_view name : split(disabled)) {
         const auto found = switches.find(name);
         if (found == switches.end()) {
             throw UsageError(
-                fmt::format("reading ARGAND_DISABLE: '{}' is not known; choose from {}", name, names_of(switches)));
+                fmt::format("reading ARGAND_DISABLE: '{}' is not known; choose from {}", name,
+                            names_of(switches)));
         }
         *found->second = false;
     }
@@ -94,8 +101,9 @@ void apply_environment(DeviceInfo& info) {
         const std::size_t equals = std::min(setting.find('='), setting.size());
         const auto found = limits.find(setting.substr(0, equals));
         if (found == limits.end() || equals == setting.size()) {
-            throw UsageError(fmt::format("reading ARGAND_LIMIT: '{}' is not NAME=VALUE with a NAME from {}", setting,
-                                         names_of(limits)));
+            throw UsageError(
+                fmt::format("reading ARGAND_LIMIT: '{}' is not NAME=VALUE with a NAME from {}",
+                            setting, names_of(limits)));
         }
         found->second(parse_bytes(setting.substr(equals + 1)));
     }
@@ -103,11 +111,14 @@ void apply_environment(DeviceInfo& info) {
 
 std::string unmet_requirement(const Limits& limits) {
     const auto check = [](const char* what, std::uint64_t has, std::uint64_t needs) {
-        return has < needs ? fmt::format("{} is {}, Argand needs {}", what, has, needs) : std::string();
+        return has < needs ? fmt::format("{} is {}, Argand needs {}", what, has, needs)
+                           : std::string();
     };
     for (const std::string& unmet :
-         {check("its storage buffer range in bytes", limits.storage_range, Requirements::storage_range),
-          check("its number of invocations a work-group", limits.invocations, Requirements::invocations),
+         {check("its storage buffer range in bytes", limits.storage_range,
+                Requirements::storage_range),
+          check("its number of invocations a work-group", limits.invocations,
+                Requirements::invocations),
           check("its shared memory in bytes", limits.shared_memory, Requirements::shared_memory),
           check("its number of storage buffers a shader stage", limits.storage_buffers,
                 Requirements::storage_buffers)}) {

@@ -10,44 +10,46 @@ enum class DeviceKind : std::uint8_t { discrete, integrated, virtual_gpu, cpu, o
 
 const char* to_string(DeviceKind kind);
 
-/// Faster paths that a device may offer. Each has a fallback, which ARGAND_DISABLE=name,name,... forces.
+/// Faster paths that a device may offer. Each has a fallback, which ARGAND_DISABLE=name,name,...
+/// forces.
 struct Features {
-    bool subgroups = false;             ///< arithmetic, ballot and shuffle in compute shaders ("subgroups")
-    bool push_descriptors = false;      ///< VK_KHR_push_descriptor ("push_descriptors")
-    bool timestamps = false;            ///< GPU time stamps ("timestamps")
-    bool lane_serial = false;           ///< see DeviceInfo::lane_serial() ("lane_serial")
+    bool subgroups = false; ///< arithmetic, ballot and shuffle in compute shaders ("subgroups")
+    bool push_descriptors = false; ///< VK_KHR_push_descriptor ("push_descriptors")
+    bool timestamps = false;       ///< GPU time stamps ("timestamps")
+    bool lane_serial = false;      ///< see DeviceInfo::lane_serial() ("lane_serial")
 };
 
-/// What a device allows. ARGAND_LIMIT=storage_range=1MiB,invocations=128,... lowers them, so that tests reach
-/// splitting and fallbacks cheaply.
+/// What a device allows. ARGAND_LIMIT=storage_range=1MiB,invocations=128,... lowers them, so that
+/// tests reach splitting and fallbacks cheaply.
 struct Limits {
-    std::uint64_t storage_range = 0;    ///< bytes of one storage buffer binding ("storage_range")
-    std::uint64_t memory = 0;           ///< bytes of the device's largest local heap ("memory")
-    std::uint32_t invocations = 0;      ///< per work-group ("invocations")
-    std::uint32_t shared_memory = 0;    ///< bytes per work-group ("shared_memory")
-    std::uint32_t storage_buffers = 0;  ///< per shader stage ("storage_buffers")
-    std::uint64_t texels = 0;           ///< in a buffer that a kernel reads as a utextureBuffer ("texels")
-    std::uint32_t groups = 0;           ///< work-groups per dimension ("groups")
+    std::uint64_t storage_range = 0;   ///< bytes of one storage buffer binding ("storage_range")
+    std::uint64_t memory = 0;          ///< bytes of the device's largest local heap ("memory")
+    std::uint32_t invocations = 0;     ///< per work-group ("invocations")
+    std::uint32_t shared_memory = 0;   ///< bytes per work-group ("shared_memory")
+    std::uint32_t storage_buffers = 0; ///< per shader stage ("storage_buffers")
+    std::uint64_t texels = 0; ///< in a buffer that a kernel reads as a utextureBuffer ("texels")
+    std::uint32_t groups = 0; ///< work-groups per dimension ("groups")
 };
 
 struct DeviceInfo {
-    std::string backend;                ///< one of backend_names()
-    std::uint32_t index = 0;            ///< as `argand devices` numbers them
+    std::string backend;     ///< one of backend_names()
+    std::uint32_t index = 0; ///< as `argand devices` numbers them
     std::string name;
-    std::string driver;                 ///< driver's name and version
+    std::string driver; ///< driver's name and version
     std::string api_version;
     DeviceKind kind = DeviceKind::other;
     std::uint32_t subgroup_size = 1;
     Features features;
     Limits limits;
-    std::string unsuitable;             ///< why it cannot be used; empty: it can
+    std::string unsuitable; ///< why it cannot be used; empty: it can
 
-    /// True for devices that run an invocation's lanes one block after another on CPU cores, where contiguous chunks
-    /// per lane beat co-operation between lanes.
+    /// True for devices that run an invocation's lanes one block after another on CPU cores, where
+    /// contiguous chunks per lane beat co-operation between lanes.
     bool lane_serial() const { return features.lane_serial; }
 };
 
-/// What Argand needs beyond what Vulkan 1.2 guarantees, checked when a device is opened; all in one place.
+/// What Argand needs beyond what Vulkan 1.2 guarantees, checked when a device is opened; all in one
+/// place.
 struct Requirements {
     static constexpr std::uint64_t storage_range = 1ull << 20;
     static constexpr std::uint32_t invocations = 128;
@@ -55,7 +57,8 @@ struct Requirements {
     static constexpr std::uint32_t storage_buffers = 24;
 };
 
-/// Applies the environment's ARGAND_DISABLE and ARGAND_LIMIT; throws UsageError on an unknown name or a bad number.
+/// Applies the environment's ARGAND_DISABLE and ARGAND_LIMIT; throws UsageError on an unknown name
+/// or a bad number.
 void apply_environment(DeviceInfo& info);
 
 /// Names the first requirement that the limits do not meet, or returns an empty string.

@@ -18,14 +18,17 @@ void MemoryLedger::freed(const std::string& name, std::uint64_t bytes) {
     total.current -= bytes;
 }
 
-void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name, std::uint64_t bytes) {
+void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name,
+                      std::uint64_t bytes) {
     if (bytes > info.limits.storage_range) {
-        fail("allocating '{}': {} bytes exceed the {} bytes that a kernel can address on '{}'; use fewer photons, a "
+        fail("allocating '{}': {} bytes exceed the {} bytes that a kernel can address on '{}'; use "
+             "fewer photons, a "
              "smaller picture or another device",
              name, bytes, info.limits.storage_range, info.name);
     }
     if (ledger.total.current + bytes > info.limits.memory) {
-        fail("allocating '{}': {} bytes more than the {} in use exceed the {} bytes of memory of '{}'; use fewer "
+        fail("allocating '{}': {} bytes more than the {} in use exceed the {} bytes of memory of "
+             "'{}'; use fewer "
              "photons, a smaller picture or another device",
              name, bytes, ledger.total.current, info.limits.memory, info.name);
     }
@@ -33,9 +36,11 @@ void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const 
 
 void fail_out_of_memory(const MemoryLedger& ledger, const std::string& name, std::uint64_t bytes) {
     constexpr double mebibyte = 1 << 20;
-    fail("allocating {:.1f} MiB for '{}': the device is out of memory ({:.1f} MiB in use); use fewer photons, a "
+    fail("allocating {:.1f} MiB for '{}': the device is out of memory ({:.1f} MiB in use); use "
+         "fewer photons, a "
          "smaller picture or another device",
-         static_cast<double>(bytes) / mebibyte, name, static_cast<double>(ledger.total.current) / mebibyte);
+         static_cast<double>(bytes) / mebibyte, name,
+         static_cast<double>(ledger.total.current) / mebibyte);
 }
 
 } // namespace argand

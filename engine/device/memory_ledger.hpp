@@ -16,10 +16,13 @@ struct MemoryLedger {
     void freed(const std::string& name, std::uint64_t bytes);
 };
 
-/// Throws Error if a buffer of so many bytes is more than a kernel can address, or than the device has left.
-void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name, std::uint64_t bytes);
+/// Throws Error if a buffer of so many bytes is more than a kernel can address, or than the device
+/// has left.
+void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name,
+                      std::uint64_t bytes);
 
 /// Throws Error: the device has not got the memory that it said it had.
-[[noreturn]] void fail_out_of_memory(const MemoryLedger& ledger, const std::string& name, std::uint64_t bytes);
+[[noreturn]] void fail_out_of_memory(const MemoryLedger& ledger, const std::string& name,
+                                     std::uint64_t bytes);
 
 } // namespace argand

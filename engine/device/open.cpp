@@ -26,7 +26,7 @@ std::string lower_case(std::string text) {
 struct Offer {
     std::vector<DeviceInfo> devices;
     std::map<std::string, std::string> missing;
-    std::size_t first_cuda = 0;         ///< place of CUDA's first device; Vulkan's are the first
+    std::size_t first_cuda = 0; ///< place of CUDA's first device; Vulkan's are the first
 };
 
 Offer offer() {
@@ -40,7 +40,8 @@ Offer offer() {
     try {
         add(vulkan::list_devices());
         if (result.devices.empty()) {
-            result.missing["vulkan"] = "Vulkan offers no device; install a driver, for instance mesa-vulkan-drivers";
+            result.missing["vulkan"] =
+                "Vulkan offers no device; install a driver, for instance mesa-vulkan-drivers";
         }
     } catch (const Error& error) {
         result.missing["vulkan"] = error.what();
@@ -54,7 +55,8 @@ Offer offer() {
 }
 
 /// The chosen device among those of a backend, or of all backends if it is empty.
-const DeviceInfo& choose(const Offer& offer, const std::string& choice, const std::string& backend) {
+const DeviceInfo& choose(const Offer& offer, const std::string& choice,
+                         const std::string& backend) {
     std::vector<const DeviceInfo*> devices;
     for (const DeviceInfo& device : offer.devices) {
         if (backend.empty() || device.backend == backend) {
@@ -62,28 +64,32 @@ const DeviceInfo& choose(const Offer& offer, const std::string& choice, const st
         }
     }
     if (devices.empty()) {
-        fail("opening a device of backend {}: {}; or try another backend, as `argand devices` lists them", backend,
-             offer.missing.at(backend));
+        fail("opening a device of backend {}: {}; or try another backend, as `argand devices` "
+             "lists them",
+             backend, offer.missing.at(backend));
     }
     if (choice.empty()) {
         const std::vector<std::string>& order = backend_names();
         const auto rank = [&](const DeviceInfo& device) {
-            return std::tuple(!device.unsuitable.empty(), device.kind == DeviceKind::cpu, std::find(order.begin(), order.end(), device.backend) - order.begin(),
+            return std::tuple(!device.unsuitable.empty(), device.kind == DeviceKind::cpu,
+                              std::find(order.begin(), order.end(), device.backend) - order.begin(),
                               device.kind);
         };
-        return **std::min_element(devices.begin(), devices.end(),
-                                  [&](const DeviceInfo* a, const DeviceInfo* b) { return rank(*a) < rank(*b); });
+        return **std::min_element(
+            devices.begin(), devices.end(),
+            [&](const DeviceInfo* a, const DeviceInfo* b) { return rank(*a) < rank(*b); });
     }
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
     const bool is_index = error == std::errc() && end == choice.data() + choice.size();
     for (const DeviceInfo* device : devices) {
-        if (is_index ? device->index == index : lower_case(device->name).find(lower_case(choice)) != std::string::npos) {
+        if (is_index ? device->index == index
+                     : lower_case(device->name).find(lower_case(choice)) != std::string::npos) {
             return *device;
         }
     }
-    fail("opening device '{}': there is none of that {}{}; `argand devices` lists them", choice, is_index ? "index" : "name",
-         backend.empty() ? "" : " of backend " + backend);
+    fail("opening device '{}': there is none of that {}{}; `argand devices` lists them", choice,
+         is_index ? "index" : "name", backend.empty() ? "" : " of backend " + backend);
 }
 
 } // namespace
@@ -109,19 +115,21 @@ std::unique_ptr<Device> open_device(const std::string& choice, const std::string
     const std::string wanted = backend.empty() ? environment("ARGAND_BACKEND") : backend;
     const std::vector<std::string>& names = backend_names();
     if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end()) {
-        throw UsageError(fmt::format("choosing backend '{}': this build has {}", wanted, fmt::join(names, ", ")));
+        throw UsageError(fmt::format("choosing backend '{}': this build has {}", wanted,
+                                     fmt::join(names, ", ")));
     }
     const Offer offered = offer();
     // Who names a backend does not mean a device that the environment names of another.
     const bool from_environment = choice.empty() && backend.empty();
-    DeviceInfo info = choose(offered, from_environment ? environment("ARGAND_DEVICE") : choice, wanted);
+    DeviceInfo info =
+        choose(offered, from_environment ? environment("ARGAND_DEVICE") : choice, wanted);
     apply_environment(info);
     if (info.unsuitable.empty()) {
         info.unsuitable = unmet_requirement(info.limits);
     }
     if (!info.unsuitable.empty()) {
-        fail("opening device '{}': {}; choose another with --device (`argand devices` lists them)", info.name,
-             info.unsuitable);
+        fail("opening device '{}': {}; choose another with --device (`argand devices` lists them)",
+             info.name, info.unsuitable);
     }
     if (info.backend == "cpu") {
         return std::make_unique<host::HostDevice>(std::move(info));

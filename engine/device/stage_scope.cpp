@@ -6,7 +6,7 @@ namespace argand {
 StageScope::~StageScope() {
     try {
         device_.end_stage();
-    } catch (const Error&) {    // NOLINT(bugprone-empty-catch): see the declaration
+    } catch (const Error&) { // NOLINT(bugprone-empty-catch): see the declaration
     }
 }
 

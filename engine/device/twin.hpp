@@ -8,20 +8,19 @@
 
 namespace argand {
 
-/// A kernel's arguments as its twin takes them: pointers that the backend resolved, and the rest as bits.
+/// A kernel's arguments as its twin takes them: pointers that the backend resolved, and the rest as
+/// bits.
 struct TwinArguments {
     void* buffers[max_bindings];
     std::byte push[max_push_bytes];
     std::uint32_t constants[max_constants];
 
-    template <class Params>
-    void get_push(Params& params) const {
+    template <class Params> void get_push(Params& params) const {
         static_assert(sizeof(Params) <= max_push_bytes);
         std::memcpy(&params, push, sizeof(Params));
     }
     void get_constant(std::size_t index, bool& value) const { value = constants[index] != 0; }
-    template <class T>
-    void get_constant(std::size_t index, T& value) const {
+    template <class T> void get_constant(std::size_t index, T& value) const {
         static_assert(sizeof(T) == sizeof(std::uint32_t));
         std::memcpy(&value, &constants[index], sizeof(T));
     }

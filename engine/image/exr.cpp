@@ -23,7 +23,8 @@ namespace {
 constexpr std::size_t longest_channel_name = 255;
 constexpr std::size_t longest_short_name = 31; // beyond it the file needs the flag for long names
 
-constexpr std::size_t decoder_overrun = 64; // tinyexr's PIZ decoder takes codes before it tests for their end
+constexpr std::size_t decoder_overrun =
+    64; // tinyexr's PIZ decoder takes codes before it tests for their end
 
 struct Header : EXRHeader {
     Header() { InitEXRHeader(this); }
@@ -53,7 +54,8 @@ void check_layers(const std::filesystem::path& path, std::span<const Layer> laye
     std::set<std::string_view> names;
     for (const Layer& layer : layers) {
         check_size_to_write(path, layer.image);
-        if (layer.image.width != layers[0].image.width || layer.image.height != layers[0].image.height) {
+        if (layer.image.width != layers[0].image.width ||
+            layer.image.height != layers[0].image.height) {
             fail("cannot write '{}': layer '{}' is {} × {} but the first is {} × {}", path.string(),
                  layer.name, layer.image.width, layer.image.height, layers[0].image.width,
                  layers[0].image.height);
@@ -61,7 +63,8 @@ void check_layers(const std::filesystem::path& path, std::span<const Layer> laye
         if (!names.insert(layer.name).second) {
             fail("cannot write '{}': two layers are named '{}'", path.string(), layer.name);
         }
-        if (layer.name.size() + 2 > longest_channel_name || layer.name.find('\0') != std::string::npos) {
+        if (layer.name.size() + 2 > longest_channel_name ||
+            layer.name.find('\0') != std::string::npos) {
             fail("cannot write '{}': a layer's name is longer than {} bytes or holds a zero byte",
                  path.string(), longest_channel_name - 2);
         }
@@ -81,7 +84,8 @@ std::map<std::string, std::vector<float>> planes_of(std::span<const Layer> layer
             for (std::size_t i = 0; i < plane.size(); ++i) {
                 plane[i] = layer.image.pixels[i][channel];
             }
-            planes.emplace((layer.name.empty() ? "" : layer.name + ".") + "RGB"[channel], std::move(plane));
+            planes.emplace((layer.name.empty() ? "" : layer.name + ".") + "RGB"[channel],
+                           std::move(plane));
         }
     }
     return planes;
@@ -130,7 +134,8 @@ std::vector<Layer> layers_of(const Picture& picture, const Header& header, std::
             continue;
         }
         Image image{picture.width, picture.height, {}};
-        image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+        image.pixels.resize(static_cast<std::size_t>(image.width) *
+                            static_cast<std::size_t>(image.height));
         for (int c = 0; c < 3; ++c) {
             const auto member = members.find(color ? std::string(1, "RGB"[c]) : "Y");
             if (member == members.end()) {
@@ -144,7 +149,8 @@ std::vector<Layer> layers_of(const Picture& picture, const Header& header, std::
         layers.push_back({name, std::move(image)});
     }
     if (layers.empty()) {
-        fail("cannot read '{}': none of its channels is R, G, B or Y; it has {}", file, one_line(all));
+        fail("cannot read '{}': none of its channels is R, G, B or Y; it has {}", file,
+             one_line(all));
     }
     return layers;
 }
@@ -199,7 +205,8 @@ std::vector<Layer> read_exr(const std::filesystem::path& path) try {
     EXRVersion version{};
     const char* message = nullptr;
     if (ParseEXRVersionFromMemory(&version, bytes.data(), size) != TINYEXR_SUCCESS ||
-        ParseEXRHeaderFromMemory(&header, &version, bytes.data(), size, &message) != TINYEXR_SUCCESS) {
+        ParseEXRHeaderFromMemory(&header, &version, bytes.data(), size, &message) !=
+            TINYEXR_SUCCESS) {
         fail("cannot read '{}': {}", file, take_message(message));
     }
     for (int i = 0; i < header.num_channels; ++i) {
@@ -207,15 +214,18 @@ std::vector<Layer> read_exr(const std::filesystem::path& path) try {
             header.requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
         }
     }
-    // A chunk states its rows; tinyexr would turn files whose chunks are stored bottom first upside down.
+    // A chunk states its rows; tinyexr would turn files whose chunks are stored bottom first upside
+    // down.
     header.line_order = 0;
     Picture picture;
-    // Where decoding fails tinyexr frees the picture, but no more channels than this says, and leaves the
-    // pointers.
+    // Where decoding fails tinyexr frees the picture, but no more channels than this says, and
+    // leaves the pointers.
     picture.num_channels = header.num_channels;
-    if (LoadEXRImageFromMemory(&picture, &header, bytes.data(), size, &message) != TINYEXR_SUCCESS) {
+    if (LoadEXRImageFromMemory(&picture, &header, bytes.data(), size, &message) !=
+        TINYEXR_SUCCESS) {
         InitEXRImage(&picture);
-        fail("cannot read '{}': {} It is damaged; render or copy it again", file, take_message(message));
+        fail("cannot read '{}': {} It is damaged; render or copy it again", file,
+             take_message(message));
     }
     return layers_of(picture, header, file);
 } catch (const std::bad_alloc&) {

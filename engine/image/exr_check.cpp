@@ -33,8 +33,8 @@ constexpr Compression compressions[] = {
     {"PXR24", 0}, {"B44", 0}, {"B44A", 0}, {"DWAA", 0}, {"DWAB", 0},
 };
 
-/// Takes values from the front of a run of bytes; an Error, "it ends within WHERE", where there are not
-/// enough.
+/// Takes values from the front of a run of bytes; an Error, "it ends within WHERE", where there are
+/// not enough.
 struct Reader {
     Bytes bytes;
     std::string_view file;
@@ -48,8 +48,7 @@ struct Reader {
         return front;
     }
 
-    template <class T>
-    T number(std::string_view where) {
+    template <class T> T number(std::string_view where) {
         T value;
         std::memcpy(&value, take(sizeof(T), where).data(), sizeof(T));
         return value;
@@ -63,8 +62,8 @@ struct Reader {
         }
         const Bytes letters = take(static_cast<std::size_t>(end - bytes.begin()) + 1, where);
         if (letters.size() > longest_name + 1) {
-            fail("cannot read '{}': a name in its header is longer than {} bytes; it is damaged", file,
-                 longest_name);
+            fail("cannot read '{}': a name in its header is longer than {} bytes; it is damaged",
+                 file, longest_name);
         }
         return std::string(letters.begin(), letters.end() - 1);
     }
@@ -74,11 +73,13 @@ using Header = std::map<std::string, Bytes>;
 
 Header read_header(Reader& reader) {
     Header header;
-    for (std::string name = reader.text("its header"); !name.empty(); name = reader.text("its header")) {
+    for (std::string name = reader.text("its header"); !name.empty();
+         name = reader.text("its header")) {
         reader.text("its header"); // the type, which the name implies
         const auto size = reader.number<std::uint32_t>("its header");
         if (!header.emplace(name, reader.take(size, "its header")).second) {
-            fail("cannot read '{}': its header holds '{}' twice; it is damaged", reader.file, one_line(name));
+            fail("cannot read '{}': its header holds '{}' twice; it is damaged", reader.file,
+                 one_line(name));
         }
     }
     return header;
@@ -103,11 +104,12 @@ std::uint64_t check_channels(Reader channels) {
         const auto x_sampling = channels.number<std::int32_t>("its list of channels");
         const auto y_sampling = channels.number<std::int32_t>("its list of channels");
         if (type > 2) {
-            fail("cannot read '{}': channel '{}' has the unknown type {}; it is damaged", channels.file,
-                 one_line(name), type);
+            fail("cannot read '{}': channel '{}' has the unknown type {}; it is damaged",
+                 channels.file, one_line(name), type);
         }
         if (x_sampling != 1 || y_sampling != 1) {
-            fail("cannot read '{}': channel '{}' is sub-sampled, which is not supported; save it as R, G, B",
+            fail("cannot read '{}': channel '{}' is sub-sampled, which is not supported; save it "
+                 "as R, G, B",
                  channels.file, one_line(name));
         }
         bytes_per_pixel += type == 1 ? 2 : 4;
@@ -135,16 +137,18 @@ Window check_window(Reader window) {
     // tinyexr takes rows beyond ±2^21 for damage.
     constexpr std::int64_t farthest = 1 << 20;
     const bool near = std::min(x0, y0) >= -farthest && std::max(x1, y1) <= farthest;
-    if (box.width < 1 || box.height < 1 || box.width > longest_side || box.height > longest_side || !near) {
-        fail("cannot read '{}': its data window ({}, {}) to ({}, {}) is empty or too large; the longest side "
+    if (box.width < 1 || box.height < 1 || box.width > longest_side || box.height > longest_side ||
+        !near) {
+        fail("cannot read '{}': its data window ({}, {}) to ({}, {}) is empty or too large; the "
+             "longest side "
              "is {}",
              window.file, x0, y0, x1, y1, longest_side);
     }
     return box;
 }
 
-/// The parts of a PIZ chunk, a bitmap of the values that occur and a Huffman code, must fill it: tinyexr
-/// reads as far as their sizes say.
+/// The parts of a PIZ chunk, a bitmap of the values that occur and a Huffman code, must fill it:
+/// tinyexr reads as far as their sizes say.
 bool is_sound_piz(Reader chunk) {
     constexpr std::size_t bitmap_size = 8192, huffman_header = 20;
     const auto first = chunk.number<std::uint16_t>("its rows");
@@ -166,12 +170,12 @@ void check_chunks(Reader table, Bytes file, const Window& window, std::uint8_t m
     for (std::int64_t row = 0; row < window.height; row += rows_in_chunk) {
         const auto offset = table.number<std::uint64_t>("its table of rows");
         if (offset == 0) {
-            fail("cannot read '{}': row {} of {} was never written; render it again", table.file, row,
-                 window.height);
+            fail("cannot read '{}': row {} of {} was never written; render it again", table.file,
+                 row, window.height);
         }
         if (offset > file.size()) {
-            fail("cannot read '{}': it ends before row {} of {}; it is cut short or damaged", table.file, row,
-                 window.height);
+            fail("cannot read '{}': it ends before row {} of {}; it is cut short or damaged",
+                 table.file, row, window.height);
         }
         Reader chunk{file.subspan(offset), table.file};
         const auto first_row = chunk.number<std::int32_t>("its rows");
@@ -184,8 +188,8 @@ void check_chunks(Reader table, Bytes file, const Window& window, std::uint8_t m
         const bool sound = stored || (size > 0 && size < full && method != no_compression &&
                                       (method != piz || is_sound_piz({data, table.file})));
         if (first_row != window.y0 + row || !sound) {
-            fail("cannot read '{}': the rows from {} on are damaged; render or copy it again", table.file,
-                 row);
+            fail("cannot read '{}': the rows from {} on are damaged; render or copy it again",
+                 table.file, row);
         }
     }
 }
@@ -205,42 +209,48 @@ void check_exr(Bytes bytes, std::string_view name) {
         fail("cannot read '{}': it is of OpenEXR version {}, not 2", name, version & 0xff);
     }
     if ((version & (tiled | deep | multi_part)) != 0) {
-        fail("cannot read '{}': it is a {} file, which is not supported; save it as single-part scan lines",
+        fail("cannot read '{}': it is a {} file, which is not supported; save it as single-part "
+             "scan lines",
              name,
              (version & deep) != 0    ? "deep"
              : (version & tiled) != 0 ? "tiled"
                                       : "multi-part");
     }
     if ((version & ~std::uint32_t{0xff | long_names}) != 0) {
-        fail("cannot read '{}': its header has unknown flags; it is damaged or of a newer version", name);
+        fail("cannot read '{}': its header has unknown flags; it is damaged or of a newer version",
+             name);
     }
 
     const Header header = read_header(reader);
     const std::uint64_t bytes_per_pixel = check_channels(attribute(header, "channels", 1, name));
     const Window window = check_window(attribute(header, "dataWindow", 16, name));
-    const auto method = attribute(header, "compression", 1, name).number<std::uint8_t>("its header");
+    const auto method =
+        attribute(header, "compression", 1, name).number<std::uint8_t>("its header");
     if (method >= std::size(compressions) || compressions[method].rows_in_chunk == 0) {
         fail("cannot read '{}': its compression, {}, is not supported; save it with ZIP", name,
              method < std::size(compressions) ? compressions[method].name : "an unknown one");
     }
     if (header.contains("type")) {
         const Reader type = attribute(header, "type", 1, name);
-        if (std::string(type.bytes.begin(), type.bytes.end()).c_str() != std::string_view("scanlineimage")) {
-            fail("cannot read '{}': its type is not 'scanlineimage'; save it as single-part scan lines",
+        if (std::string(type.bytes.begin(), type.bytes.end()).c_str() !=
+            std::string_view("scanlineimage")) {
+            fail("cannot read '{}': its type is not 'scanlineimage'; save it as single-part scan "
+                 "lines",
                  name);
         }
     }
     const std::uint64_t row_bytes = bytes_per_pixel * static_cast<std::uint64_t>(window.width);
     if (row_bytes * static_cast<std::uint64_t>(window.height) > 4 * most_samples) {
-        fail("cannot read '{}': its {} × {} pixels of {} bytes are more than 4 GiB", name, window.width,
-             window.height, bytes_per_pixel);
+        fail("cannot read '{}': its {} × {} pixels of {} bytes are more than 4 GiB", name,
+             window.width, window.height, bytes_per_pixel);
     }
     const int rows_in_chunk = compressions[method].rows_in_chunk;
     if (header.contains("chunkCount")) {
-        const auto stated = attribute(header, "chunkCount", 4, name).number<std::int32_t>("its header");
+        const auto stated =
+            attribute(header, "chunkCount", 4, name).number<std::int32_t>("its header");
         if (stated != (window.height + rows_in_chunk - 1) / rows_in_chunk) {
-            fail("cannot read '{}': its 'chunkCount' of {} does not fit its {} rows; it is damaged", name,
-                 stated, window.height);
+            fail("cannot read '{}': its 'chunkCount' of {} does not fit its {} rows; it is damaged",
+                 name, stated, window.height);
         }
     }
     check_chunks(reader, bytes, window, method, row_bytes);

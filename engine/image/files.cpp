@@ -23,9 +23,9 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 [[noreturn]] void fail_unknown(std::string_view verb, const std::filesystem::path& path,
                                std::string_view known) {
-    throw UsageError(
-        fmt::format("cannot {} '{}': the extension '{}' is not that of a known picture format; use {}", verb,
-                    one_line(path.string(), 4096), one_line(path.extension().string()), known));
+    throw UsageError(fmt::format(
+        "cannot {} '{}': the extension '{}' is not that of a known picture format; use {}", verb,
+        one_line(path.string(), 4096), one_line(path.extension().string()), known));
 }
 
 constexpr std::string_view writable = ".exr or .png";
@@ -48,7 +48,8 @@ std::vector<Layer> read_image(const std::filesystem::path& path) {
     return layers;
 }
 
-void write_image(const std::filesystem::path& path, std::span<const Layer> layers, float exposure_ev) {
+void write_image(const std::filesystem::path& path, std::span<const Layer> layers,
+                 float exposure_ev) {
     const std::string extension = lower_extension(path);
     if (extension == ".exr") {
         write_exr(path, layers);

@@ -10,11 +10,11 @@ namespace argand {
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<glm::vec3> pixels;      ///< width × height
+    std::vector<glm::vec3> pixels; ///< width × height
 };
 
-/// Named pictures of one size that are kept in one OpenEXR file: "" is the whole picture (channels R, G, B), any
-/// other name a layer (channels NAME.R, NAME.G, NAME.B).
+/// Named pictures of one size that are kept in one OpenEXR file: "" is the whole picture (channels
+/// R, G, B), any other name a layer (channels NAME.R, NAME.G, NAME.B).
 struct Layer {
     std::string name;
     Image image;

@@ -17,7 +17,8 @@ void check_finite(const Image& image, std::string_view name) {
         const glm::vec3& p = image.pixels[i];
         if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b)) {
             const auto width = static_cast<std::size_t>(image.width);
-            fail("cannot compare: pixel ({}, {}) of '{}' is not finite ({}, {}, {}); render it again",
+            fail("cannot compare: pixel ({}, {}) of '{}' is not finite ({}, {}, {}); render it "
+                 "again",
                  i % width, i / width, name, p.r, p.g, p.b);
         }
     }
@@ -25,7 +26,8 @@ void check_finite(const Image& image, std::string_view name) {
 
 void check_pair(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
     if (a.width != b.width || a.height != b.height) {
-        fail("cannot compare '{}' ({} × {}) with '{}' ({} × {}): their sizes differ; render both at one size",
+        fail("cannot compare '{}' ({} × {}) with '{}' ({} × {}): their sizes differ; render both "
+             "at one size",
              name_a, a.width, a.height, name_b, b.width, b.height);
     }
     if (a.pixels.empty() || a.pixels.size() != b.pixels.size()) {
@@ -43,16 +45,15 @@ glm::dvec3 mean_of(const Image& image) {
     return sum / static_cast<double>(image.pixels.size());
 }
 
-double mean_of_channels(const glm::dvec3& v) {
-    return (v.r + v.g + v.b) / 3;
-}
+double mean_of_channels(const glm::dvec3& v) { return (v.r + v.g + v.b) / 3; }
 
 /// difference² / scale², where 0/0 is no error.
 double relative(double squared_difference, double squared_scale) {
     if (squared_difference == 0) {
         return 0;
     }
-    return squared_scale > 0 ? squared_difference / squared_scale : std::numeric_limits<double>::infinity();
+    return squared_scale > 0 ? squared_difference / squared_scale
+                             : std::numeric_limits<double>::infinity();
 }
 
 /// Mean over pixels and channels of `square(pixel, channel, a, b)` over what relMSE divides by.
@@ -64,7 +65,8 @@ double mean_relative(const Image& reference_a, const Image& reference_b, Square 
         for (int c = 0; c < 3; ++c) {
             const double a = reference_a.pixels[i][c];
             const double b = reference_b.pixels[i][c];
-            sum += relative(square(i, c, a, b), 0.25 * (a + b) * (a + b) + dark_share * mean * mean);
+            sum +=
+                relative(square(i, c, a, b), 0.25 * (a + b) * (a + b) + dark_share * mean * mean);
         }
     }
     return sum / (3 * static_cast<double>(reference_a.pixels.size()));
@@ -87,7 +89,8 @@ double rel_mse(const Image& image, const Image& reference_a, const Image& refere
     });
 }
 
-double rel_variance(std::span<const Image> images, const Image& reference_a, const Image& reference_b) {
+double rel_variance(std::span<const Image> images, const Image& reference_a,
+                    const Image& reference_b) {
     if (images.size() < 2) {
         fail("measuring the variance of {} pictures: it takes two; use more seeds", images.size());
     }
@@ -108,7 +111,8 @@ double rel_variance(std::span<const Image> images, const Image& reference_a, con
     });
 }
 
-std::vector<double> rel_products(const Image& a, const Image& b, const Image& c, const Image& d, const Image& reference) {
+std::vector<double> rel_products(const Image& a, const Image& b, const Image& c, const Image& d,
+                                 const Image& reference) {
     for (const Image* image : {&a, &b, &c, &d}) {
         check_pair(*image, reference, "the picture", "its reference");
     }
@@ -152,7 +156,8 @@ Metrics compare(const Image& a, const Image& b, std::string_view name_a, std::st
     return metrics;
 }
 
-Image difference_picture(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
+Image difference_picture(const Image& a, const Image& b, std::string_view name_a,
+                         std::string_view name_b) {
     check_pair(a, b, name_a, name_b);
     const double mean = mean_of_channels(mean_of(b));
     constexpr glm::dvec3 brighter(1, 0.15, 0), darker(0, 0.15, 1);
@@ -161,7 +166,8 @@ Image difference_picture(const Image& a, const Image& b, std::string_view name_a
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         const double reference = luminance(b.pixels[i]);
         const double d = luminance(a.pixels[i]) - reference;
-        const double share = std::sqrt(relative(d * d, reference * reference + dark_share * mean * mean));
+        const double share =
+            std::sqrt(relative(d * d, reference * reference + dark_share * mean * mean));
         result.pixels.emplace_back((d > 0 ? brighter : darker) * std::min(share, 1.0));
     }
     return result;

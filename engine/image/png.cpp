@@ -13,8 +13,8 @@
 #include <new>
 #include <vector>
 
-// Static, so that no other copy of stb in the program is meant; only what is used, so that a file that
-// pretends to be a PNG does not reach another decoder.
+// Static, so that no other copy of stb in the program is meant; only what is used, so that a file
+// that pretends to be a PNG does not reach another decoder.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -36,13 +36,9 @@ namespace {
 
 constexpr int rgb = 3;
 
-template <class T>
-using Samples = std::unique_ptr<T, decltype(&stbi_image_free)>;
+template <class T> using Samples = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
-template <class T>
-Samples<T> hold(T* samples) {
-    return {samples, &stbi_image_free};
-}
+template <class T> Samples<T> hold(T* samples) { return {samples, &stbi_image_free}; }
 
 void append(void* context, void* data, int size) {
     auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
@@ -85,25 +81,26 @@ Image to_image(const T* samples, int width, int height, Convert convert) {
 }
 
 /// Linear value of every code of an unsigned integer type that holds sRGB.
-template <class T>
-std::vector<float> decode_table() {
+template <class T> std::vector<float> decode_table() {
     constexpr std::size_t codes = std::size_t{std::numeric_limits<T>::max()} + 1;
     std::vector<float> table(codes);
     for (std::size_t i = 0; i < codes; ++i) {
-        table[i] = static_cast<float>(srgb_decode(static_cast<double>(i) / static_cast<double>(codes - 1)));
+        table[i] = static_cast<float>(
+            srgb_decode(static_cast<double>(i) / static_cast<double>(codes - 1)));
     }
     return table;
 }
 
 [[noreturn]] void fail_to_decode(const std::filesystem::path& path) {
     const char* reason = stbi_failure_reason();
-    fail("cannot read '{}': it is damaged ({}); render or copy it again", one_line(path.string(), 4096),
-         reason != nullptr ? reason : "unknown reason");
+    fail("cannot read '{}': it is damaged ({}); render or copy it again",
+         one_line(path.string(), 4096), reason != nullptr ? reason : "unknown reason");
 }
 
 } // namespace
 
-std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev, const std::filesystem::path& name) {
+std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev,
+                                    const std::filesystem::path& name) {
     check_size_to_write(name, image);
     const double scale = std::exp2(static_cast<double>(exposure_ev));
     std::vector<std::uint8_t> samples;
@@ -115,9 +112,10 @@ std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev, const
     }
     std::vector<std::uint8_t> bytes;
     if (samples.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
-        stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(), 0) == 0) {
-        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr", name.string(),
-             image.width, image.height);
+        stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(),
+                               0) == 0) {
+        fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr",
+             name.string(), image.width, image.height);
     }
     return bytes;
 }
@@ -137,9 +135,11 @@ Image read_png(const std::filesystem::path& path) try {
             fail_to_decode(path);
         }
         const std::vector<float> linear = decode_table<std::uint16_t>();
-        return to_image(samples.get(), width, height, [&](std::uint16_t code) { return linear[code]; });
+        return to_image(samples.get(), width, height,
+                        [&](std::uint16_t code) { return linear[code]; });
     }
-    const auto samples = hold(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, rgb));
+    const auto samples =
+        hold(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, rgb));
     if (samples == nullptr) {
         fail_to_decode(path);
     }
@@ -150,10 +150,11 @@ Image read_png(const std::filesystem::path& path) try {
 }
 
 Image read_hdr(const std::filesystem::path& path) try {
-    const std::vector<std::uint8_t> bytes = read_bytes(path, "Radiance HDR", &stbi_is_hdr_from_memory);
+    const std::vector<std::uint8_t> bytes =
+        read_bytes(path, "Radiance HDR", &stbi_is_hdr_from_memory);
     int width = 0, height = 0, channels = 0;
-    const auto samples = hold(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width,
-                                                     &height, &channels, rgb));
+    const auto samples = hold(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()),
+                                                     &width, &height, &channels, rgb));
     if (samples == nullptr) {
         fail_to_decode(path);
     }

@@ -32,9 +32,7 @@ std::vector<double> gaussian(int radius) {
 }
 
 /// Radius of the longest odd window that fits into a side.
-int fitting_radius(int side) {
-    return std::min(window_radius, (side - 1) / 2);
-}
+int fitting_radius(int side) { return std::min(window_radius, (side - 1) / 2); }
 
 Plane filter_rows(const Plane& in, const std::vector<double>& weights) {
     const int taps = static_cast<int>(weights.size());
@@ -66,8 +64,8 @@ Plane transposed(const Plane& in) {
     return out;
 }
 
-/// Gaussian mean at every place where the window fits; the result is transposed, which the mean of all does
-/// not mind.
+/// Gaussian mean at every place where the window fits; the result is transposed, which the mean of
+/// all does not mind.
 Plane local_mean(const Plane& in) {
     const Plane rows = filter_rows(in, gaussian(fitting_radius(in.width)));
     return filter_rows(transposed(rows), gaussian(fitting_radius(in.height)));
@@ -100,10 +98,11 @@ double ssim(const Image& a, const Image& b) {
     double sum = 0;
     for (std::size_t i = 0; i < mean_x.values.size(); ++i) {
         const double mx = mean_x.values[i], my = mean_y.values[i];
-        const double variance_x = mean_xx.values[i] - mx * mx, variance_y = mean_yy.values[i] - my * my;
+        const double variance_x = mean_xx.values[i] - mx * mx,
+                     variance_y = mean_yy.values[i] - my * my;
         const double covariance = mean_xy.values[i] - mx * my;
-        // Both factors are at least c1 and about c2: means are squared, variances negative by rounding at
-        // most.
+        // Both factors are at least c1 and about c2: means are squared, variances negative by
+        // rounding at most.
         sum += (2 * mx * my + c1) * (2 * covariance + c2) /
                ((mx * mx + my * my + c1) * (variance_x + variance_y + c2));
     }

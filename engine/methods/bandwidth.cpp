@@ -16,16 +16,18 @@ namespace {
 
 // Points at which a caustic's radius is looked for.
 constexpr std::size_t caustic_samples = 1024;
-// r_max of the nearest photons, in radii that hold k of them where photons are as dense as in the median.
+// r_max of the nearest photons, in radii that hold k of them where photons are as dense as in the
+// median.
 constexpr double reach_of_nearest = 2.5;
-// Semi-axes of caustic photons' footprints, in the radius that would serve for all caustics. Where a caustic folds, its
-// photons' footprints shrink to lines and points: bright streaks and dots, for there the linear map of the differentials
-// holds in a small neighbourhood only.
+// Semi-axes of caustic photons' footprints, in the radius that would serve for all caustics. Where
+// a caustic folds, its photons' footprints shrink to lines and points: bright streaks and dots, for
+// there the linear map of the differentials holds in a small neighbourhood only.
 constexpr float least_caustic = 0.2f;
 constexpr float most_caustic = 8;
 // A few large footprints cost more than they are worth, for their boxes are everywhere.
 constexpr double largest_footprint = 1.4;
-// Of the scene's: smaller radii are below what positions are rounded by, and their squares underflow.
+// Of the scene's: smaller radii are below what positions are rounded by, and their squares
+// underflow.
 constexpr double least_radius = 1e-7;
 // Photons at which a given smoothing holds.
 constexpr double reference_photons = 200'000;
@@ -40,17 +42,20 @@ Cube bounds_of(const SceneRecord& scene) {
 }
 
 /// Those that are there, along the space-filling curve.
-std::vector<PhotonRecord> in_curve_order(std::span<const PhotonRecord> photons, const Cube& bounds) {
+std::vector<PhotonRecord> in_curve_order(std::span<const PhotonRecord> photons,
+                                         const Cube& bounds) {
     struct Place {
         std::uint32_t code, index;
     };
     std::vector<Place> places;
     for (std::uint32_t i = 0; i < photons.size(); ++i) {
         if (photons[i].normal != no_photon) {
-            places.push_back({morton30({photons[i].x, photons[i].y, photons[i].z}, bounds.low, bounds.high), i});
+            places.push_back(
+                {morton30({photons[i].x, photons[i].y, photons[i].z}, bounds.low, bounds.high), i});
         }
     }
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.code < b.code; });
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.code < b.code; });
     std::vector<PhotonRecord> ordered;
     ordered.reserve(places.size());
     for (const Place& place : places) {
@@ -61,29 +66,35 @@ std::vector<PhotonRecord> in_curve_order(std::span<const PhotonRecord> photons, 
 
 // Footprints on a point over photons in a disc: those of different sizes do not count the same.
 constexpr double footprints_for_disc = 1.7;
-// Caustics are at most so sharp beside the radius of all other light; up to twice as wide, they are treated as that.
+// Caustics are at most so sharp beside the radius of all other light; up to twice as wide, they are
+// treated as that.
 constexpr double sharpest_caustic = 0.17;
 
-/// Photons that one pass should find in a disc, or k, so that all passes together find as many as is best.
+/// Photons that one pass should find in a disc, or k, so that all passes together find as many as
+/// is best.
 double in_disc_of_pass(double photons, double passes, bool caustic = false) {
     return photons_in_disc(photons * passes, caustic) / passes;
 }
 
 /// The radius of caustics follows from where their photons are, which is where the caustics are.
 GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const glm::vec3> queries,
-                       const SceneRecord& scene, double passes, std::optional<std::uint32_t> neighbours) {
+                       const SceneRecord& scene, double passes,
+                       std::optional<std::uint32_t> neighbours) {
     const Cube bounds = bounds_of(scene);
     const std::vector<PhotonRecord> photons = in_curve_order(unordered, bounds);
     std::vector<PhotonRecord> caustic;
     std::copy_if(photons.begin(), photons.end(), std::back_inserter(caustic),
                  [](const PhotonRecord& photon) { return photon_is_caustic(photon.normal); });
-    const auto radius_of = [&](const std::vector<PhotonRecord>& some, std::span<const glm::vec3> points, bool is_caustic) {
+    const auto radius_of = [&](const std::vector<PhotonRecord>& some,
+                               std::span<const glm::vec3> points, bool is_caustic) {
         const double in_disc =
-            neighbours ? *neighbours : in_disc_of_pass(static_cast<double>(some.size()), passes, is_caustic);
+            neighbours ? *neighbours
+                       : in_disc_of_pass(static_cast<double>(some.size()), passes, is_caustic);
         return median_radius(some, points, bounds.low, bounds.high, in_disc);
     };
     std::vector<glm::vec3> in_caustics;
-    for (std::size_t i = 0; i < caustic.size(); i += std::max<std::size_t>(caustic.size() / caustic_samples, 1)) {
+    for (std::size_t i = 0; i < caustic.size();
+         i += std::max<std::size_t>(caustic.size() / caustic_samples, 1)) {
         in_caustics.emplace_back(caustic[i].x, caustic[i].y, caustic[i].z);
     }
     GatherRadii radii;
@@ -91,35 +102,39 @@ GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const 
     const double learnt = radius_of(photons, queries, false);
     radii.indirect = learnt > 0 ? learnt : 0.01 * scene.radius;
     const double of_caustics = radius_of(caustic, in_caustics, true);
-    // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by one. And a radius
-    // that is little smaller gains nothing, and loses the boundary correction.
+    // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by
+    // one. And a radius that is little smaller gains nothing, and loses the boundary correction.
     const bool sharp = of_caustics > 0 && of_caustics < 2 * sharpest_caustic * radii.indirect;
-    radii.caustic = sharp ? std::max(of_caustics, sharpest_caustic * radii.indirect) : radii.indirect;
+    radii.caustic =
+        sharp ? std::max(of_caustics, sharpest_caustic * radii.indirect) : radii.indirect;
     return radii;
 }
 
-FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing, double caustic_smoothing,
-                        double largest, const SceneRecord& scene) {
-    FootprintScale scale =
-        make_footprint_scale(static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
-                             static_cast<float>(smoothing), static_cast<float>(caustic_smoothing),
-                             static_cast<float>(largest), static_cast<float>(settings.flatness),
-                             settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
+FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing,
+                        double caustic_smoothing, double largest, const SceneRecord& scene) {
+    FootprintScale scale = make_footprint_scale(
+        static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
+        static_cast<float>(smoothing), static_cast<float>(caustic_smoothing),
+        static_cast<float>(largest), static_cast<float>(settings.flatness),
+        settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
     scale.principal_axes = settings.paper_axes ? 0 : 1;
     return scale;
 }
 
-/// Sizes fall with the number of passes as with that of photons; a smoothing that is fixed does not.
+/// Sizes fall with the number of passes as with that of photons; a smoothing that is fixed does
+/// not.
 double shrinking(double passes) { return std::pow(passes, -1.0 / 6); }
 
 } // namespace
 
-Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const PhotonWorkspace& workspace,
-                          const StoredPhotons& stored, std::span<const glm::vec3> queries,
-                          const RenderSettings& settings, Estimator estimator, double passes) {
+Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene,
+                          const PhotonWorkspace& workspace, const StoredPhotons& stored,
+                          std::span<const glm::vec3> queries, const RenderSettings& settings,
+                          Estimator estimator, double passes) {
     const bool nearest = estimator == Estimator::nearest;
     const auto count = static_cast<double>(stored.photons);
-    const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, workspace.photons, stored.slots);
+    const std::vector<PhotonRecord> photons =
+        download<PhotonRecord>(device, workspace.photons, stored.slots);
     Bandwidth b;
     b.caustics = std::any_of(photons.begin(), photons.end(), [](const PhotonRecord& photon) {
         return photon.normal != no_photon && photon_is_caustic(photon.normal);
@@ -140,16 +155,18 @@ Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const Photon
         b.smoothing = *settings.footprints.smoothing * by;
     } else if (estimator == Estimator::footprints) {
         const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
-        const double learnt = median_smoothing(
-            photons, offsets, queries,
-            scale_of(settings.footprints, static_cast<double>(stored.emitted), 1, 1, 1e6, scene.record),
-            footprints_for_disc * in_disc_of_pass(count, passes));
+        const double learnt =
+            median_smoothing(photons, offsets, queries,
+                             scale_of(settings.footprints, static_cast<double>(stored.emitted), 1,
+                                      1, 1e6, scene.record),
+                             footprints_for_disc * in_disc_of_pass(count, passes));
         b.smoothing = learnt > 0 ? learnt : 1;
     }
     return b;
 }
 
-Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes, const RenderSettings& settings) {
+Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
+                     const RenderSettings& settings) {
     const double by = shrinking(passes / learnt_for);
     Bandwidth b = learnt;
     if (!settings.radius && !settings.neighbours) {
@@ -157,7 +174,8 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes, 
         b.radii.caustic *= by;
     }
     if (!settings.neighbours && b.neighbours > 0) {
-        b.neighbours = static_cast<std::uint32_t>(std::max(std::round(b.neighbours * by * by), 2.0));
+        b.neighbours =
+            static_cast<std::uint32_t>(std::max(std::round(b.neighbours * by * by), 2.0));
     }
     if (!settings.footprints.fixed_smoothing) {
         b.smoothing *= by;
@@ -166,14 +184,18 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes, 
     return b;
 }
 
-FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings, double photons,
-                               const SceneRecord& scene) {
-    const double largest = settings.largest.value_or(largest_footprint * bandwidth.radii.indirect / scene.radius);
-    FootprintScale scale = scale_of(settings, photons, bandwidth.smoothing, bandwidth.caustic_smoothing, largest, scene);
-    const auto caustic = static_cast<float>(std::min(bandwidth.radii.caustic, 4 * sharpest_caustic * bandwidth.radii.indirect));
+FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings,
+                               double photons, const SceneRecord& scene) {
+    const double largest =
+        settings.largest.value_or(largest_footprint * bandwidth.radii.indirect / scene.radius);
+    FootprintScale scale = scale_of(settings, photons, bandwidth.smoothing,
+                                    bandwidth.caustic_smoothing, largest, scene);
+    const auto caustic = static_cast<float>(
+        std::min(bandwidth.radii.caustic, 4 * sharpest_caustic * bandwidth.radii.indirect));
     scale.caustic_min = std::max(scale.radius_min, least_caustic * caustic);
     // Beyond the largest of diffuse light there is as little noise, and much more to gather.
-    scale.caustic_max = std::max(scale.caustic_min, std::min(most_caustic * caustic, scale.radius_max));
+    scale.caustic_max =
+        std::max(scale.caustic_min, std::min(most_caustic * caustic, scale.radius_max));
     return scale;
 }
 

@@ -15,10 +15,12 @@ public:
     /// seconds: from now on; none: every pass once.
     explicit Budget(std::optional<double> seconds) : seconds_(seconds) {}
 
-    /// Told where the first pass begins, after what is done once: that says nothing of how long passes take.
+    /// Told where the first pass begins, after what is done once: that says nothing of how long
+    /// passes take.
     void start_pass() { begun_ = elapsed(); }
 
-    /// Does what is done once in the middle of the first pass, and leaves it out of the pass's time.
+    /// Does what is done once in the middle of the first pass, and leaves it out of the pass's
+    /// time.
     template <typename Work> auto once(const Work& work) {
         const double before = elapsed();
         auto result = work();
@@ -26,8 +28,8 @@ public:
         return result;
     }
 
-    /// Told after each pass, where the next one begins. Whether another is to be made; there is time for it, if it
-    /// takes as long as the last one.
+    /// Told after each pass, where the next one begins. Whether another is to be made; there is
+    /// time for it, if it takes as long as the last one.
     bool another(std::uint64_t done, std::uint64_t passes) {
         if (!seconds_) {
             return done < passes;
@@ -62,7 +64,8 @@ private:
     double begun_ = 0, in_passes_ = 0;
 };
 
-/// Whether samples after so many passes still have numbers of 32 bits, beyond which they would be the same again.
+/// Whether samples after so many passes still have numbers of 32 bits, beyond which they would be
+/// the same again.
 inline bool has_sample_numbers(std::uint64_t passes, std::uint32_t samples) {
     return (passes + 1) * samples <= 0xffffffffu;
 }

@@ -7,13 +7,14 @@ namespace argand {
 /// Who hears of a render, and may end it.
 struct Listeners {
     const OnProgress& progress;
-    const OnPass& on_pass;      ///< may be empty
+    const OnPass& on_pass; ///< may be empty
 };
 
 using Method = RenderResult (*)(Device& device, const Scene& scene, const RenderSettings& settings,
                                 const Listeners& listeners);
 
-RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings, const Listeners& listeners);
+RenderResult render_path(Device& device, const Scene& scene, const RenderSettings& settings,
+                         const Listeners& listeners);
 RenderResult render_photons(Device& device, const Scene& scene, const RenderSettings& settings,
                             const Listeners& listeners);
 RenderResult render_nearest(Device& device, const Scene& scene, const RenderSettings& settings,

@@ -14,8 +14,10 @@ struct NamedMethod {
     Method method;
 };
 
-constexpr NamedMethod methods[] = {{"footprints", render_footprints}, {"photons", render_photons},
-                                   {"knn", render_nearest}, {"path", render_path}};
+constexpr NamedMethod methods[] = {{"footprints", render_footprints},
+                                   {"photons", render_photons},
+                                   {"knn", render_nearest},
+                                   {"path", render_path}};
 
 } // namespace
 
@@ -35,13 +37,14 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings) {
                              .everything = settings.everything});
 }
 
-RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings, const OnProgress& progress,
-                    const OnPass& on_pass) {
-    const auto named = std::find_if(std::begin(methods), std::end(methods),
-                                    [&](const NamedMethod& m) { return settings.method == m.name; });
+RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,
+                    const OnProgress& progress, const OnPass& on_pass) {
+    const auto named =
+        std::find_if(std::begin(methods), std::end(methods),
+                     [&](const NamedMethod& m) { return settings.method == m.name; });
     if (named == std::end(methods)) {
-        throw UsageError(fmt::format("rendering '{}': there is no method '{}'; choose from {}", scene.name,
-                                     settings.method, fmt::join(method_names(), ", ")));
+        throw UsageError(fmt::format("rendering '{}': there is no method '{}'; choose from {}",
+                                     scene.name, settings.method, fmt::join(method_names(), ", ")));
     }
     return named->method(device, scene, settings, {progress, on_pass});
 }

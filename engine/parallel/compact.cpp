@@ -23,17 +23,18 @@ void compact(Device& device, const Buffer& flags, const Buffer& values, const Bu
         reduce_parts(device, flags, sums, 0, count, parts, reduce_op_count);
     }
     for_variant<kernels::compact_parts_serial, kernels::compact_parts_subgroup,
-                kernels::compact_parts_shared>(variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-        dispatch(device,
-                 Kernel{.flags = flags,
-                        .values = values,
-                        .counts = counts_or(count, flags),
-                        .part_sums = sums,
-                        .kept = out,
-                        .totals = counts,
-                        .params = {count_record(count), parts, count_index}},
-                 threads);
-    });
+                kernels::compact_parts_shared>(
+        variant, parts, [&]<class Kernel>(std::uint64_t threads) {
+            dispatch(device,
+                     Kernel{.flags = flags,
+                            .values = values,
+                            .counts = counts_or(count, flags),
+                            .part_sums = sums,
+                            .kept = out,
+                            .totals = counts,
+                            .params = {count_record(count), parts, count_index}},
+                     threads);
+        });
 }
 
 } // namespace argand

@@ -23,16 +23,14 @@ Variant variant_of(const DeviceInfo& info) {
                                      : Variant::shared;
 }
 
-PartsRecord group_parts(const Count& count) {
-    return parts_of(count.bound, 2048, 1024, 64);
-}
+PartsRecord group_parts(const Count& count) { return parts_of(count.bound, 2048, 1024, 64); }
 
 PartsRecord variant_parts(Variant variant, const Count& count) {
     if (variant != Variant::serial) {
         return group_parts(count);
     }
-    // A second dispatch costs more than one lane needs for a few elements; beyond that, two groups of eight
-    // lanes at least, for groups are dealt to cores.
+    // A second dispatch costs more than one lane needs for a few elements; beyond that, two groups
+    // of eight lanes at least, for groups are dealt to cores.
     if (count.bound <= 4096) {
         return {1, 16};
     }
@@ -49,8 +47,8 @@ const Buffer& counts_or(const Count& count, const Buffer& bound_anyway) {
     return count.on_device() ? count.buffer : bound_anyway;
 }
 
-void reduce_parts(Device& device, const Buffer& in, const Buffer& results, uint first_out, const Count& count,
-                  PartsRecord parts, uint op) {
+void reduce_parts(Device& device, const Buffer& in, const Buffer& results, uint first_out,
+                  const Count& count, PartsRecord parts, uint op) {
     dispatch(device,
              kernels::reduce_parts{.in_elements = in,
                                    .counts = counts_or(count, in),

@@ -38,8 +38,8 @@ PartsRecord sort_parts(Variant variant, const Count& count) {
     return {static_cast<uint>(groups), sort_tile};
 }
 
-/// Counts each part's digits, turns the counts into places, and moves the elements there: least significant
-/// digit first, each pass stable.
+/// Counts each part's digits, turns the counts into places, and moves the elements there: least
+/// significant digit first, each pass stable.
 template <class Serial, class Subgroup, class Shared>
 void sort(Device& device, const Elements& elements, const Count& count, std::uint32_t bits,
           std::uint32_t key_words) {
@@ -67,8 +67,8 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
     Elements from = elements;
     Elements to = spare;
     if (passes % 2 == 1) {
-        // The last pass is to end in the caller's buffers, where what follows the last element stays as it
-        // is.
+        // The last pass is to end in the caller's buffers, where what follows the last element
+        // stays as it is.
         device.copy(BufferView(elements.keys, 0, key_bytes), spare.keys);
         if (elements.values) {
             device.copy(BufferView(elements.values, 0, value_bytes), spare.values);
@@ -76,7 +76,8 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
         std::swap(from, to);
     }
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        const std::uint32_t digit_bits = std::min(sort_digit_bits, used_bits - pass * sort_digit_bits);
+        const std::uint32_t digit_bits =
+            std::min(sort_digit_bits, used_bits - pass * sort_digit_bits);
         const SortParams params{.count = count_record(count),
                                 .parts = parts,
                                 .word = pass / 4,
@@ -84,35 +85,37 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
                                 .digit_mask = (1u << digit_bits) - 1,
                                 .key_words = key_words};
         for_variant<kernels::sort_histogram_serial, kernels::sort_histogram_group,
-                    kernels::sort_histogram_group>(variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-            dispatch(device,
-                     Kernel{.keys = from.keys,
-                            .counts = counts_or(count, from.keys),
-                            .histograms = histograms,
-                            .params = params},
-                     threads);
-        });
+                    kernels::sort_histogram_group>(
+            variant, parts, [&]<class Kernel>(std::uint64_t threads) {
+                dispatch(device,
+                         Kernel{.keys = from.keys,
+                                .counts = counts_or(count, from.keys),
+                                .histograms = histograms,
+                                .params = params},
+                         threads);
+            });
         exclusive_scan(device, histograms, histograms, std::uint64_t(parts.parts) * sort_digits);
-        for_variant<Serial, Subgroup, Shared>(variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-            Kernel kernel = [&] {
-                if constexpr (requires(Kernel k) { k.values; }) {
-                    return Kernel{.keys = from.keys,
-                                  .counts = counts_or(count, from.keys),
-                                  .offsets = histograms,
-                                  .sorted_keys = to.keys,
-                                  .values = from.values,
-                                  .sorted_values = to.values,
-                                  .params = params};
-                } else {
-                    return Kernel{.keys = from.keys,
-                                  .counts = counts_or(count, from.keys),
-                                  .offsets = histograms,
-                                  .sorted_keys = to.keys,
-                                  .params = params};
-                }
-            }();
-            dispatch(device, kernel, threads);
-        });
+        for_variant<Serial, Subgroup, Shared>(
+            variant, parts, [&]<class Kernel>(std::uint64_t threads) {
+                Kernel kernel = [&] {
+                    if constexpr (requires(Kernel k) { k.values; }) {
+                        return Kernel{.keys = from.keys,
+                                      .counts = counts_or(count, from.keys),
+                                      .offsets = histograms,
+                                      .sorted_keys = to.keys,
+                                      .values = from.values,
+                                      .sorted_values = to.values,
+                                      .params = params};
+                    } else {
+                        return Kernel{.keys = from.keys,
+                                      .counts = counts_or(count, from.keys),
+                                      .offsets = histograms,
+                                      .sorted_keys = to.keys,
+                                      .params = params};
+                    }
+                }();
+                dispatch(device, kernel, threads);
+            });
         std::swap(from, to);
     }
 }
@@ -130,10 +133,10 @@ void radix_sort_pairs(Device& device, const Buffer& keys, const Buffer& values, 
         device, {keys, values}, count, bits, 1);
 }
 
-void radix_sort_pairs64(Device& device, const Buffer& keys, const Buffer& values, const Count& count,
-                        std::uint32_t bits) {
-    sort<kernels::sort_pairs64_serial, kernels::sort_pairs64_subgroup, kernels::sort_pairs64_shared>(
-        device, {keys, values}, count, bits, 2);
+void radix_sort_pairs64(Device& device, const Buffer& keys, const Buffer& values,
+                        const Count& count, std::uint32_t bits) {
+    sort<kernels::sort_pairs64_serial, kernels::sort_pairs64_subgroup,
+         kernels::sort_pairs64_shared>(device, {keys, values}, count, bits, 2);
 }
 
 } // namespace argand

@@ -11,8 +11,8 @@ namespace {
 
 constexpr PartsRecord one_part{1, 16};
 
-void reduce(Device& device, const Buffer& in, const Buffer& out, std::uint32_t out_index, const Count& count,
-            uint op) {
+void reduce(Device& device, const Buffer& in, const Buffer& out, std::uint32_t out_index,
+            const Count& count, uint op) {
     check_room("reducing", in, count, sizeof(uint));
     if (Primitives* primitives = device.primitives()) {
         primitives->reduce(in, out, out_index, count, op);
@@ -67,7 +67,8 @@ void reduce_box(Device& device, const Buffer& boxes, const Buffer& out, std::uin
         reduce_box_parts(device, boxes, out, out_index, count, parts);
         return;
     }
-    const Buffer results = device.scratch("reduce: boxes of parts", parts.parts * sizeof(BoxRecord));
+    const Buffer results =
+        device.scratch("reduce: boxes of parts", parts.parts * sizeof(BoxRecord));
     reduce_box_parts(device, boxes, results, 0, count, parts);
     reduce_box_parts(device, results, out, out_index, parts.parts, one_part);
 }

@@ -5,8 +5,8 @@
 
 namespace argand {
 
-/// Writes the sum, minimum or maximum of `in` to out[out_index]; 0, 0xffffffff and 0 for no element. Records
-/// only.
+/// Writes the sum, minimum or maximum of `in` to out[out_index]; 0, 0xffffffff and 0 for no
+/// element. Records only.
 void reduce_sum(Device& device, const Buffer& in, const Buffer& out, std::uint32_t out_index,
                 const Count& count);
 void reduce_min(Device& device, const Buffer& in, const Buffer& out, std::uint32_t out_index,

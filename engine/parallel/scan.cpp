@@ -13,8 +13,8 @@ namespace argand {
 
 namespace {
 
-/// Reduces each part, then scans the parts, each from the sum of those before it: two dispatches whatever the
-/// count, and no group waits for another.
+/// Reduces each part, then scans the parts, each from the sum of those before it: two dispatches
+/// whatever the count, and no group waits for another.
 void scan(Device& device, const Buffer& in, const Buffer& out, const Count& count, bool inclusive) {
     check_room("scanning", in, count, sizeof(uint));
     check_room("scanning", out, count, sizeof(uint));
@@ -31,7 +31,8 @@ void scan(Device& device, const Buffer& in, const Buffer& out, const Count& coun
     if (parts.parts > 1) {
         reduce_parts(device, in, sums, 0, count, parts, reduce_op_sum);
     }
-    for_variant<kernels::scan_parts_serial, kernels::scan_parts_subgroup, kernels::scan_parts_shared>(
+    for_variant<kernels::scan_parts_serial, kernels::scan_parts_subgroup,
+                kernels::scan_parts_shared>(
         variant, parts, [&]<class Kernel>(std::uint64_t threads) {
             dispatch(device,
                      Kernel{.in_elements = in,
@@ -78,7 +79,8 @@ void segmented_scan(Device& device, const Buffer& in, const Buffer& heads, const
                                          .params = {count_record(count), parts}},
                  groups_of<kernels::segment_totals>(parts.parts));
     }
-    for_variant<kernels::segmented_scan_serial, kernels::segmented_scan_group, kernels::segmented_scan_group>(
+    for_variant<kernels::segmented_scan_serial, kernels::segmented_scan_group,
+                kernels::segmented_scan_group>(
         variant, parts, [&]<class Kernel>(std::uint64_t threads) {
             dispatch(device,
                      Kernel{.in_elements = in,

@@ -1,8 +1,8 @@
 #include "photon/photon_map.hpp"
 
-#include "kernels/flux_sum.hpp"
 #include "kernels/area_footprints.hpp"
 #include "kernels/area_samples.hpp"
+#include "kernels/flux_sum.hpp"
 #include "kernels/photon_advance.hpp"
 #include "kernels/photon_boxes.hpp"
 #include "kernels/photon_codes.hpp"
@@ -34,21 +34,24 @@ constexpr std::uint64_t slots_on_gpu = 1u << 20;
 constexpr std::uint64_t stored_per_emitted = 3;
 constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
-// T_auto of Fabianowski and Dingliana 2009 (§5.3), who have it grow with the number of footprints on a point. With as wide
-// estimates as are made here one size is best, or within 3 % of it, from 2 to 350 of them: docs/results/fd09.md.
+// T_auto of Fabianowski and Dingliana 2009 (§5.3), who have it grow with the number of footprints
+// on a point. With as wide estimates as are made here one size is best, or within 3 % of it, from 2
+// to 350 of them: docs/results/fd09.md.
 constexpr std::uint32_t automatic_leaf_size = 16;
 
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
-    w.offsets = device.allocate("photon differentials, stored", w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
+    w.offsets = device.allocate("photon differentials, stored",
+                                w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
     w.sorted = device.allocate("photons, sorted", capacity * sizeof(PhotonRecord));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
 }
 
-/// Makes room for so many records, as far as the device's storage range goes, and keeps those that are stored.
+/// Makes room for so many records, as far as the device's storage range goes, and keeps those that
+/// are stored.
 void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
     const std::uint64_t capacity = std::min(wanted, max_stored_photons(device));
     if (capacity <= w.capacity) {
@@ -67,21 +70,32 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
-bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const PhotonBatch& batch) {
+bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                 const PhotonBatch& batch) {
     const Plan& plan = scene.plan;
     device.fill(w.traversal.unfinished, 0);
     {
         const StageScope stage(device, "emit photons");
         dispatch(device,
-                 kernels::photon_emit{.scene = scene.scene, .positions = scene.positions, .normals = scene.normals,
-                                      .triangles = scene.triangles, .materials = scene.materials,
-                                      .lights = scene.lights, .light_choices = scene.light_choices, .rays = w.rays,
-                                      .paths = w.paths, .ledgers = w.ledgers, .active_slots = w.active,
-                                      .differentials = w.differentials, .batch = batch,
-                                      .constants = {.footprints = w.footprints, .quasi_random = w.quasi_random,
-                                                    .smooth_normals = plan.needs(Feature::smooth_normals),
-                                                    .several_lights = plan.needs(Feature::several_lights),
-                                                    .light_kinds = plan.light_kinds()}},
+                 kernels::photon_emit{
+                     .scene = scene.scene,
+                     .positions = scene.positions,
+                     .normals = scene.normals,
+                     .triangles = scene.triangles,
+                     .materials = scene.materials,
+                     .lights = scene.lights,
+                     .light_choices = scene.light_choices,
+                     .rays = w.rays,
+                     .paths = w.paths,
+                     .ledgers = w.ledgers,
+                     .active_slots = w.active,
+                     .differentials = w.differentials,
+                     .batch = batch,
+                     .constants = {.footprints = w.footprints,
+                                   .quasi_random = w.quasi_random,
+                                   .smooth_normals = plan.needs(Feature::smooth_normals),
+                                   .several_lights = plan.needs(Feature::several_lights),
+                                   .light_kinds = plan.light_kinds()}},
                  batch.count);
         device.upload(w.counters, counter_active * 4, std::as_bytes(std::span(&batch.count, 1)));
     }
@@ -93,28 +107,40 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
         }
         const StageScope stage(device, "scatter photons");
         dispatch_indirect(device,
-                          kernels::photon_scatter{.scene = scene.scene, .positions = scene.positions,
-                                                  .normals = scene.normals, .triangles = scene.triangles,
-                                                  .materials = scene.materials, .lights = scene.lights,
-                                                  .light_choices = scene.light_choices, .hits = w.hits,
-                                                  .active_slots = w.active, .counters = w.counters, .rays = w.rays,
-                                                  .paths = w.paths, .ledgers = w.ledgers, .photons = w.photons,
-                                                  .alive = w.alive, .differentials = w.differentials,
-                                                  .offsets = w.offsets, .batch = batch,
-                                                  .constants = {.footprints = w.footprints,
-                                                                .reemission = w.reemission,
-                                                                .quasi_random = w.quasi_random,
-                                                                .followed_paths = plan.needs(Feature::followed_paths),
-                                                                .smooth_normals = plan.needs(Feature::smooth_normals),
-                                                                .several_lights = plan.needs(Feature::several_lights),
-                                                                .material_features = plan.material_features()}},
+                          kernels::photon_scatter{
+                              .scene = scene.scene,
+                              .positions = scene.positions,
+                              .normals = scene.normals,
+                              .triangles = scene.triangles,
+                              .materials = scene.materials,
+                              .lights = scene.lights,
+                              .light_choices = scene.light_choices,
+                              .hits = w.hits,
+                              .active_slots = w.active,
+                              .counters = w.counters,
+                              .rays = w.rays,
+                              .paths = w.paths,
+                              .ledgers = w.ledgers,
+                              .photons = w.photons,
+                              .alive = w.alive,
+                              .differentials = w.differentials,
+                              .offsets = w.offsets,
+                              .batch = batch,
+                              .constants = {.footprints = w.footprints,
+                                            .reemission = w.reemission,
+                                            .quasi_random = w.quasi_random,
+                                            .followed_paths = plan.needs(Feature::followed_paths),
+                                            .smooth_normals = plan.needs(Feature::smooth_normals),
+                                            .several_lights = plan.needs(Feature::several_lights),
+                                            .material_features = plan.material_features()}},
                           w.counters, counter_active);
         compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
         std::swap(w.active, w.next_active);
         const bool stored = bounce > 0 && bounce <= batch.bounces;
         dispatch(device,
-                 kernels::photon_advance{.counters = w.counters,
-                                         .params = {.stored = stored ? 1u : 0u, .capacity = batch.capacity}},
+                 kernels::photon_advance{
+                     .counters = w.counters,
+                     .params = {.stored = stored ? 1u : 0u, .capacity = batch.capacity}},
                  1);
         device.submit();
         if (bounce == batch.bounces ||
@@ -123,25 +149,31 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, c
             break;
         }
     }
-    return download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] == 0 || w.traversal.careful;
+    return download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] == 0 ||
+           w.traversal.careful;
 }
 
 } // namespace
 
 std::uint64_t max_stored_photons(const Device& device) {
-    return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord), most_photons_in_map);
+    return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord),
+                                   most_photons_in_map);
 }
 
 std::uint64_t max_photons_per_pass(const Device& device) {
     return max_stored_photons(device) / stored_per_emitted;
 }
 
-PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass, bool footprints) {
+PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
+                                      bool footprints) {
     PhotonWorkspace w;
     w.footprints = footprints;
-    w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu, std::max<std::uint64_t>(photons_per_pass, 1));
+    w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
+                       std::max<std::uint64_t>(photons_per_pass, 1));
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(FluxLedger));
-    const auto per_slot = [&](const char* name, std::uint64_t bytes) { return device.allocate(name, w.slots * bytes); };
+    const auto per_slot = [&](const char* name, std::uint64_t bytes) {
+        return device.allocate(name, w.slots * bytes);
+    };
     w.rays = per_slot("photon rays", sizeof(RayRecord));
     w.hits = per_slot("photon hits", sizeof(HitRecord));
     w.paths = per_slot("photon paths", sizeof(PhotonPathRecord));
@@ -159,8 +191,9 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     return w;
 }
 
-std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
-                                           const PhotonPass& pass, float flux_unit) {
+std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene,
+                                           PhotonWorkspace& w, const PhotonPass& pass,
+                                           float flux_unit) {
     device.fill(w.counters, 0);
     for (std::uint64_t first = 0; first < pass.count; first += w.slots) {
         PhotonBatch batch{};
@@ -173,13 +206,16 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         batch.emitter_probability = static_cast<float>(scene.emitter_probability);
         for (;;) {
             batch.capacity = static_cast<std::uint32_t>(w.capacity);
-            const std::vector<std::uint32_t> before = download<std::uint32_t>(device, w.counters, counter_count);
+            const std::vector<std::uint32_t> before =
+                download<std::uint32_t>(device, w.counters, counter_count);
             const bool traced = trace_batch(device, scene, w, batch);
-            const bool fits = download<std::uint32_t>(device, w.counters, 1, counter_overflow)[0] == 0;
+            const bool fits =
+                download<std::uint32_t>(device, w.counters, 1, counter_overflow)[0] == 0;
             if (traced && fits) {
                 break;
             }
-            // Traced again, with care or with more room: random numbers belong to photons, so they take the same ways.
+            // Traced again, with care or with more room: random numbers belong to photons, so they
+            // take the same ways.
             w.traversal.careful = !traced;
             device.upload(w.counters, 0, std::as_bytes(std::span(before)));
             if (!fits) {
@@ -191,17 +227,19 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         }
         const StageScope stage(device, "sum flux");
         dispatch(device,
-                 kernels::flux_sum{.ledgers = w.ledgers, .sums = w.flux_sums, .params = {.count = batch.count}},
+                 kernels::flux_sum{
+                     .ledgers = w.ledgers, .sums = w.flux_sums, .params = {.count = batch.count}},
                  (batch.count + ledgers_per_thread - 1) / ledgers_per_thread);
     }
     dispatch(device, kernels::photon_tally{.photons = w.photons, .counters = w.counters},
              (w.capacity + slots_per_tally - 1) / slots_per_tally);
-    const std::vector<std::uint32_t> counters = download<std::uint32_t>(device, w.counters, counter_count);
+    const std::vector<std::uint32_t> counters =
+        download<std::uint32_t>(device, w.counters, counter_count);
     return StoredPhotons{counters[counter_stored_slots], counters[counter_photons], pass.count};
 }
 
-PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w, const StoredPhotons& stored,
-                           const PhotonMapSettings& settings) {
+PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                           const StoredPhotons& stored, const PhotonMapSettings& settings) {
     PhotonMap map;
     make_room(device, w, stored.slots, stored.slots + settings.area_samples);
     const std::uint64_t bytes_of_codes = w.capacity * (settings.wide_codes ? 8 : 4);
@@ -211,23 +249,33 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     // Of a map that was built before, its samples are left out.
     const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
     device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
-    // A ninth of what is asked for will do. The step between two samples has 32 bits, so one alone cannot be.
+    // A ninth of what is asked for will do. The step between two samples has 32 bits, so one alone
+    // cannot be.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
     if (fitting > 1 && 9 * fitting >= settings.area_samples) {
         map.area_samples = static_cast<std::uint32_t>(fitting);
         const StageScope stage(device, "sample areas");
         const auto step = static_cast<std::uint32_t>((1ull << 32) / map.area_samples);
-        dispatch(device,
-                 kernels::area_samples{
-                     .scene = scene.scene, .positions = scene.positions, .normals = scene.normals,
-                     .triangles = scene.triangles, .materials = scene.materials, .lights = scene.lights,
-                     .light_choices = scene.light_choices, .area_sums = scene.area_sums, .counters = w.counters,
-                     .photons = w.photons,
-                     .params = {.seed = settings.seed, .count = map.area_samples, .step = step,
-                                .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
-                                .triangle_count = scene.record.triangle_count,
-                                .capacity = static_cast<std::uint32_t>(w.capacity)}},
-                 map.area_samples);
+        dispatch(
+            device,
+            kernels::area_samples{
+                .scene = scene.scene,
+                .positions = scene.positions,
+                .normals = scene.normals,
+                .triangles = scene.triangles,
+                .materials = scene.materials,
+                .lights = scene.lights,
+                .light_choices = scene.light_choices,
+                .area_sums = scene.area_sums,
+                .counters = w.counters,
+                .photons = w.photons,
+                .params = {.seed = settings.seed,
+                           .count = map.area_samples,
+                           .step = step,
+                           .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
+                           .triangle_count = scene.record.triangle_count,
+                           .capacity = static_cast<std::uint32_t>(w.capacity)}},
+            map.area_samples);
         const auto slots = static_cast<std::uint32_t>(stored.slots + map.area_samples);
         device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&slots, 1)));
     }
@@ -235,8 +283,11 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     {
         const StageScope stage(device, "sort photons");
         dispatch_indirect(device,
-                          kernels::photon_codes{.scene = scene.scene, .counters = w.counters, .photons = w.photons,
-                                                .codes = w.codes, .order = w.order,
+                          kernels::photon_codes{.scene = scene.scene,
+                                                .counters = w.counters,
+                                                .photons = w.photons,
+                                                .codes = w.codes,
+                                                .order = w.order,
                                                 .constants = {.wide = settings.wide_codes}},
                           w.counters, counter_stored_slots);
         if (settings.wide_codes) {
@@ -245,15 +296,17 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
             radix_sort_pairs(device, w.codes, w.order, slots);
         }
         dispatch_indirect(device,
-                          kernels::photon_count{.codes = w.codes, .counters = w.counters,
+                          kernels::photon_count{.codes = w.codes,
+                                                .counters = w.counters,
                                                 .constants = {.wide = settings.wide_codes}},
                           w.counters, counter_stored_slots);
     }
     const StageScope stage(device, "build photon map");
-    dispatch_indirect(device,
-                      kernels::photon_order{.photons = w.photons, .order = w.order, .counters = w.counters,
-                                            .sorted = w.sorted},
-                      w.counters, counter_stored);
+    dispatch_indirect(
+        device,
+        kernels::photon_order{
+            .photons = w.photons, .order = w.order, .counters = w.counters, .sorted = w.sorted},
+        w.counters, counter_stored);
     map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
     const Count photons(w.counters, counter_stored, w.capacity);
     if (settings.footprints) {
@@ -262,45 +315,64 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
         FootprintParams params{.scale = *settings.footprints};
         params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
         constexpr double least_overlap = 4;
-        params.least_area_radius = static_cast<float>(
-            std::sqrt(least_overlap * scene.surface_area / (std::numbers::pi * std::max(map.area_samples, 1u))));
+        params.least_area_radius =
+            static_cast<float>(std::sqrt(least_overlap * scene.surface_area /
+                                         (std::numbers::pi * std::max(map.area_samples, 1u))));
         // `heads` is free until leaves are looked for.
         const std::uint32_t none = 0;
         device.upload(w.counters, counter_area_places * 4, std::as_bytes(std::span(&none, 1)));
-        const Buffer area_places =
-            device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
+        const Buffer area_places = device.scratch("area samples' places",
+                                                  std::max<std::uint64_t>(map.area_samples, 1) * 4);
         dispatch_indirect(device,
-                          kernels::photon_footprints{.photons = w.photons, .order = w.order, .counters = w.counters,
-                                                     .offsets = w.offsets, .footprints = map.footprints,
-                                                     .shares = w.heads, .area_places = area_places, .params = params},
+                          kernels::photon_footprints{.photons = w.photons,
+                                                     .order = w.order,
+                                                     .counters = w.counters,
+                                                     .offsets = w.offsets,
+                                                     .footprints = map.footprints,
+                                                     .shares = w.heads,
+                                                     .area_places = area_places,
+                                                     .params = params},
                           w.counters, counter_stored);
         dispatch_indirect(device,
-                          kernels::area_footprints{.photons = w.sorted, .area_places = area_places,
-                                                   .counters = w.counters, .footprints = map.footprints,
+                          kernels::area_footprints{.photons = w.sorted,
+                                                   .area_places = area_places,
+                                                   .counters = w.counters,
+                                                   .footprints = map.footprints,
                                                    .params = params},
                           w.counters, counter_area_places);
         reduce_sum(device, w.heads, w.counters, counter_footprints, photons);
         map.mean_footprints =
-            double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) / area_shares;
+            double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) /
+            area_shares;
     }
     const Buffer distances = code_distances(device, w.codes, photons, settings.wide_codes);
     // The order is not needed any more.
     dispatch_indirect(device,
-                      kernels::photon_leaves{.distances = distances, .counters = w.counters, .leaves = w.order,
-                                             .heads = w.heads, .params = {.leaf_size = map.leaf_size}},
+                      kernels::photon_leaves{.distances = distances,
+                                             .counters = w.counters,
+                                             .leaves = w.order,
+                                             .heads = w.heads,
+                                             .params = {.leaf_size = map.leaf_size}},
                       w.counters, counter_stored);
     const Buffer leaves = device.scratch("photon map leaves", w.capacity * 4);
     compact(device, w.heads, w.order, leaves, w.counters, counter_leaves, photons);
-    const std::uint64_t leaf_count = download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
-    const Buffer boxes = device.scratch("photon map boxes", std::max<std::uint64_t>(leaf_count, 1) * sizeof(BoxRecord));
+    const std::uint64_t leaf_count =
+        download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
+    const Buffer boxes = device.scratch("photon map boxes",
+                                        std::max<std::uint64_t>(leaf_count, 1) * sizeof(BoxRecord));
     const Buffer leaf_distances =
         device.scratch("photon map leaf distances", std::max<std::uint64_t>(leaf_count, 1) * 4);
     dispatch(device,
-             kernels::photon_boxes{.photons = w.sorted, .distances = distances, .leaves = leaves,
-                                   .counters = w.counters, .boxes = boxes, .leaf_distances = leaf_distances,
-                                   .footprints = map.footprints ? map.footprints : w.sorted,
-                                   .params = {.flatness = map.flatness},
-                                   .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
+             kernels::photon_boxes{
+                 .photons = w.sorted,
+                 .distances = distances,
+                 .leaves = leaves,
+                 .counters = w.counters,
+                 .boxes = boxes,
+                 .leaf_distances = leaf_distances,
+                 .footprints = map.footprints ? map.footprints : w.sorted,
+                 .params = {.flatness = map.flatness},
+                 .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
              leaf_count);
     map.counters = w.counters;
     map.photons = w.sorted;

@@ -29,13 +29,14 @@ struct Box {
 struct Partition {
     double cost = std::numeric_limits<double>::infinity();
     int axis = 0;
-    std::uint32_t left = 0;     ///< boxes on the left side
+    std::uint32_t left = 0; ///< boxes on the left side
 };
 
 /// What all nodes share. The boxes of a node are the same range in each of the orders.
 struct Builder {
     std::vector<Box> boxes;
-    std::array<std::vector<std::uint32_t>, 3> orders;   ///< by the centres' coordinate along each axis
+    std::array<std::vector<std::uint32_t>, 3>
+        orders; ///< by the centres' coordinate along each axis
     std::vector<double> right_volumes;
     std::vector<std::uint32_t> moved;
     std::vector<char> on_left;
@@ -51,7 +52,8 @@ struct Builder {
             order.resize(boxes.size());
             std::iota(order.begin(), order.end(), 0u);
             std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-                return boxes[a].low[axis] + boxes[a].high[axis] < boxes[b].low[axis] + boxes[b].high[axis];
+                return boxes[a].low[axis] + boxes[a].high[axis] <
+                       boxes[b].low[axis] + boxes[b].high[axis];
             });
         }
     }
@@ -66,7 +68,9 @@ struct Builder {
 
     Partition best_partition(const VolumeNode& node) {
         Partition best;
-        const auto off_middle = [&](std::uint32_t left) { return std::max(left, node.count - left); };
+        const auto off_middle = [&](std::uint32_t left) {
+            return std::max(left, node.count - left);
+        };
         for (int axis = 0; axis < 3; ++axis) {
             const std::uint32_t* order = orders[static_cast<std::size_t>(axis)].data() + node.first;
             Box right;
@@ -78,8 +82,10 @@ struct Builder {
             for (std::uint32_t i = 1; i < node.count; ++i) {
                 left.add(boxes[order[i - 1]]);
                 const double cost = left.volume() * i + right_volumes[i] * (node.count - i);
-                // Boxes in one place all cost the same: halved, they make no tree as deep as they are many.
-                if (cost < best.cost || (cost == best.cost && off_middle(i) < off_middle(best.left))) {
+                // Boxes in one place all cost the same: halved, they make no tree as deep as they
+                // are many.
+                if (cost < best.cost ||
+                    (cost == best.cost && off_middle(i) < off_middle(best.left))) {
                     best = {cost, axis, i};
                 }
             }
@@ -130,7 +136,8 @@ VolumeTree build_volume_tree(std::span<const BoxRecord> boxes, std::uint32_t lea
         tree.nodes[i].left = static_cast<std::uint32_t>(tree.nodes.size());
         tree.nodes[i].right = tree.nodes[i].left + 1;
         tree.nodes.push_back({.first = node.first, .count = partition.left});
-        tree.nodes.push_back({.first = node.first + partition.left, .count = node.count - partition.left});
+        tree.nodes.push_back(
+            {.first = node.first + partition.left, .count = node.count - partition.left});
     }
     tree.order = std::move(builder.orders[0]);
     return tree;
@@ -141,7 +148,9 @@ LaidOutTree lay_out(const VolumeTree& tree, std::uint32_t leaf_size) {
     if (tree.nodes.empty()) {
         return result;
     }
-    const auto is_leaf = [&](const VolumeNode& node) { return node.count <= leaf_size || node.left == 0; };
+    const auto is_leaf = [&](const VolumeNode& node) {
+        return node.count <= leaf_size || node.left == 0;
+    };
     std::vector<std::uint32_t> leaf_counts(tree.nodes.size(), 1);
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
         const VolumeNode& node = tree.nodes[i];
@@ -160,7 +169,8 @@ LaidOutTree lay_out(const VolumeTree& tree, std::uint32_t leaf_size) {
     };
     const auto place_of = [&](std::uint32_t node, std::uint32_t first_leaf, bool is_left) {
         const std::uint32_t count = leaf_counts[node];
-        return count == 1 ? 2 * first_leaf + 1 : 2 * (is_left ? first_leaf + count - 1 : first_leaf);
+        return count == 1 ? 2 * first_leaf + 1
+                          : 2 * (is_left ? first_leaf + count - 1 : first_leaf);
     };
     std::vector<Visit> waiting{{0, 0, leaf_counts[0] == 1 ? 1u : 0u, lbvh_end}};
     while (!waiting.empty()) {
@@ -179,7 +189,8 @@ LaidOutTree lay_out(const VolumeTree& tree, std::uint32_t leaf_size) {
             waiting.push_back({node.left, visit.first_leaf, child, right});
             waiting.push_back({node.right, right_leaf, right, visit.escape});
         }
-        result.nodes[visit.place] = {b.low_x, b.low_y, b.low_z, child, b.high_x, b.high_y, b.high_z, visit.escape};
+        result.nodes[visit.place] = {b.low_x,  b.low_y,  b.low_z,  child,
+                                     b.high_x, b.high_y, b.high_z, visit.escape};
     }
     return result;
 }

@@ -43,26 +43,33 @@ FeatureText text_of(Feature feature) {
     case Feature::sky:
         return {"sky", "uniform sky", ""};
     case Feature::several_lights:
-        return {"several_lights", "choice of a light", fmt::format("{} bytes a light", sizeof(LightChoice))};
+        return {"several_lights", "choice of a light",
+                fmt::format("{} bytes a light", sizeof(LightChoice))};
     case Feature::followed_paths:
-        return {"followed_paths", "followed paths", "a round of tracing and shading for every surface on the way"};
+        return {"followed_paths", "followed paths",
+                "a round of tracing and shading for every surface on the way"};
     case Feature::glossy_estimates:
-        return {"glossy_estimates", "estimates off Lambertian surfaces", "the BSDF for every photon that an estimate finds"};
+        return {"glossy_estimates", "estimates off Lambertian surfaces",
+                "the BSDF for every photon that an estimate finds"};
     case Feature::direct_light:
         return {"direct_light", "shadow rays",
                 fmt::format("a ray at every eye vertex; {} bytes an eye path",
                             sizeof(RayRecord) + sizeof(ShadowRecord) + word)};
     case Feature::photon_map:
         return {"photon_map", "photon map",
-                fmt::format("{} bytes a photon stored, {} an eye path", 2 * sizeof(PhotonRecord) + 3 * word,
-                            sizeof(QueryRecord) + sizeof(EstimateRecord) + sizeof(GatherRecord) + 4 * word)};
+                fmt::format("{} bytes a photon stored, {} an eye path",
+                            2 * sizeof(PhotonRecord) + 3 * word,
+                            sizeof(QueryRecord) + sizeof(EstimateRecord) + sizeof(GatherRecord) +
+                                4 * word)};
     case Feature::differentials:
         return {"differentials", "photon differentials",
-                fmt::format("{} bytes a photon on its way, {} a photon stored", sizeof(DifferentialRecord), 2 * lane)};
+                fmt::format("{} bytes a photon on its way, {} a photon stored",
+                            sizeof(DifferentialRecord), 2 * lane)};
     case Feature::caustics:
         return {"caustics", "caustic photons", "asked apart by every eye path"};
     case Feature::final_gather:
-        return {"final_gather", "final gather", "a round of tracing and shading before the photon map is asked"};
+        return {"final_gather", "final gather",
+                "a round of tracing and shading before the photon map is asked"};
     }
     return {"", "", ""};
 }

@@ -56,7 +56,8 @@ private:
 };
 
 /// Returns whether the material has estimated lobes.
-bool add_material(Requirements& requirements, const Material& material, const std::string& by, float follow_roughness) {
+bool add_material(Requirements& requirements, const Material& material, const std::string& by,
+                  float follow_roughness) {
     const MaterialRecord record = material_record(material);
     const std::uint32_t lobes = bsdf_lobes(record);
     const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
@@ -88,12 +89,13 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, float follow_r
         const Material& material = scene.materials[index];
         if (!seen[index]) {
             seen[index] = true;
-            const bool has_estimated =
-                add_material(requirements, material, named("material", material.name, index), follow_roughness);
+            const bool has_estimated = add_material(
+                requirements, material, named("material", material.name, index), follow_roughness);
             estimated = estimated || has_estimated;
         }
         if (is_smooth(scene, i)) {
-            requirements.add(Feature::smooth_normals, "surface of " + named("material", material.name, index));
+            requirements.add(Feature::smooth_normals,
+                             "surface of " + named("material", material.name, index));
         }
     }
     return estimated;
@@ -111,9 +113,9 @@ void add_lights(Requirements& requirements, const Scene& scene) {
     const bool sky = scene.sky && glm::any(glm::greaterThan(*scene.sky, glm::vec3(0)));
     requirements.add(Feature::sky, "the sky", sky);
     lights += sky ? 1 : 0;
-    lights += static_cast<std::size_t>(std::count_if(
-        scene.triangle_material.begin(), scene.triangle_material.end(),
-        [&](std::uint32_t material) { return emits(scene.materials[material]); }));
+    lights += static_cast<std::size_t>(
+        std::count_if(scene.triangle_material.begin(), scene.triangle_material.end(),
+                      [&](std::uint32_t material) { return emits(scene.materials[material]); }));
     requirements.add(Feature::several_lights, fmt::format("{} lights", lights), lights > 1);
 }
 
@@ -166,7 +168,8 @@ Plan make_plan(const Scene& scene, const PlanRequest& request) {
     found.add(Feature::direct_light, light, !light.empty() && rough);
     found.add(Feature::photon_map, "the method");
     found.add(Feature::differentials, "the method");
-    found.add(Feature::caustics, found.by(Feature::followed_paths), has(Feature::followed_paths) && estimated);
+    found.add(Feature::caustics, found.by(Feature::followed_paths),
+              has(Feature::followed_paths) && estimated);
     found.add(Feature::final_gather, "the request");
     for (const Feature feature : all_features()) {
         found.add(feature, "the request", request.everything);

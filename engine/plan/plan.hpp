@@ -13,38 +13,40 @@ namespace argand {
 enum class Feature : std::uint8_t {
     // Of surfaces.
     diffuse,
-    ggx,                ///< glossy reflection by GGX
-    phong,              ///< glossy reflection by modified Phong
+    ggx,   ///< glossy reflection by GGX
+    phong, ///< glossy reflection by modified Phong
     mirror,
     transmission,
-    refraction,         ///< at the border of a solid
-    alpha,              ///< light passes some surface
-    smooth_normals,     ///< interpolated from those of the vertices
+    refraction,     ///< at the border of a solid
+    alpha,          ///< light passes some surface
+    smooth_normals, ///< interpolated from those of the vertices
     // Of lights.
     point_light,
     spot_light,
     directional_light,
     emissive_triangles,
     sky,
-    several_lights,     ///< between which is chosen
-    // Of paths: what lobes of the scene are followed or estimated (docs/design.md, "Which path is whose").
+    several_lights, ///< between which is chosen
+    // Of paths: what lobes of the scene are followed or estimated (docs/design.md, "Which path is
+    // whose").
     followed_paths,
-    glossy_estimates,   ///< estimated where the surface is not Lambertian
-    direct_light,       ///< shadow rays
+    glossy_estimates, ///< estimated where the surface is not Lambertian
+    direct_light,     ///< shadow rays
     // Of the request.
     photon_map,
-    differentials,      ///< of photons
-    caustics,           ///< photons that only followed lobes have scattered
+    differentials, ///< of photons
+    caustics,      ///< photons that only followed lobes have scattered
     final_gather
 };
 
 /// What of a request matters for that.
 struct PlanRequest {
-    float follow_roughness = 0.25f;     ///< glossy lobes at most this rough are followed
+    float follow_roughness = 0.25f; ///< glossy lobes at most this rough are followed
     bool photon_map = true;
-    bool footprints = true;             ///< of photons
+    bool footprints = true; ///< of photons
     bool final_gather = false;
-    bool everything = false;            ///< whatever the scene is: to measure and test what doing without it changes
+    bool everything =
+        false; ///< whatever the scene is: to measure and test what doing without it changes
 };
 
 /// What a scene and a request require, each with the first object that does: "material 'gold'".
@@ -59,15 +61,15 @@ struct Plan {
     std::uint32_t light_kinds() const;
 };
 
-/// What the scene's triangles, their materials and its lights require; materials of no triangle do not count. What it
-/// leaves out changes no bit of any result.
+/// What the scene's triangles, their materials and its lights require; materials of no triangle do
+/// not count. What it leaves out changes no bit of any result.
 Plan make_plan(const Scene& scene, const PlanRequest& request);
 
 /// A feature for people to read.
 struct FeatureText {
-    const char* key;        ///< "smooth_normals"
-    const char* name;       ///< "interpolated normals"
-    std::string cost;       ///< bytes and passes that it takes, where it is more than code
+    const char* key;  ///< "smooth_normals"
+    const char* name; ///< "interpolated normals"
+    std::string cost; ///< bytes and passes that it takes, where it is more than code
 };
 FeatureText text_of(Feature feature);
 

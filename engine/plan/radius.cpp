@@ -16,8 +16,8 @@ double photons_in_disc(double photons_stored, bool caustic) {
     return std::max(in_disc * std::pow(photons_stored / reference_photons, 2.0 / 3.0), 4.0);
 }
 
-double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points, glm::vec3 low,
-                     glm::vec3 high, double in_disc) {
+double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points,
+                     glm::vec3 low, glm::vec3 high, double in_disc) {
     if (photons.empty() || points.empty()) {
         return 0;
     }
@@ -33,15 +33,18 @@ double median_radius(std::span<const PhotonRecord> photons, std::span<const glm:
     std::vector<double> distances;
     for (const glm::vec3& point : points) {
         const auto place = static_cast<std::size_t>(
-            std::lower_bound(codes.begin(), codes.end(), morton30(point, low, high)) - codes.begin());
+            std::lower_bound(codes.begin(), codes.end(), morton30(point, low, high)) -
+            codes.begin());
         const std::size_t begin = place > reach ? place - reach : 0;
         const std::size_t end = std::min(place + reach + 1, photons.size());
         distances.clear();
         for (std::size_t j = begin; j < end; ++j) {
-            const glm::dvec3 d = glm::dvec3(photons[j].x, photons[j].y, photons[j].z) - glm::dvec3(point);
+            const glm::dvec3 d =
+                glm::dvec3(photons[j].x, photons[j].y, photons[j].z) - glm::dvec3(point);
             distances.push_back(glm::dot(d, d));
         }
-        const auto last = distances.begin() + static_cast<std::ptrdiff_t>(std::min(nearest, distances.size() - 1));
+        const auto last = distances.begin() +
+                          static_cast<std::ptrdiff_t>(std::min(nearest, distances.size() - 1));
         std::nth_element(distances.begin(), last, distances.end());
         radii.push_back(std::sqrt(*last));
     }

@@ -11,7 +11,8 @@ namespace argand {
 
 namespace {
 
-// Enough for a median within a few per cent: every point is compared with every photon that is looked at.
+// Enough for a median within a few per cent: every point is compared with every photon that is
+// looked at.
 constexpr std::size_t points_looked_at = 96;
 constexpr std::size_t photons_looked_at = 50'000;
 
@@ -22,7 +23,8 @@ struct Ellipse {
 } // namespace
 
 double median_smoothing(std::span<const PhotonRecord> photons, std::span<const glm::uvec4> offsets,
-                        std::span<const glm::vec3> points, const FootprintScale& unit, double on_point) {
+                        std::span<const glm::vec3> points, const FootprintScale& unit,
+                        double on_point) {
     std::vector<Ellipse> ellipses;
     const std::size_t stride = std::max<std::size_t>(photons.size() / photons_looked_at, 1);
     for (std::size_t i = 0; i < photons.size(); i += stride) {
@@ -34,14 +36,16 @@ double median_smoothing(std::span<const PhotonRecord> photons, std::span<const g
         d.dp_du = unpack_dual(offsets[i].x, offsets[i].y);
         d.dp_dv = unpack_dual(offsets[i].z, offsets[i].w);
         const vec3 normal = unpack_photon_normal(photon.normal);
-        const FootprintDuals duals = footprint_duals(make_footprint(d, normal, false, unit), normal);
+        const FootprintDuals duals =
+            footprint_duals(make_footprint(d, normal, false, unit), normal);
         ellipses.push_back({{photon.x, photon.y, photon.z}, duals.a, duals.b, normal});
     }
     if (ellipses.empty() || points.empty()) {
         return 0;
     }
     const double on_point_of_these = on_point / static_cast<double>(stride);
-    const auto nth = std::min(static_cast<std::size_t>(std::max(on_point_of_these, 1.0)), ellipses.size()) - 1;
+    const auto nth =
+        std::min(static_cast<std::size_t>(std::max(on_point_of_these, 1.0)), ellipses.size()) - 1;
     std::vector<float> distances(ellipses.size());
     std::vector<float> smoothings;
     const std::size_t step = std::max<std::size_t>(points.size() / points_looked_at, 1);

@@ -6,8 +6,8 @@
 
 namespace argand {
 
-/// `v` scaled to length 1 in double precision, whatever its magnitude; zero if it has no direction (zero,
-/// infinite, NaN).
+/// `v` scaled to length 1 in double precision, whatever its magnitude; zero if it has no direction
+/// (zero, infinite, NaN).
 inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     // Not below the smallest normal number, where v / largest would be coarse.
@@ -21,8 +21,6 @@ inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
 inline bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
-inline bool is_finite(const glm::vec3& v) {
-    return is_finite(glm::dvec3(v));
-}
+inline bool is_finite(const glm::vec3& v) { return is_finite(glm::dvec3(v)); }
 
 } // namespace argand

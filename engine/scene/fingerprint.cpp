@@ -4,7 +4,9 @@ namespace argand {
 
 std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
     std::uint64_t hash = before;
-    const auto add = [&](const auto& values) { hash = fingerprint(std::as_bytes(std::span(values)), hash); };
+    const auto add = [&](const auto& values) {
+        hash = fingerprint(std::as_bytes(std::span(values)), hash);
+    };
     add(scene.positions);
     add(scene.normals);
     add(scene.triangles);

@@ -20,7 +20,8 @@ Camera frame_bounds(const Bounds& box) {
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 offset =
             half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const double wide = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
+        const double wide =
+            std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
         distance = std::max(distance, margin * wide / slope - glm::dot(offset, forward));
     }
     Camera camera;

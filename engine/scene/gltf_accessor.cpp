@@ -6,7 +6,8 @@
 namespace argand {
 namespace {
 
-// An accessor without data is all zeros; this bounds the memory that a few bytes of JSON can ask for.
+// An accessor without data is all zeros; this bounds the memory that a few bytes of JSON can ask
+// for.
 constexpr std::size_t most_zeros = std::size_t(1) << 22;
 
 std::size_t component_size(int type) {
@@ -40,8 +41,7 @@ int component_count(int type) {
     }
 }
 
-template <class T>
-T load(const std::uint8_t* from) {
+template <class T> T load(const std::uint8_t* from) {
     T value;
     std::memcpy(&value, from, sizeof(T));
     return value;
@@ -58,21 +58,24 @@ std::uint32_t load_index(const std::uint8_t* from, int type) {
     }
 }
 
-/// Where `count` elements of `size` bytes, `stride` apart, begin; checked to lie within view and buffer.
-const std::uint8_t* locate(const GltfSource& source, int view_index, std::size_t offset, std::size_t count,
-                           std::size_t size, std::size_t stride, const std::string& what) {
+/// Where `count` elements of `size` bytes, `stride` apart, begin; checked to lie within view and
+/// buffer.
+const std::uint8_t* locate(const GltfSource& source, int view_index, std::size_t offset,
+                           std::size_t count, std::size_t size, std::size_t stride,
+                           const std::string& what) {
     const tinygltf::Model& model = source.model;
     if (view_index < 0 || std::size_t(view_index) >= model.bufferViews.size()) {
         source.fail("{} refer to buffer view {}, which does not exist", what, view_index);
     }
     const tinygltf::BufferView& view = model.bufferViews[std::size_t(view_index)];
     if (view.buffer < 0 || std::size_t(view.buffer) >= model.buffers.size()) {
-        source.fail("buffer view {} refers to buffer {}, which does not exist", view_index, view.buffer);
+        source.fail("buffer view {} refers to buffer {}, which does not exist", view_index,
+                    view.buffer);
     }
     const std::vector<unsigned char>& bytes = model.buffers[std::size_t(view.buffer)].data;
     if (view.byteLength > bytes.size() || view.byteOffset > bytes.size() - view.byteLength) {
-        source.fail("buffer view {} ({} bytes at {}) goes past the {} bytes of buffer {}", view_index,
-                    view.byteLength, view.byteOffset, bytes.size(), view.buffer);
+        source.fail("buffer view {} ({} bytes at {}) goes past the {} bytes of buffer {}",
+                    view_index, view.byteLength, view.byteOffset, bytes.size(), view.buffer);
     }
     if (count == 0) {
         return nullptr;
@@ -80,8 +83,9 @@ const std::uint8_t* locate(const GltfSource& source, int view_index, std::size_t
     // offset + stride·(count − 1) + size ≤ byteLength, in a form that cannot overflow.
     if (offset > view.byteLength || size > view.byteLength - offset ||
         count - 1 > (view.byteLength - offset - size) / stride) {
-        source.fail("{} ({} elements, {} bytes apart, at {}) go past the {} bytes of buffer view {}", what,
-                    count, stride, offset, view.byteLength, view_index);
+        source.fail(
+            "{} ({} elements, {} bytes apart, at {}) go past the {} bytes of buffer view {}", what,
+            count, stride, offset, view.byteLength, view_index);
     }
     return bytes.data() + view.byteOffset + offset;
 }
@@ -93,8 +97,8 @@ void open_sparse(const GltfSource& source, const tinygltf::Accessor& accessor, G
     if (view.sparse_index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
         view.sparse_index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         view.sparse_index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-        source.fail("{} have sparse indices of component type {}, which is not an unsigned integer", what,
-                    view.sparse_index_type);
+        source.fail("{} have sparse indices of component type {}, which is not an unsigned integer",
+                    what, view.sparse_index_type);
     }
     if (sparse.count < 0 || std::size_t(sparse.count) > view.count) {
         source.fail("{} replace {} of {} elements", what, sparse.count, view.count);
@@ -102,15 +106,19 @@ void open_sparse(const GltfSource& source, const tinygltf::Accessor& accessor, G
     view.sparse_count = std::size_t(sparse.count);
     const std::size_t index_size = component_size(view.sparse_index_type);
     const std::size_t size = component_size(view.component_type) * std::size_t(view.components);
-    view.sparse_indices = locate(source, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset),
-                                 view.sparse_count, index_size, index_size, what);
-    view.sparse_values = locate(source, sparse.values.bufferView, std::size_t(sparse.values.byteOffset),
-                                view.sparse_count, size, size, what);
+    view.sparse_indices =
+        locate(source, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset),
+               view.sparse_count, index_size, index_size, what);
+    view.sparse_values =
+        locate(source, sparse.values.bufferView, std::size_t(sparse.values.byteOffset),
+               view.sparse_count, size, size, what);
     std::uint32_t previous = 0;
     for (std::size_t i = 0; i < view.sparse_count; ++i) {
-        const std::uint32_t index = load_index(view.sparse_indices + i * index_size, view.sparse_index_type);
+        const std::uint32_t index =
+            load_index(view.sparse_indices + i * index_size, view.sparse_index_type);
         if (index >= view.count || (i > 0 && index <= previous)) {
-            source.fail("{} have sparse indices that do not increase from 0 to below {}", what, view.count);
+            source.fail("{} have sparse indices that do not increase from 0 to below {}", what,
+                        view.count);
         }
         previous = index;
     }
@@ -162,14 +170,15 @@ GltfAccessor open_accessor(const GltfSource& source, int index, const std::strin
             views[std::size_t(accessor.bufferView)].byteStride > 0) {
             view.stride = views[std::size_t(accessor.bufferView)].byteStride;
             if (view.stride < size) {
-                source.fail("{} are {} bytes each, but buffer view {} puts them {} bytes apart", what, size,
-                            accessor.bufferView, view.stride);
+                source.fail("{} are {} bytes each, but buffer view {} puts them {} bytes apart",
+                            what, size, accessor.bufferView, view.stride);
             }
         }
-        view.data =
-            locate(source, accessor.bufferView, accessor.byteOffset, view.count, size, view.stride, what);
+        view.data = locate(source, accessor.bufferView, accessor.byteOffset, view.count, size,
+                           view.stride, what);
     } else if (view.count > most_zeros) {
-        source.fail("{} are {} elements without data; at most {} are allowed", what, view.count, most_zeros);
+        source.fail("{} are {} elements without data; at most {} are allowed", what, view.count,
+                    most_zeros);
     }
     if (accessor.sparse.isSparse) {
         open_sparse(source, accessor, view, what);

@@ -21,8 +21,8 @@ struct GltfAccessor {
     int sparse_index_type = 0;
 };
 
-/// Opens accessor `index`. `what` names it in messages ("the positions of mesh 3"). Error if it does not
-/// exist, is of an unknown type, or does not lie within its buffer.
+/// Opens accessor `index`. `what` names it in messages ("the positions of mesh 3"). Error if it
+/// does not exist, is of an unknown type, or does not lie within its buffer.
 GltfAccessor open_accessor(const GltfSource& source, int index, const std::string& what);
 
 /// Component `component` of element `element`; normalised integers as glTF 2.0, section 3.11 says.

@@ -7,15 +7,15 @@
 namespace argand {
 namespace {
 
-bool is_positive(double value) {
-    return value > 0 && std::isfinite(static_cast<float>(value));
-}
+bool is_positive(double value) { return value > 0 && std::isfinite(static_cast<float>(value)); }
 
 /// glTF's cameras look along −Z, with +Y up. False if the transform leaves no direction to look in.
-bool place(const GltfSource& source, const glm::dmat4& to_world, Camera& camera, const std::string& what) {
+bool place(const GltfSource& source, const glm::dmat4& to_world, Camera& camera,
+           const std::string& what) {
     camera.position = position_of(source, to_world, what);
     const glm::dvec3 forward = unit_or_zero(-glm::dvec3(to_world[2]));
-    const glm::dvec3 right = unit_or_zero(glm::cross(forward, unit_or_zero(glm::dvec3(to_world[1]))));
+    const glm::dvec3 right =
+        unit_or_zero(glm::cross(forward, unit_or_zero(glm::dvec3(to_world[1]))));
     if (forward == glm::dvec3(0) || right == glm::dvec3(0)) {
         return false;
     }
@@ -25,7 +25,8 @@ bool place(const GltfSource& source, const glm::dmat4& to_world, Camera& camera,
     return true;
 }
 
-Camera read_camera(const GltfSource& source, const tinygltf::Camera& from, const std::string& what) {
+Camera read_camera(const GltfSource& source, const tinygltf::Camera& from,
+                   const std::string& what) {
     Camera camera;
     if (from.type == "orthographic") {
         camera.kind = CameraKind::orthographic;
@@ -70,7 +71,9 @@ void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes, S
         if (place(source, node.to_world, camera, what)) {
             scene.cameras.push_back(camera);
         } else {
-            add_note(scene, fmt::format("{} is left out: its node's transform leaves it no direction", what));
+            add_note(
+                scene,
+                fmt::format("{} is left out: its node's transform leaves it no direction", what));
         }
     }
 }

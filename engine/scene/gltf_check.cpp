@@ -18,10 +18,10 @@ constexpr std::uint64_t largest_int = std::numeric_limits<std::int32_t>::max();
 constexpr std::uint64_t largest_size = std::uint64_t(1) << 53; // what JSON's numbers hold exactly
 
 // Properties that hold an index, or a list of them, wherever they occur in core glTF.
-constexpr std::array index_keys{"buffer", "bufferView", "camera",       "children", "indices", "input",
-                                "joints", "material",   "mesh",         "mode",     "node",    "nodes",
-                                "output", "sampler",    "scene",        "skeleton", "skin",    "source",
-                                "index",  "texCoord",   "componentType"};
+constexpr std::array index_keys{
+    "buffer",   "bufferView", "camera", "children", "indices", "input",    "joints",
+    "material", "mesh",       "mode",   "node",     "nodes",   "output",   "sampler",
+    "scene",    "skeleton",   "skin",   "source",   "index",   "texCoord", "componentType"};
 constexpr std::array size_keys{"byteOffset", "byteLength", "byteStride", "count"};
 // Properties that are a number, or numbers.
 constexpr std::array number_keys{"alphaCutoff",
@@ -94,7 +94,8 @@ void check_sparse(const json& root) {
         return;
     }
     for (const json& accessor : *accessors) {
-        if (!accessor.is_object() || !accessor.contains("sparse") || !accessor["sparse"].is_object()) {
+        if (!accessor.is_object() || !accessor.contains("sparse") ||
+            !accessor["sparse"].is_object()) {
             continue;
         }
         const json& sparse = accessor["sparse"];
@@ -102,7 +103,8 @@ void check_sparse(const json& root) {
             check_integer(sparse["count"], "count", largest_int);
         }
         for (const char* part : {"indices", "values"}) {
-            if (sparse.contains(part) && sparse[part].is_object() && sparse[part].contains("byteOffset")) {
+            if (sparse.contains(part) && sparse[part].is_object() &&
+                sparse[part].contains("byteOffset")) {
                 check_integer(sparse[part]["byteOffset"], "byteOffset", largest_int);
             }
         }
@@ -137,8 +139,10 @@ void check_gltf_version(const json& root) {
     if (asset == root.end() || !asset->is_object() || !asset->contains("version")) {
         fail("it is not glTF: it has no \"asset\" with a \"version\"");
     }
-    // minVersion, where there is one, says what a reader must support at least: glTF 2.0, section 3.2.
-    const json& version = asset->contains("minVersion") ? (*asset)["minVersion"] : (*asset)["version"];
+    // minVersion, where there is one, says what a reader must support at least: glTF 2.0,
+    // section 3.2.
+    const json& version =
+        asset->contains("minVersion") ? (*asset)["minVersion"] : (*asset)["version"];
     const std::string text = version.is_string() ? version.get<std::string>() : "";
     const bool good = asset->contains("minVersion") ? text == "2.0" : text.starts_with("2.");
     if (!good) {

@@ -16,7 +16,8 @@ bool understands_extension(std::string_view name) {
 void add_extensions(const GltfSource& source, Scene& scene) {
     for (const std::string& name : source.model.extensionsRequired) {
         if (!understands_extension(name)) {
-            source.fail("it requires the extension {}, which is not understood yet", one_line(name, 80));
+            source.fail("it requires the extension {}, which is not understood yet",
+                        one_line(name, 80));
         }
     }
     for (const std::string& name : source.model.extensionsUsed) {
@@ -26,8 +27,8 @@ void add_extensions(const GltfSource& source, Scene& scene) {
         }
         scene.extensions_used.push_back(one_line(name));
         if (!understands_extension(name)) {
-            add_note(scene,
-                     fmt::format("the extension {} is not understood and is ignored", one_line(name, 80)));
+            add_note(scene, fmt::format("the extension {} is not understood and is ignored",
+                                        one_line(name, 80)));
         }
     }
 }

@@ -20,8 +20,8 @@ struct Container {
 };
 
 std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t at) {
-    return std::uint32_t(bytes[at]) | std::uint32_t(bytes[at + 1]) << 8 | std::uint32_t(bytes[at + 2]) << 16 |
-           std::uint32_t(bytes[at + 3]) << 24;
+    return std::uint32_t(bytes[at]) | std::uint32_t(bytes[at + 1]) << 8 |
+           std::uint32_t(bytes[at + 2]) << 16 | std::uint32_t(bytes[at + 3]) << 24;
 }
 
 void put_word(Bytes& bytes, std::uint32_t value) {
@@ -86,8 +86,8 @@ Container open_container(std::span<const std::uint8_t> bytes) {
     return {text_of(bytes), {}, false};
 }
 
-/// The container written anew, with lengths and padding exactly as tinygltf wants them: it reads beyond the
-/// end of some cut off files, and refuses an empty BIN chunk.
+/// The container written anew, with lengths and padding exactly as tinygltf wants them: it reads
+/// beyond the end of some cut off files, and refuses an empty BIN chunk.
 Bytes make_glb(const Container& container) {
     const std::size_t json_size = (container.json.size() + 3) / 4 * 4;
     const std::size_t binary_size = (container.binary.size() + 3) / 4 * 4;
@@ -113,7 +113,8 @@ Bytes make_glb(const Container& container) {
     return glb;
 }
 
-/// RFC 3986, section 2.1; a '%' that two hexadecimal digits do not follow stays. ('+' is a plus in a path.)
+/// RFC 3986, section 2.1; a '%' that two hexadecimal digits do not follow stays. ('+' is a plus in
+/// a path.)
 std::string percent_decoded(const std::string& uri) {
     const auto digit = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'
@@ -123,7 +124,8 @@ std::string percent_decoded(const std::string& uri) {
     };
     std::string decoded;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
+        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 &&
+            digit(uri[i + 2]) >= 0) {
             decoded += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
             i += 2;
         } else {
@@ -133,8 +135,8 @@ std::string percent_decoded(const std::string& uri) {
     return decoded;
 }
 
-/// The external files that tinygltf is going to ask for: those of the buffers, in their order. Whatever it
-/// asks for after them is an image.
+/// The external files that tinygltf is going to ask for: those of the buffers, in their order.
+/// Whatever it asks for after them is an image.
 struct ExternalFiles {
     struct Buffer {
         std::string uri;
@@ -155,11 +157,13 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
     }
     for (std::size_t i = 0; i < buffers->size(); ++i) {
         const nlohmann::json& buffer = (*buffers)[i];
-        const bool has_uri = buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string();
+        const bool has_uri =
+            buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string();
         if (!has_uri && (!is_glb || i > 0)) { // only the first can be the BIN chunk
             fail("buffer {} has no uri, so there is no data for it", i);
         }
-        if (!has_uri || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned()) {
+        if (!has_uri || !buffer.contains("byteLength") ||
+            !buffer["byteLength"].is_number_unsigned()) {
             continue; // tinygltf says what is wrong
         }
         const std::string uri = buffer["uri"];
@@ -168,7 +172,8 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
         }
         const std::size_t colon = uri.find(':');
         if (colon != std::string::npos && colon < uri.find_first_of("/?#")) {
-            fail("buffer {} is at '{}', which is neither a file nor base64 data", i, one_line(uri, 60));
+            fail("buffer {} is at '{}', which is neither a file nor base64 data", i,
+                 one_line(uri, 60));
         }
         files.wanted.push_back({uri, buffer["byteLength"].get<std::size_t>()});
     }
@@ -179,9 +184,7 @@ bool file_exists(const std::string&, void* user) {
     return !static_cast<ExternalFiles*>(user)->wanted.empty();
 }
 
-std::string expand_path(const std::string& path, void*) {
-    return path;
-}
+std::string expand_path(const std::string& path, void*) { return path; }
 
 bool read_external(Bytes* out, std::string*, const std::string&, void* user) {
     auto& files = *static_cast<ExternalFiles*>(user);
@@ -190,7 +193,8 @@ bool read_external(Bytes* out, std::string*, const std::string&, void* user) {
     try {
         *out = read_file(files.directory / percent_decoded(buffer.uri));
         if (out->size() < buffer.size) {
-            fail("'{}' has {} bytes where {} are wanted", one_line(buffer.uri), out->size(), buffer.size);
+            fail("'{}' has {} bytes where {} are wanted", one_line(buffer.uri), out->size(),
+                 buffer.size);
         }
         out->resize(buffer.size);
         return true;
@@ -200,12 +204,10 @@ bool read_external(Bytes* out, std::string*, const std::string&, void* user) {
     }
 }
 
-bool write_nothing(std::string*, const std::string&, const Bytes&, void*) {
-    return false;
-}
+bool write_nothing(std::string*, const std::string&, const Bytes&, void*) { return false; }
 
-bool keep_image_undecoded(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
-                          int, void*) {
+bool keep_image_undecoded(tinygltf::Image*, int, std::string*, std::string*, int, int,
+                          const unsigned char*, int, void*) {
     return true;
 }
 
@@ -232,8 +234,9 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
             if (container.json.size() > 0xffffffff) {
                 fail("its JSON is longer than 4 GiB");
             }
-            good = reader.LoadASCIIFromString(&source.model, &problem, &warning, container.json.data(),
-                                              static_cast<unsigned>(container.json.size()), "");
+            good =
+                reader.LoadASCIIFromString(&source.model, &problem, &warning, container.json.data(),
+                                           static_cast<unsigned>(container.json.size()), "");
         }
     } catch (const Error&) {
         throw;
@@ -244,7 +247,8 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
         fail("{}", files.problem);
     }
     if (!good) {
-        fail("it is not valid glTF: {}", problem.empty() ? "the reader gives no reason" : one_line(problem));
+        fail("it is not valid glTF: {}",
+             problem.empty() ? "the reader gives no reason" : one_line(problem));
     }
     if (!problem.empty()) {
         notes.push_back(fmt::format("not quite valid glTF: {}", one_line(problem)));

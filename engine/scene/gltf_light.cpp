@@ -34,23 +34,27 @@ void read_cone(const GltfSource& source, const json* spot, Light& light, const s
     const double outer = number_of(source, spot, "outerConeAngle", std::numbers::pi / 4, what);
     const double inner = number_of(source, spot, "innerConeAngle", 0, what);
     if (!(outer > 0) || inner < 0) {
-        source.fail("{} has cone angles of {} and {}; the outer must be above 0, the inner not below", what,
-                    outer, inner);
+        source.fail(
+            "{} has cone angles of {} and {}; the outer must be above 0, the inner not below", what,
+            outer, inner);
     }
     const double outer_used = std::min(outer, right_angle);
     const double inner_used = std::min(inner, outer_used);
     if (outer_used < outer || inner_used < inner) {
-        add_note(scene, fmt::format("{} has cone angles out of range; {} (outer) and {} (inner) are used",
-                                    what, outer_used, inner_used));
+        add_note(scene,
+                 fmt::format("{} has cone angles out of range; {} (outer) and {} (inner) are used",
+                             what, outer_used, inner_used));
     }
     light.outer_cone_angle = static_cast<float>(outer_used);
     light.inner_cone_angle = std::min(static_cast<float>(inner_used), light.outer_cone_angle);
 }
 
 /// The light as its node places it; false if the transform leaves it no direction.
-bool place(const GltfSource& source, const glm::dmat4& to_world, Light& light, const std::string& what) {
+bool place(const GltfSource& source, const glm::dmat4& to_world, Light& light,
+           const std::string& what) {
     light.position = position_of(source, to_world, what);
-    const glm::dvec3 direction = unit_or_zero(-glm::dvec3(to_world[2])); // glTF's lights shine along −Z
+    const glm::dvec3 direction =
+        unit_or_zero(-glm::dvec3(to_world[2])); // glTF's lights shine along −Z
     if (light.kind != LightKind::point && direction == glm::dvec3(0)) {
         return false;
     }
@@ -58,15 +62,17 @@ bool place(const GltfSource& source, const glm::dmat4& to_world, Light& light, c
     return true;
 }
 
-Light read_light(const GltfSource& source, const json* object, const std::string& what, Scene& scene) {
+Light read_light(const GltfSource& source, const json* object, const std::string& what,
+                 Scene& scene) {
     Light light;
     light.kind = kind_of(source, object, what);
     const glm::dvec3 color = vector_of(source, object, "color", glm::dvec3(1), what);
     const glm::dvec3 intensity = color * number_of(source, object, "intensity", 1, what);
     for (int channel = 0; channel < 3; ++channel) {
-        if (!(intensity[channel] >= 0) || !(intensity[channel] <= std::numeric_limits<float>::max())) {
-            source.fail("{} has an intensity times colour of {}; it must be at least 0 and finite", what,
-                        intensity[channel]);
+        if (!(intensity[channel] >= 0) ||
+            !(intensity[channel] <= std::numeric_limits<float>::max())) {
+            source.fail("{} has an intensity times colour of {}; it must be at least 0 and finite",
+                        what, intensity[channel]);
         }
     }
     light.intensity = glm::vec3(intensity);
@@ -74,8 +80,8 @@ Light read_light(const GltfSource& source, const json* object, const std::string
         read_cone(source, find_member(object, "spot"), light, what, scene);
     }
     if (find_member(object, "range")) {
-        add_note(scene,
-                 "the range of lights is ignored: their light falls off with the square of the distance");
+        add_note(scene, "the range of lights is ignored: their light falls off with the square of "
+                        "the distance");
     }
     return light;
 }
@@ -92,10 +98,11 @@ void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         }
         const tinygltf::Node& carrier = source.model.nodes[std::size_t(node.index)];
         const json* number = find_member(reference, "light");
-        const bool exists = number && number->is_number_unsigned() && lights && lights->is_array() &&
-                            number->get<std::size_t>() < lights->size();
+        const bool exists = number && number->is_number_unsigned() && lights &&
+                            lights->is_array() && number->get<std::size_t>() < lights->size();
         if (!exists) {
-            source.fail("{} refers to a light that does not exist", label("node", node.index, carrier.name));
+            source.fail("{} refers to a light that does not exist",
+                        label("node", node.index, carrier.name));
         }
         const std::size_t index = number->get<std::size_t>();
         const json* object = &(*lights)[index];
@@ -107,7 +114,9 @@ void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         if (place(source, node.to_world, light, what)) {
             scene.lights.push_back(light);
         } else {
-            add_note(scene, fmt::format("{} is left out: its node's transform leaves it no direction", what));
+            add_note(
+                scene,
+                fmt::format("{} is left out: its node's transform leaves it no direction", what));
         }
     }
 }

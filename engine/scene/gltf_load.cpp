@@ -44,7 +44,8 @@ Scene load_gltf(const std::filesystem::path& path) {
     add_cameras(source, nodes, scene);
     add_meshes(source, nodes, scene);
     if (scene.triangles.empty()) {
-        source.fail("there is nothing to render: it shows no triangle that has an area and can be seen");
+        source.fail(
+            "there is nothing to render: it shows no triangle that has an area and can be seen");
     }
     make_up_what_is_missing(scene);
     return scene;

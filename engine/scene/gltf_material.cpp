@@ -19,8 +19,8 @@ struct FactorReader {
         // NaN does not occur: JSON cannot say it.
         if (value < low || value > high) {
             const double nearest = std::clamp(value, low, high);
-            add_note(scene, fmt::format("{} has a {} of {}, which is out of range; {} is used", what, key,
-                                        value, nearest));
+            add_note(scene, fmt::format("{} has a {} of {}, which is out of range; {} is used",
+                                        what, key, value, nearest));
             value = nearest;
         }
         return static_cast<float>(value);
@@ -67,7 +67,8 @@ float coverage_of(const FactorReader& read, const tinygltf::Material& from) {
 void read_core(const FactorReader& read, const tinygltf::Material& from, Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     const std::vector<double>& color = pbr.baseColorFactor; // tinygltf sees to its length, 4
-    material.base_color = read.in_range(glm::dvec3(color[0], color[1], color[2]), 1, "baseColorFactor");
+    material.base_color =
+        read.in_range(glm::dvec3(color[0], color[1], color[2]), 1, "baseColorFactor");
     material.metallic = read.in_range(pbr.metallicFactor, 0, 1, "metallicFactor");
     material.roughness = read.in_range(pbr.roughnessFactor, 0, 1, "roughnessFactor");
     material.double_sided = from.doubleSided;
@@ -79,12 +80,15 @@ void read_emission(const FactorReader& read, const tinygltf::Material& from, con
     const double strength = read.number(find_extension(object, "KHR_materials_emissive_strength"),
                                         "emissiveStrength", 1, unlimited);
     const glm::dvec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
-    material.emission = read.in_range(
-        glm::dvec3(read.in_range(factor, unlimited, "emissiveFactor")) * strength, unlimited, "emission");
+    material.emission =
+        read.in_range(glm::dvec3(read.in_range(factor, unlimited, "emissiveFactor")) * strength,
+                      unlimited, "emission");
     material.emission *= material.coverage;
     if (from.emissiveTexture.index >= 0 && emits(material)) {
-        // Such textures are black nearly everywhere: with the factor alone whole objects would glow.
-        add_note(read.scene, "emissive textures are not read yet: surfaces that have one do not emit");
+        // Such textures are black nearly everywhere: with the factor alone whole objects would
+        // glow.
+        add_note(read.scene,
+                 "emissive textures are not read yet: surfaces that have one do not emit");
         material.emission = glm::vec3(0);
     }
 }
@@ -92,26 +96,30 @@ void read_emission(const FactorReader& read, const tinygltf::Material& from, con
 void read_extensions(const FactorReader& read, const json* object, Material& material) {
     const json* specular = find_extension(object, "KHR_materials_specular");
     material.specular = read.number(specular, "specularFactor", 1, 1);
-    material.specular_color =
-        read.in_range(vector_of(read.source, specular, "specularColorFactor", glm::dvec3(1), read.what),
-                      unlimited, "specularColorFactor");
+    material.specular_color = read.in_range(
+        vector_of(read.source, specular, "specularColorFactor", glm::dvec3(1), read.what),
+        unlimited, "specularColorFactor");
 
-    material.transmission =
-        read.number(find_extension(object, "KHR_materials_transmission"), "transmissionFactor", 0, 1);
+    material.transmission = read.number(find_extension(object, "KHR_materials_transmission"),
+                                        "transmissionFactor", 0, 1);
     const json* volume = find_extension(object, "KHR_materials_volume");
     material.thickness = read.number(volume, "thicknessFactor", 0, unlimited);
     if (material.thickness > 0 && find_member(volume, "attenuationDistance")) {
-        add_note(read.scene,
-                 "the attenuation of KHR_materials_volume is not understood yet: volumes are clear");
+        add_note(
+            read.scene,
+            "the attenuation of KHR_materials_volume is not understood yet: volumes are clear");
     }
     if (material.transmission > 0 && material.metallic < 1 && material.roughness > 0) {
-        add_note(read.scene, "rough transmission is not understood yet: such surfaces are rendered smooth");
+        add_note(read.scene,
+                 "rough transmission is not understood yet: such surfaces are rendered smooth");
     }
 
     const double ior =
         number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
-    if (ior != 0 && !(ior >= 1 && ior <= unlimited)) { // 0: glTF's way to say that the Fresnel term is 1
-        read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1", read.what, ior);
+    if (ior != 0 &&
+        !(ior >= 1 && ior <= unlimited)) { // 0: glTF's way to say that the Fresnel term is 1
+        read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1",
+                         read.what, ior);
     }
     material.ior = static_cast<float>(ior);
 }
@@ -136,7 +144,8 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     for (int channel = 0; channel < 3; ++channel) {
         const double sum = specular[channel] + double(material.base_color[channel]);
         if (!(specular[channel] >= 0 && sum <= 1 + 1e-6)) {
-            read.source.fail("{} has a specular colour of {} beside a base colour of {:.6g}; it must be at least 0, "
+            read.source.fail("{} has a specular colour of {} beside a base colour of {:.6g}; it "
+                             "must be at least 0, "
                              "and their sum at most 1",
                              what, specular[channel], material.base_color[channel]);
         }

@@ -49,9 +49,9 @@ glm::uvec3 triangle_corners(int mode, std::uint32_t i) {
 }
 
 Transform make_transform(const glm::dmat4& to_world) {
-    // Normals go by the cofactors of the matrix (the inverse transpose up to a factor, defined for singular
-    // matrices too); the matrix is scaled to about 1 first, so that their products neither overflow nor
-    // vanish.
+    // Normals go by the cofactors of the matrix (the inverse transpose up to a factor, defined for
+    // singular matrices too); the matrix is scaled to about 1 first, so that their products neither
+    // overflow nor vanish.
     glm::dmat3 m(to_world);
     double largest = 0;
     for (int column = 0; column < 3; ++column) {
@@ -71,7 +71,8 @@ Transform make_transform(const glm::dmat4& to_world) {
 
 bool fits_float(const glm::dvec3& v) {
     constexpr double largest = std::numeric_limits<float>::max();
-    return std::abs(v.x) <= largest && std::abs(v.y) <= largest && std::abs(v.z) <= largest; // false for NaN
+    return std::abs(v.x) <= largest && std::abs(v.y) <= largest &&
+           std::abs(v.z) <= largest; // false for NaN
 }
 
 bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -84,12 +85,13 @@ int attribute(const tinygltf::Primitive& primitive, const char* name) {
 }
 
 bool is_attribute_type(const GltfAccessor& accessor) {
-    return accessor.components == 3 && accessor.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    return accessor.components == 3 &&
+           accessor.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
 /// False if the primitive has no surface (points, lines, no positions, no corners).
-bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive, const std::string& name,
-                  Surface& surface, Scene& scene) {
+bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive,
+                  const std::string& name, Surface& surface, Scene& scene) {
     surface.mode = primitive.mode;
     if (surface.mode < TINYGLTF_MODE_POINTS || surface.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         source.fail("{} has a primitive of mode {}, which glTF does not know", name, surface.mode);
@@ -99,18 +101,24 @@ bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive
         return false;
     }
     if (attribute(primitive, "POSITION") < 0) {
-        add_note(scene, fmt::format("{} has a primitive without positions; it is not rendered", name));
+        add_note(scene,
+                 fmt::format("{} has a primitive without positions; it is not rendered", name));
         return false;
     }
-    surface.positions = open_accessor(source, attribute(primitive, "POSITION"), "the positions of " + name);
+    surface.positions =
+        open_accessor(source, attribute(primitive, "POSITION"), "the positions of " + name);
     if (!is_attribute_type(surface.positions)) {
-        source.fail("the positions of {} are not three-component vectors of a type that glTF allows", name);
+        source.fail(
+            "the positions of {} are not three-component vectors of a type that glTF allows", name);
     }
     surface.has_normals = attribute(primitive, "NORMAL") >= 0;
     if (surface.has_normals) {
-        surface.normals = open_accessor(source, attribute(primitive, "NORMAL"), "the normals of " + name);
+        surface.normals =
+            open_accessor(source, attribute(primitive, "NORMAL"), "the normals of " + name);
         if (!is_attribute_type(surface.normals)) {
-            source.fail("the normals of {} are not three-component vectors of a type that glTF allows", name);
+            source.fail(
+                "the normals of {} are not three-component vectors of a type that glTF allows",
+                name);
         }
         if (surface.normals.count != surface.positions.count) {
             source.fail("{} has {} positions but {} normals", name, surface.positions.count,
@@ -131,8 +139,9 @@ bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive
     }
     if (surface.mode == TINYGLTF_MODE_TRIANGLES && surface.corner_count % 3 != 0) {
         add_note(scene,
-                 fmt::format("{} has {} corners, which is no multiple of three; the last ones are ignored",
-                             name, surface.corner_count));
+                 fmt::format(
+                     "{} has {} corners, which is no multiple of three; the last ones are ignored",
+                     name, surface.corner_count));
     }
     return triangle_count(surface.mode, surface.corner_count) > 0;
 }
@@ -167,12 +176,13 @@ std::uint32_t material_of(const GltfSource& source, const tinygltf::Primitive& p
 
 std::size_t stated_count(const GltfSource& source, int accessor) {
     const auto& accessors = source.model.accessors;
-    return accessor >= 0 && std::size_t(accessor) < accessors.size() ? accessors[std::size_t(accessor)].count
-                                                                     : 0;
+    return accessor >= 0 && std::size_t(accessor) < accessors.size()
+               ? accessors[std::size_t(accessor)].count
+               : 0;
 }
 
-/// Error if the nodes show more triangles than can be held. Looked at beforehand, by the counts that the file
-/// states: a short file can show a large mesh many times.
+/// Error if the nodes show more triangles than can be held. Looked at beforehand, by the counts
+/// that the file states: a short file can show a large mesh many times.
 void refuse_too_many(const GltfSource& source, const std::vector<GltfNode>& nodes) {
     std::size_t total = 0;
     for (const GltfNode& node : nodes) {
@@ -180,11 +190,13 @@ void refuse_too_many(const GltfSource& source, const std::vector<GltfNode>& node
         if (mesh < 0 || std::size_t(mesh) >= source.model.meshes.size()) {
             continue;
         }
-        for (const tinygltf::Primitive& primitive : source.model.meshes[std::size_t(mesh)].primitives) {
+        for (const tinygltf::Primitive& primitive :
+             source.model.meshes[std::size_t(mesh)].primitives) {
             if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
                 continue;
             }
-            const int corners = primitive.indices >= 0 ? primitive.indices : attribute(primitive, "POSITION");
+            const int corners =
+                primitive.indices >= 0 ? primitive.indices : attribute(primitive, "POSITION");
             const std::size_t count = triangle_count(primitive.mode, stated_count(source, corners));
             if (count > most_triangles - total) {
                 source.fail("its scene has more than {} triangles", most_triangles);
@@ -206,7 +218,8 @@ struct MeshAdder {
     const GltfSource& source;
     Scene& scene;
     std::vector<StagedVertex> staged;
-    std::vector<std::uint32_t> staged_as; ///< by vertex of the primitive: its place in `staged`, or none
+    std::vector<std::uint32_t>
+        staged_as; ///< by vertex of the primitive: its place in `staged`, or none
     std::size_t without_area = 0;
     std::size_t invisible = 0; ///< primitives whose alpha is 0, or below their cutoff
 
@@ -229,11 +242,13 @@ struct MeshAdder {
         return {glm::vec3(position), normal, none};
     }
 
-    std::uint32_t stage_corner(const Surface& surface, const Transform& transform, std::uint32_t corner,
-                               const std::string& name) {
-        const std::size_t vertex = surface.has_indices ? read_index(surface.indices, corner) : corner;
+    std::uint32_t stage_corner(const Surface& surface, const Transform& transform,
+                               std::uint32_t corner, const std::string& name) {
+        const std::size_t vertex =
+            surface.has_indices ? read_index(surface.indices, corner) : corner;
         if (vertex >= surface.positions.count) {
-            source.fail("{} has index {}, but only {} vertices", name, vertex, surface.positions.count);
+            source.fail("{} has index {}, but only {} vertices", name, vertex,
+                        surface.positions.count);
         }
         if (staged_as[vertex] == none) {
             staged.push_back(read_vertex(surface, transform, vertex, name));
@@ -296,11 +311,13 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
             continue;
         }
         if (std::size_t(shown.mesh) >= source.model.meshes.size()) {
-            source.fail("{} refers to mesh {}, which does not exist", label("node", node.index, shown.name),
-                        shown.mesh);
+            source.fail("{} refers to mesh {}, which does not exist",
+                        label("node", node.index, shown.name), shown.mesh);
         }
         if (shown.skin >= 0) {
-            add_note(scene, "skins are not understood yet: meshes keep the pose in which they were modelled");
+            add_note(
+                scene,
+                "skins are not understood yet: meshes keep the pose in which they were modelled");
         }
         const tinygltf::Mesh& mesh = source.model.meshes[std::size_t(shown.mesh)];
         const std::string name = label("mesh", shown.mesh, mesh.name);
@@ -319,13 +336,13 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         }
     }
     if (adder.invisible > 0) {
-        scene.notes.push_back(fmt::format("{} primitive{} left out, for alpha makes {} invisible", adder.invisible,
-                                          adder.invisible == 1 ? " is" : "s are",
+        scene.notes.push_back(fmt::format("{} primitive{} left out, for alpha makes {} invisible",
+                                          adder.invisible, adder.invisible == 1 ? " is" : "s are",
                                           adder.invisible == 1 ? "it" : "them"));
     }
     if (adder.without_area > 0) {
-        scene.notes.push_back(fmt::format("{} triangle{} without area {} left out", adder.without_area,
-                                          adder.without_area == 1 ? "" : "s",
+        scene.notes.push_back(fmt::format("{} triangle{} without area {} left out",
+                                          adder.without_area, adder.without_area == 1 ? "" : "s",
                                           adder.without_area == 1 ? "is" : "are"));
     }
 }

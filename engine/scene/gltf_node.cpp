@@ -7,11 +7,12 @@
 namespace argand {
 namespace {
 
-void check_length(const GltfSource& source, int index, const char* what, const std::vector<double>& numbers,
-                  std::size_t length) {
+void check_length(const GltfSource& source, int index, const char* what,
+                  const std::vector<double>& numbers, std::size_t length) {
     if (!numbers.empty() && numbers.size() != length) {
         source.fail("{} has a {} that is not {} numbers",
-                    label("node", index, source.model.nodes[std::size_t(index)].name), what, length);
+                    label("node", index, source.model.nodes[std::size_t(index)].name), what,
+                    length);
     }
 }
 
@@ -24,7 +25,8 @@ glm::dmat4 local_transform(const GltfSource& source, int index) {
     glm::dmat4 transform(1);
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) {
-            transform[i / 4][i % 4] = node.matrix[std::size_t(i)]; // columns first, in glTF as in GLM
+            transform[i / 4][i % 4] =
+                node.matrix[std::size_t(i)]; // columns first, in glTF as in GLM
         }
         return transform;
     }
@@ -32,9 +34,11 @@ glm::dmat4 local_transform(const GltfSource& source, int index) {
         const std::vector<double>& r = node.rotation;
         const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
         if (!(length > 0) || !std::isfinite(length)) {
-            source.fail("{} has a rotation that is not a unit quaternion", label("node", index, node.name));
+            source.fail("{} has a rotation that is not a unit quaternion",
+                        label("node", index, node.name));
         }
-        transform = glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
+        transform =
+            glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
     }
     if (!node.scale.empty()) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -103,7 +107,8 @@ std::vector<GltfNode> flatten_nodes(const GltfSource& source) {
     return flat;
 }
 
-glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world, const std::string& what) {
+glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world,
+                      const std::string& what) {
     const glm::vec3 position{glm::dvec3(to_world[3])};
     if (!is_finite(position)) {
         source.fail("{} has a position that is not finite", what);

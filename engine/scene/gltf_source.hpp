@@ -18,7 +18,8 @@ struct GltfSource {
     /// Throws Error: "cannot load 'FILE': ...".
     template <class... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-        argand::fail("cannot load '{}': {}", file, fmt::format(format, std::forward<Args>(args)...));
+        argand::fail("cannot load '{}': {}", file,
+                     fmt::format(format, std::forward<Args>(args)...));
     }
 };
 

@@ -15,9 +15,11 @@ inline const nlohmann::json* find_member(const nlohmann::json* object, const cha
 }
 
 /// Element `index` of the file's list `list` ("materials", "nodes", ...), or null.
-inline const nlohmann::json* find_element(const GltfSource& source, const char* list, std::size_t index) {
+inline const nlohmann::json* find_element(const GltfSource& source, const char* list,
+                                          std::size_t index) {
     const nlohmann::json* elements = find_member(&source.root, list);
-    return elements && elements->is_array() && index < elements->size() ? &(*elements)[index] : nullptr;
+    return elements && elements->is_array() && index < elements->size() ? &(*elements)[index]
+                                                                        : nullptr;
 }
 
 /// The object of extension `name` of `owner`, or null.

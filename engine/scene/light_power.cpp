@@ -16,9 +16,10 @@ double spot_solid_angle(double inner_cone_angle, double outer_cone_angle) {
 }
 
 glm::dvec3 emitted_power(const Light& light) {
-    const double solid_angle = light.kind == LightKind::spot
-                                   ? spot_solid_angle(light.inner_cone_angle, light.outer_cone_angle)
-                                   : 4 * std::numbers::pi;
+    const double solid_angle =
+        light.kind == LightKind::spot
+            ? spot_solid_angle(light.inner_cone_angle, light.outer_cone_angle)
+            : 4 * std::numbers::pi;
     return glm::dvec3(light.intensity) * solid_angle;
 }
 

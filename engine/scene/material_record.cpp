@@ -3,11 +3,26 @@
 namespace argand {
 
 MaterialRecord material_record(const Material& m) {
-    MaterialRecord record{m.base_color.r,     m.base_color.g,     m.base_color.b,     m.metallic,
-                          m.specular_color.r, m.specular_color.g, m.specular_color.b, m.specular,
-                          m.emission.r,       m.emission.g,       m.emission.b,       m.double_sided ? 1u : 0u,
-                          m.roughness,        m.transmission,     m.ior,              m.thickness,
-                          m.coverage,         -1,                 0,                  0};
+    MaterialRecord record{m.base_color.r,
+                          m.base_color.g,
+                          m.base_color.b,
+                          m.metallic,
+                          m.specular_color.r,
+                          m.specular_color.g,
+                          m.specular_color.b,
+                          m.specular,
+                          m.emission.r,
+                          m.emission.g,
+                          m.emission.b,
+                          m.double_sided ? 1u : 0u,
+                          m.roughness,
+                          m.transmission,
+                          m.ior,
+                          m.thickness,
+                          m.coverage,
+                          -1,
+                          0,
+                          0};
     if (m.phong) {
         const glm::vec3& specular = m.phong->specular;
         record.metallic = 0;

@@ -12,25 +12,26 @@ namespace argand {
 
 /// Modified Phong BRDF (Lafortune and Willems 1994): base_color/π + specular (n + 2)/(2π) cosⁿ.
 struct Phong {
-    glm::vec3 specular{0};              ///< with base_color at most 1 in each channel
-    float exponent = 0;                 ///< n >= 0
+    glm::vec3 specular{0}; ///< with base_color at most 1 in each channel
+    float exponent = 0;    ///< n >= 0
 };
 
-/// Surface description in glTF's terms (metallic-roughness with the extensions named beside the fields).
+/// Surface description in glTF's terms (metallic-roughness with the extensions named beside the
+/// fields).
 struct Material {
     std::string name;
     glm::vec3 base_color{1};
     float metallic = 1;
     float roughness = 1;
-    float specular = 1;                 ///< KHR_materials_specular; 0 makes a dielectric purely Lambertian
-    glm::vec3 specular_color{1};        ///< KHR_materials_specular
-    glm::vec3 emission{0};              ///< radiance [cd/m²], KHR_materials_emissive_strength and alpha included
-    float coverage = 1;                 ///< alpha: the share of the surface that is there; the rest lets light pass
-    float transmission = 0;             ///< KHR_materials_transmission
-    float ior = 1.5f;                   ///< KHR_materials_ior
-    float thickness = 0;                ///< KHR_materials_volume; 0: thin-walled, else a solid that refracts
+    float specular = 1;          ///< KHR_materials_specular; 0 makes a dielectric purely Lambertian
+    glm::vec3 specular_color{1}; ///< KHR_materials_specular
+    glm::vec3 emission{0}; ///< radiance [cd/m²], KHR_materials_emissive_strength and alpha included
+    float coverage = 1; ///< alpha: the share of the surface that is there; the rest lets light pass
+    float transmission = 0; ///< KHR_materials_transmission
+    float ior = 1.5f;       ///< KHR_materials_ior
+    float thickness = 0;    ///< KHR_materials_volume; 0: thin-walled, else a solid that refracts
     bool double_sided = false;
-    std::optional<Phong> phong;         ///< instead of metal, dielectric and transmission, if present
+    std::optional<Phong> phong; ///< instead of metal, dielectric and transmission, if present
 };
 
 enum class LightKind : std::uint32_t { point, spot, directional };
@@ -39,11 +40,11 @@ enum class LightKind : std::uint32_t { point, spot, directional };
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 position{0};              ///< point, spot
-    glm::vec3 direction{0, 0, -1};      ///< unit, the way the light travels: spot, directional
-    glm::vec3 intensity{1};             ///< colour × intensity: [cd] point and spot, [lux] directional
-    float inner_cone_angle = 0;         ///< [rad] spot
-    float outer_cone_angle = 0.7853982f;///< [rad] spot
+    glm::vec3 position{0};         ///< point, spot
+    glm::vec3 direction{0, 0, -1}; ///< unit, the way the light travels: spot, directional
+    glm::vec3 intensity{1};        ///< colour × intensity: [cd] point and spot, [lux] directional
+    float inner_cone_angle = 0;    ///< [rad] spot
+    float outer_cone_angle = 0.7853982f; ///< [rad] spot
 };
 
 enum class CameraKind : std::uint32_t { perspective, orthographic };
@@ -54,9 +55,9 @@ struct Camera {
     CameraKind kind = CameraKind::perspective;
     glm::vec3 position{0};
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-    float vertical_angle = 0.7853982f;  ///< [rad], perspective: full vertical angle of view
-    float vertical_extent = 1;          ///< orthographic: half the visible height (glTF ymag)
-    float aspect = 0;                   ///< width / height as the file states it; 0: not stated
+    float vertical_angle = 0.7853982f; ///< [rad], perspective: full vertical angle of view
+    float vertical_extent = 1;         ///< orthographic: half the visible height (glTF ymag)
+    float aspect = 0;                  ///< width / height as the file states it; 0: not stated
 };
 
 struct Bounds {
@@ -64,20 +65,22 @@ struct Bounds {
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
 };
 
-/// Immutable description on the host of all that is in a file: triangles in world space, materials, lights, cameras.
+/// Immutable description on the host of all that is in a file: triangles in world space, materials,
+/// lights, cameras.
 struct Scene {
-    std::string name;                           ///< file name without directory
-    std::vector<glm::vec3> positions;           ///< vertices, world space
-    std::vector<glm::vec3> normals;             ///< one per vertex, unit; (0,0,0): use the geometric normal
-    std::vector<glm::uvec3> triangles;          ///< vertex indices, counter-clockwise seen from the front
+    std::string name;                  ///< file name without directory
+    std::vector<glm::vec3> positions;  ///< vertices, world space
+    std::vector<glm::vec3> normals;    ///< one per vertex, unit; (0,0,0): use the geometric normal
+    std::vector<glm::uvec3> triangles; ///< vertex indices, counter-clockwise seen from the front
     std::vector<std::uint32_t> triangle_material; ///< one per triangle, index into materials
-    std::vector<Material> materials;            ///< at least one
+    std::vector<Material> materials;              ///< at least one
     std::vector<Light> lights;
-    std::optional<glm::vec3> sky;               ///< uniform radiance from all directions [cd/m²]
-    std::vector<Camera> cameras;                ///< at least one after loading (a framing one is made up)
+    std::optional<glm::vec3> sky; ///< uniform radiance from all directions [cd/m²]
+    std::vector<Camera> cameras;  ///< at least one after loading (a framing one is made up)
     std::size_t animations = 0;
-    std::vector<std::string> extensions_used;   ///< as the file lists them
-    std::vector<std::string> notes;             ///< what was made up or not understood: one line each, for the user
+    std::vector<std::string> extensions_used; ///< as the file lists them
+    std::vector<std::string>
+        notes; ///< what was made up or not understood: one line each, for the user
 };
 
 /// Bounding box of the vertices that triangles refer to; low > high if there is none.

@@ -12,14 +12,11 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-template <class Vector>
-json numbers(const Vector& v) {
+template <class Vector> json numbers(const Vector& v) {
     return json::array({v.x + 0, v.y + 0, v.z + 0}); // −0 + 0 is 0, which reads better
 }
 
-double degrees(double radians) {
-    return radians * 180 / std::numbers::pi;
-}
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 json material_json(const Material& material, std::size_t triangles, double area) {
     return {{"name", material.name},
@@ -119,7 +116,8 @@ std::string short_text(const json& vector) {
     const double x = vector[0];
     const double y = vector[1];
     const double z = vector[2];
-    return x == y && y == z ? fmt::format("{:.4g}", x) : fmt::format("{:.4g} {:.4g} {:.4g}", x, y, z);
+    return x == y && y == z ? fmt::format("{:.4g}", x)
+                            : fmt::format("{:.4g} {:.4g} {:.4g}", x, y, z);
 }
 
 std::string full_text(const json& vector) {
@@ -134,12 +132,13 @@ std::string quoted_name(const json& object) {
 
 std::string material_line(const json& material) {
     std::string line =
-        fmt::format("{}: {}, base colour {}", quoted_name(material), material["kind"].get<std::string>(),
-                    short_text(material["base_color"]));
+        fmt::format("{}: {}, base colour {}", quoted_name(material),
+                    material["kind"].get<std::string>(), short_text(material["base_color"]));
     const json& phong = material["phong"];
     if (phong.is_null()) {
-        line += fmt::format(", metallic {:.4g}, roughness {:.4g}", material["metallic"].get<double>(),
-                            material["roughness"].get<double>());
+        line +=
+            fmt::format(", metallic {:.4g}, roughness {:.4g}", material["metallic"].get<double>(),
+                        material["roughness"].get<double>());
     } else {
         line += fmt::format(", specular colour {}, exponent {:.4g}", short_text(phong["specular"]),
                             phong["exponent"].get<double>());
@@ -155,29 +154,33 @@ std::string material_line(const json& material) {
         line += fmt::format(", emits {} cd/m2{}", short_text(material["emission"]),
                             material["double_sided"].get<bool>() ? " from both sides" : "");
     }
-    return line + fmt::format(" ({} triangles, area {:.4g})", material["triangles"].get<std::size_t>(),
+    return line + fmt::format(" ({} triangles, area {:.4g})",
+                              material["triangles"].get<std::size_t>(),
                               material["area"].get<double>());
 }
 
 std::string light_line(const json& light) {
-    std::string line = fmt::format("{}: {}, {} {}", quoted_name(light), light["kind"].get<std::string>(),
-                                   short_text(light["intensity"]), light["unit"].get<std::string>());
+    std::string line =
+        fmt::format("{}: {}, {} {}", quoted_name(light), light["kind"].get<std::string>(),
+                    short_text(light["intensity"]), light["unit"].get<std::string>());
     if (light.contains("power")) {
-        line += fmt::format(", power {}, at {}", short_text(light["power"]), full_text(light["position"]));
+        line += fmt::format(", power {}, at {}", short_text(light["power"]),
+                            full_text(light["position"]));
     }
     if (light.contains("direction")) {
         line += fmt::format(", along {}", full_text(light["direction"]));
     }
     if (light.contains("inner_cone_angle")) {
-        line +=
-            fmt::format(", cone {:.4g} to {:.4g} degrees", degrees(light["inner_cone_angle"].get<double>()),
-                        degrees(light["outer_cone_angle"].get<double>()));
+        line += fmt::format(", cone {:.4g} to {:.4g} degrees",
+                            degrees(light["inner_cone_angle"].get<double>()),
+                            degrees(light["outer_cone_angle"].get<double>()));
     }
     return line;
 }
 
 std::string camera_line(const json& camera) {
-    std::string line = fmt::format("{}: {}, ", quoted_name(camera), camera["kind"].get<std::string>());
+    std::string line =
+        fmt::format("{}: {}, ", quoted_name(camera), camera["kind"].get<std::string>());
     if (camera.contains("vertical_angle")) {
         line += fmt::format("{:.4g} degrees high", degrees(camera["vertical_angle"].get<double>()));
     } else {
@@ -221,9 +224,11 @@ std::string describe(const Material& material) {
 json summary_json(const Scene& scene) {
     const Bounds box = bounds(scene);
     json lights = json::array();
-    std::transform(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights), light_json);
+    std::transform(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights),
+                   light_json);
     json cameras = json::array();
-    std::transform(scene.cameras.begin(), scene.cameras.end(), std::back_inserter(cameras), camera_json);
+    std::transform(scene.cameras.begin(), scene.cameras.end(), std::back_inserter(cameras),
+                   camera_json);
     json extensions = json::array();
     for (const std::string& name : scene.extensions_used) {
         extensions.push_back({{"name", name}, {"understood", understands_extension(name)}});
@@ -249,25 +254,28 @@ std::string summary_text(const Scene& scene) {
     const auto line = [&](const char* title, const std::string& value) {
         fmt::format_to(std::back_inserter(text), "{:<12}{}\n", title, value);
     };
-    line("triangles", fmt::format("{} over {} vertices", scene.triangles.size(), scene.positions.size()));
+    line("triangles",
+         fmt::format("{} over {} vertices", scene.triangles.size(), scene.positions.size()));
     line("area", fmt::format("{:.4g}", summary["area"].get<double>()));
-    line("bounds",
-         fmt::format("{} to {}", full_text(summary["bounds"]["low"]), full_text(summary["bounds"]["high"])));
+    line("bounds", fmt::format("{} to {}", full_text(summary["bounds"]["low"]),
+                               full_text(summary["bounds"]["high"])));
     append_list(text, "materials", summary["materials"], material_line);
     append_list(text, "lights", summary["lights"], light_line);
     const json& emissive = summary["emissive"];
-    line("emissive",
-         fmt::format("{} triangles, area {:.4g}, power {}", emissive["triangles"].get<std::size_t>(),
-                     emissive["area"].get<double>(), short_text(emissive["power"])));
-    line("sky",
-         summary["sky"].is_null() ? "none" : fmt::format("uniform, radiance {}", short_text(summary["sky"])));
+    line("emissive", fmt::format("{} triangles, area {:.4g}, power {}",
+                                 emissive["triangles"].get<std::size_t>(),
+                                 emissive["area"].get<double>(), short_text(emissive["power"])));
+    line("sky", summary["sky"].is_null()
+                    ? "none"
+                    : fmt::format("uniform, radiance {}", short_text(summary["sky"])));
     append_list(text, "cameras", summary["cameras"], camera_line);
     line("animations", fmt::format("{}", scene.animations));
     append_list(text, "extensions", summary["extensions"], [](const json& extension) {
         return extension["name"].get<std::string>() +
                (extension["understood"].get<bool>() ? "" : " (not understood)");
     });
-    append_list(text, "notes", summary["notes"], [](const json& note) { return note.get<std::string>(); });
+    append_list(text, "notes", summary["notes"],
+                [](const json& note) { return note.get<std::string>(); });
     return text;
 }
 

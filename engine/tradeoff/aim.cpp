@@ -21,30 +21,36 @@ constexpr double share_of_truth = 0.1;
 bool is_blind_to_caustics(const Scene& scene) {
     const Plan plan = make_plan(scene, {});
     const auto needs_any = [&](std::initializer_list<Feature> features) {
-        return std::any_of(features.begin(), features.end(), [&](Feature feature) { return plan.needs(feature); });
+        return std::any_of(features.begin(), features.end(),
+                           [&](Feature feature) { return plan.needs(feature); });
     };
     return needs_any({Feature::point_light, Feature::spot_light, Feature::directional_light}) &&
            needs_any({Feature::mirror, Feature::transmission, Feature::alpha});
 }
 
-AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const RenderSettings& base, const Chosen& chosen,
-                         const Aim& aim, const OnPick& on_pick) {
+AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
+                         const Chosen& chosen, const Aim& aim, const OnPick& on_pick) {
     const Clock::time_point start = Clock::now();
     const bool path_is_true = !is_blind_to_caustics(scene);
     if (chosen.method && base.method == "path" && !path_is_true) {
-        fail("rendering '{}' to a relMSE: method 'path' does not find the light of lamps without extent by way of mirrors and "
-             "glass, so its error does not fall; leave --method out", scene.name);
+        fail("rendering '{}' to a relMSE: method 'path' does not find the light of lamps without "
+             "extent by way of mirrors and "
+             "glass, so its error does not fall; leave --method out",
+             scene.name);
     }
     // Final gather is not for path, so that it is not what was asked for.
     Pilots pilots(render, aim, chosen.method ? base.method == "path" : !base.final_gather);
-    const Exploration exploration{.pilots = pilots, .base = base, .chosen = chosen, .aim = aim, .path_is_true = path_is_true};
+    const Exploration exploration{
+        .pilots = pilots, .base = base, .chosen = chosen, .aim = aim, .path_is_true = path_is_true};
     AimedRender aimed{.aim = aim};
     std::optional<Course> course;
     const auto pick = [&] {
         const Prospect& best = pilots.prospects().front();
         if (aim.error && !aim.seconds && !(best.seconds <= most_seconds)) {
-            fail("rendering '{}' to a relMSE of {:.3g}: '{}', the quickest way, would take {:.3g} s; ask for more error, or say "
-                 "with --budget how long it may take", scene.name, *aim.error, best.settings.method, best.seconds);
+            fail("rendering '{}' to a relMSE of {:.3g}: '{}', the quickest way, would take {:.3g} "
+                 "s; ask for more error, or say "
+                 "with --budget how long it may take",
+                 scene.name, *aim.error, best.settings.method, best.seconds);
         }
         aimed.prospects = pilots.prospects();
         aimed.settings = best.settings;
@@ -71,7 +77,8 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
         RenderResult result = pilots.run(*settings, exploration.most_seconds(), go_on);
         const bool interrupted = result.statistics.interrupted;
         // The best pilot's picture is for those who do not wait for a better one.
-        if (course || (interrupted ? aimed.result.statistics.samples == 0 : pilots.last_is_best())) {
+        if (course ||
+            (interrupted ? aimed.result.statistics.samples == 0 : pilots.last_is_best())) {
             aimed.result = std::move(result);
             aimed.settings = *settings;
         }

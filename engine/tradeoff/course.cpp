@@ -10,13 +10,15 @@ namespace argand {
 
 namespace {
 
-// From which on single pixels tell what relMSE divides by; before, a penumbra may be black in one half of the passes.
+// From which on single pixels tell what relMSE divides by; before, a penumbra may be black in one
+// half of the passes.
 constexpr double passes_for_pixels = 16;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-Course::Course(const Aim& aim, const Prospect& prospect, const std::optional<Pair>& truth, double spent)
+Course::Course(const Aim& aim, const Prospect& prospect, const std::optional<Pair>& truth,
+               double spent)
     : aim_(aim), prospect_(prospect), truth_(truth), model_(prospect.model),
       seconds_(aim.seconds ? *aim.seconds - spent : unlimited),
       budget_(aim.seconds ? std::optional(seconds_) : std::nullopt), start_(Clock::now()) {}
@@ -54,7 +56,8 @@ std::optional<PassPlan> Course::operator()(const PictureSoFar& so_far) {
     const auto passes = static_cast<double>(so_far.passes);
     const double in_time = passes_in_time(done);
     const double expected = std::min(aim_.error ? to_error() : in_time, in_time);
-    if (!aim_.seconds && done > 0 && takes_too_long((expected - static_cast<double>(begun_)) / static_cast<double>(done))) {
+    if (!aim_.seconds && done > 0 &&
+        takes_too_long((expected - static_cast<double>(begun_)) / static_cast<double>(done))) {
         return std::nullopt;
     }
     return PassPlan{.expected = std::max(expected, passes + 1), .stream = halves_.stream()};
@@ -70,7 +73,8 @@ double Course::passes_in_time(std::uint64_t done) const {
     if (!aim_.seconds) {
         return unlimited;
     }
-    const double own = done > 0 ? budget_.expected(done, 0) : std::floor(seconds_ / std::max(prospect_.seconds_per_pass, 1e-6));
+    const double own = done > 0 ? budget_.expected(done, 0)
+                                : std::floor(seconds_ / std::max(prospect_.seconds_per_pass, 1e-6));
     return static_cast<double>(begun_) + own;
 }
 
@@ -93,12 +97,16 @@ void Course::add(const Image& mean_so_far, const Image& estimated_so_far) {
 void Course::measure() {
     const auto passes = static_cast<double>(halves_.passes());
     const Pair& means = halves_.means();
-    const Image guess = passes < passes_for_pixels ? guess_from({smoothed(means[0]), smoothed(means[1])}) : guess_from(means);
+    const Image guess = passes < passes_for_pixels
+                            ? guess_from({smoothed(means[0]), smoothed(means[1])})
+                            : guess_from(means);
     if (!std::isfinite(model_.fixed)) {
         // What the pilot was too short to tell.
         const PilotPictures pictures{means, estimated_.means()};
         const double wide = model_.wide;
-        model_ = model_of({.settings = prospect_.settings, .passes = 2, .wide = pictures, .narrow = pictures}, nullptr, guess);
+        model_ = model_of(
+            {.settings = prospect_.settings, .passes = 2, .wide = pictures, .narrow = pictures},
+            nullptr, guess);
         model_.wide = wide;
     }
     measured_ = {.passes = passes,

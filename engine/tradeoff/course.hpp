@@ -14,9 +14,9 @@ inline constexpr double most_seconds = 3600;
 
 /// What is known of a picture's error while it is rendered.
 struct Measured {
-    double passes = 0;          ///< after which it was
-    double noise = 0;           ///< relMSE that is due to it
-    Estimate bias{0, 0};        ///< squared
+    double passes = 0;   ///< after which it was
+    double noise = 0;    ///< relMSE that is due to it
+    Estimate bias{0, 0}; ///< squared
     double error() const { return noise + bias.value; }
 };
 
@@ -24,9 +24,11 @@ struct Measured {
 class Course {
 public:
     /// truth: the estimated light without bias, if it is known. spent: seconds before this.
-    Course(const Aim& aim, const Prospect& prospect, const std::optional<Pair>& truth, double spent);
+    Course(const Aim& aim, const Prospect& prospect, const std::optional<Pair>& truth,
+           double spent);
 
-    /// Goes on from the passes of a pilot, which are the picture's first. Called before the first of its own.
+    /// Goes on from the passes of a pilot, which are the picture's first. Called before the first
+    /// of its own.
     void go_on_from(const Pilot& pilot);
 
     std::optional<PassPlan> operator()(const PictureSoFar& so_far);
@@ -49,11 +51,11 @@ private:
     Prospect prospect_;
     const std::optional<Pair>& truth_;
     ErrorModel model_;
-    double seconds_;                ///< for passes of its own
+    double seconds_; ///< for passes of its own
     Budget budget_;
     Clock::time_point start_;
-    std::uint64_t begun_ = 0;       ///< passes of the pilot
-    Halves halves_, estimated_;     ///< of the whole picture; of its estimated light, where it is asked
+    std::uint64_t begun_ = 0;   ///< passes of the pilot
+    Halves halves_, estimated_; ///< of the whole picture; of its estimated light, where it is asked
     std::optional<Measured> measured_;
     bool reached_ = false;
 };

@@ -44,7 +44,8 @@ double passes_for(const ErrorModel& model, double error) {
 
 ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes) {
     const double growth = std::cbrt(passes) - 1;
-    const double density = std::clamp((variance_at_passes - variance_at_one) / growth, 0.0, variance_at_one);
+    const double density =
+        std::clamp((variance_at_passes - variance_at_one) / growth, 0.0, variance_at_one);
     return {.fixed = std::max(variance_at_one - density, 0.0), .density = density};
 }
 

@@ -11,10 +11,12 @@ namespace argand {
 
 namespace {
 
-// Squared bias of density estimation over what is left of it in smoothed pictures, in this project's scenes, and its spread.
+// Squared bias of density estimation over what is left of it in smoothed pictures, in this
+// project's scenes, and its spread.
 constexpr double lost_by_smoothing = 2.5, spread_of_loss = 0.5;
 
-// Of two pictures the brighter is not believed beyond so many times the darker: noise seldom is as large, bright dots are.
+// Of two pictures the brighter is not believed beyond so many times the darker: noise seldom is as
+// large, bright dots are.
 constexpr float most_over_darker = 1.2f;
 
 /// The error is told from the means of 8 × 8 tiles, for neighbouring pixels share photons.
@@ -24,7 +26,8 @@ Estimate mean_of_tiles(const std::vector<double>& values, int width, int height)
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const auto tile = static_cast<std::size_t>(y * side / height * side + x * side / width);
-            sums[tile] += values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+            sums[tile] += values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x)];
             ++counts[tile];
         }
     }
@@ -52,13 +55,14 @@ Estimate posterior(double usual, double factor, std::span<const Estimate> estima
         return {0, 0};
     }
     constexpr int steps = 1000;
-    constexpr double unusual = 0.05;    // one in twenty
+    constexpr double unusual = 0.05; // one in twenty
     const double range = std::log(1e4), deviation = std::log(factor);
     std::array<double, 2 * steps + 1> shifts{}, logs{};
     for (std::size_t i = 0; i < shifts.size(); ++i) {
         shifts[i] = range * (static_cast<double>(i) - steps) / steps;
         const double t = shifts[i] / deviation;
-        logs[i] = std::log((1 - unusual) * std::exp(-0.5 * t * t) / (deviation * std::sqrt(2 * std::numbers::pi)) +
+        logs[i] = std::log((1 - unusual) * std::exp(-0.5 * t * t) /
+                               (deviation * std::sqrt(2 * std::numbers::pi)) +
                            unusual / (2 * range));
         const double value = usual * std::exp(shifts[i]);
         for (const Estimate& estimate : estimates) {
@@ -81,10 +85,12 @@ Estimate posterior(double usual, double factor, std::span<const Estimate> estima
 
 std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const Image& reference) {
     const auto difference = [&](auto smooth) {
-        return mean_of_tiles(rel_products(smooth(a[0]), smooth(b[0]), smooth(a[1]), smooth(b[1]), reference),
-                             reference.width, reference.height);
+        return mean_of_tiles(
+            rel_products(smooth(a[0]), smooth(b[0]), smooth(a[1]), smooth(b[1]), reference),
+            reference.width, reference.height);
     };
-    const Estimate smooth = difference([](const Image& image) { return smoothed(smoothed(image)); });
+    const Estimate smooth =
+        difference([](const Image& image) { return smoothed(smoothed(image)); });
     const double value = lost_by_smoothing * smooth.value;
     return {difference([](const Image& image) { return image; }),
             Estimate{value, std::hypot(lost_by_smoothing * smooth.error, spread_of_loss * value)}};
@@ -92,7 +98,8 @@ std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const I
 
 Image smoothed(const Image& image) {
     const auto at = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+               static_cast<std::size_t>(x);
     };
     Image result = image;
     for (int y = 0; y < image.height; ++y) {
@@ -114,7 +121,8 @@ Image smoothed(const Image& image) {
 Image guess_from(const Pair& pictures) {
     Image guess = pictures[0];
     for (std::size_t i = 0; i < guess.pixels.size(); ++i) {
-        const glm::vec3 a = glm::max(pictures[0].pixels[i], 0.0f), b = glm::max(pictures[1].pixels[i], 0.0f);
+        const glm::vec3 a = glm::max(pictures[0].pixels[i], 0.0f),
+                        b = glm::max(pictures[1].pixels[i], 0.0f);
         guess.pixels[i] = glm::min(glm::sqrt(a) * glm::sqrt(b), most_over_darker * glm::min(a, b));
     }
     return guess;

@@ -14,11 +14,11 @@ struct Chosen {
 
 /// Which pilots there are to be, one after the other.
 struct Exploration {
-    const Pilots& pilots;           ///< so far
+    const Pilots& pilots; ///< so far
     const RenderSettings& base;
     const Chosen& chosen;
     const Aim& aim;
-    bool path_is_true;              ///< paths from the eye find all light
+    bool path_is_true; ///< paths from the eye find all light
 
     /// Nothing: no other is worth its time.
     std::optional<RenderSettings> next() const;

@@ -9,7 +9,7 @@ namespace argand {
 
 namespace {
 
-constexpr std::uint64_t turns = 16;     // that are kept apart, about
+constexpr std::uint64_t turns = 16; // that are kept apart, about
 
 } // namespace
 
@@ -18,7 +18,8 @@ void Halves::add(const Image& mean_so_far) {
     const auto more = static_cast<double>(length_);
     Image& mean = means_[stream()];
     double& passes = passes_[stream()];
-    const Image part = done_ > 0 ? weighted_mean(mean_so_far, before + more, mean_, -before) : mean_so_far;
+    const Image part =
+        done_ > 0 ? weighted_mean(mean_so_far, before + more, mean_, -before) : mean_so_far;
     mean = passes > 0 ? weighted_mean(mean, passes, part, more) : part;
     passes += more;
     done_ += length_;
@@ -30,7 +31,8 @@ void Halves::add(const Image& mean_so_far) {
 }
 
 double Halves::noise(const Image& reference) const {
-    // If a pass has a variance of v, the mean of n has v / n, and the means of a + b = n differ by v (1/a + 1/b), squared.
+    // If a pass has a variance of v, the mean of n has v / n, and the means of a + b = n differ by
+    // v (1/a + 1/b), squared.
     const double all = passes_[0] + passes_[1];
     return 2 * rel_variance(means_, reference, reference) * passes_[0] * passes_[1] / (all * all);
 }

@@ -7,8 +7,9 @@
 
 namespace argand {
 
-/// The passes of a picture, about half of them of one stream and half of another, whose difference tells its noise while it is
-/// being rendered. The streams take turns of more and more passes, so that a long render is rarely looked at.
+/// The passes of a picture, about half of them of one stream and half of another, whose difference
+/// tells its noise while it is being rendered. The streams take turns of more and more passes, so
+/// that a long render is rarely looked at.
 class Halves {
 public:
     /// Of the next pass.
@@ -26,7 +27,8 @@ public:
     /// Whether both have passes.
     bool are_two() const { return passes_[1] > 0; }
 
-    /// relMSE of the mean that is due to noise, where there are two. reference: what relMSE divides by.
+    /// relMSE of the mean that is due to noise, where there are two. reference: what relMSE divides
+    /// by.
     double noise(const Image& reference) const;
 
     const std::array<Image, 2>& means() const { return means_; }
@@ -36,7 +38,7 @@ private:
     std::uint64_t length_ = 1, done_ = 0;
     std::array<Image, 2> means_;
     std::array<double, 2> passes_{};
-    Image mean_;            ///< of all
+    Image mean_; ///< of all
 };
 
 } // namespace argand

@@ -38,7 +38,9 @@ double number_or_infinity(const Json& json) {
     return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
 }
 
-Json to_json(const Spread& spread) { return {{"mean", spread.mean}, {"deviation", spread.deviation}}; }
+Json to_json(const Spread& spread) {
+    return {{"mean", spread.mean}, {"deviation", spread.deviation}};
+}
 
 Spread spread_from(const Json& json) {
     return {number_or_infinity(json.at("mean")), number_or_infinity(json.at("deviation"))};

@@ -15,20 +15,21 @@ struct Spread {
 
 /// A setting, measured.
 struct Measurement {
-    std::string key;                        ///< all its parameters (tradeoff/parameters.hpp)
+    std::string key; ///< all its parameters (tradeoff/parameters.hpp)
     std::string method, knob, value;
-    std::string options;                    ///< of `argand render`
-    std::string picture;                    ///< file of its first seed's picture, relative to the sweep's folder
+    std::string options; ///< of `argand render`
+    std::string picture; ///< file of its first seed's picture, relative to the sweep's folder
     std::uint64_t seeds = 0;
-    double wall_seconds = 0;                ///< median
-    std::optional<double> device_seconds;   ///< median
+    double wall_seconds = 0;              ///< median
+    std::optional<double> device_seconds; ///< median
     std::uint64_t peak_bytes = 0;
     Spread rel_mse, ssim;
-    std::optional<double> bias, variance;   ///< squared bias and variance, whose sum is the mean relMSE; none: one seed
+    std::optional<double> bias,
+        variance; ///< squared bias and variance, whose sum is the mean relMSE; none: one seed
 };
 
-/// Of pictures of one setting that differ in their seeds alone. The squared bias is estimated without bias, so that it may
-/// be less than 0 where there is hardly any.
+/// Of pictures of one setting that differ in their seeds alone. The squared bias is estimated
+/// without bias, so that it may be less than 0 where there is hardly any.
 Measurement measure(const Setting& setting, const Trials& trials, const Reference& reference);
 
 nlohmann::ordered_json to_json(const Measurement& measurement);

@@ -8,8 +8,7 @@ namespace {
 
 std::string flag(bool on) { return on ? "on" : "off"; }
 
-template <class T>
-std::string or_auto(const std::optional<T>& value) {
+template <class T> std::string or_auto(const std::optional<T>& value) {
     return value ? fmt::format("{}", *value) : "auto";
 }
 
@@ -40,7 +39,8 @@ std::vector<Parameter> parameters(const RenderSettings& settings) {
                              {"query-cell", fmt::format("{}", settings.query_cell)},
                              {"leaf-size", fmt::format("{}", settings.footprints.leaf_size)},
                              {"wide-codes", flag(settings.wide_codes)},
-                             {"photon-sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
+                             {"photon-sampling",
+                              settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
                              {"final-gather", flag(settings.final_gather)}});
     if (settings.method == "knn") {
         list.emplace_back("k", or_auto(settings.neighbours));

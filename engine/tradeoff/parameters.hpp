@@ -11,7 +11,8 @@ namespace argand {
 /// An option of `argand render` and its value; flags are "on" or "off".
 using Parameter = std::pair<std::string, std::string>;
 
-/// All that decides the picture of a method but its seed, its size and its camera; "auto" is what the scene decides.
+/// All that decides the picture of a method but its seed, its size and its camera; "auto" is what
+/// the scene decides.
 std::vector<Parameter> parameters(const RenderSettings& settings);
 
 /// The same as one text, by which a setting is known.

@@ -12,8 +12,8 @@ struct TimeAndError {
     double error = 0;
 };
 
-/// Indices of the points to which no other is as quick and as exact and better in one of them, the quickest first. Points
-/// that are not finite are left out; of equal ones the first stays.
+/// Indices of the points to which no other is as quick and as exact and better in one of them, the
+/// quickest first. Points that are not finite are left out; of equal ones the first stays.
 std::vector<std::size_t> pareto_front(std::span<const TimeAndError> points);
 
 } // namespace argand

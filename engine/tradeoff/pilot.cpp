@@ -13,11 +13,13 @@ namespace argand {
 
 namespace {
 
-// Squared bias over the variance of estimated light, of one pass at the widths for one pass, in this project's scenes, and up to
-// what factor (docs/results/targets.md).
+// Squared bias over the variance of estimated light, of one pass at the widths for one pass, in
+// this project's scenes, and up to what factor (docs/results/targets.md).
 constexpr double usual_bias = 0.17, spread_of_bias = 2.5;
 
-double variance_of(const Pair& pictures, const Image& guess) { return rel_variance(pictures, guess, guess); }
+double variance_of(const Pair& pictures, const Image& guess) {
+    return rel_variance(pictures, guess, guess);
+}
 
 /// What the pass after so many others adds to the mean of all.
 Image part_of(const Image& mean, const Image& before, double others) {
@@ -61,7 +63,8 @@ void PilotCourse::add(const PictureSoFar& so_far) {
     estimated_before_ = estimated;
     pilot_.passes = so_far.passes;
     pilot_.seconds = seconds_since(start_);
-    pilot_.seconds_per_pass = (pilot_.seconds - seconds_before_) / static_cast<double>(pilot_.passes - passes_before_);
+    pilot_.seconds_per_pass =
+        (pilot_.seconds - seconds_before_) / static_cast<double>(pilot_.passes - passes_before_);
     if (!is_narrow) {
         seconds_before_ = pilot_.seconds;
         passes_before_ = pilot_.passes;
@@ -72,7 +75,9 @@ Image best_guess(std::span<const Pilot> pilots) {
     Image best;
     double least = std::numeric_limits<double>::infinity();
     for (const Pilot& pilot : pilots) {
-        const auto half = [&](std::size_t i) { return smoothed(mean_of(pilot.wide.whole[i], pilot.narrow.whole[i])); };
+        const auto half = [&](std::size_t i) {
+            return smoothed(mean_of(pilot.wide.whole[i], pilot.narrow.whole[i]));
+        };
         const Image guess = guess_from({half(0), half(1)});
         const double variance = variance_of(pilot.narrow.whole, guess);
         if (variance < least || best.pixels.empty()) {
@@ -99,7 +104,9 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
     }
     const double wide = variance_of(pilot.wide.whole, guess);
     if (pilot.settings.method == "path") {
-        return {.fixed = 0.5 * (wide + variance_of(pilot.narrow.whole, guess)), .density = 0, .bias = {0, 0}};
+        return {.fixed = 0.5 * (wide + variance_of(pilot.narrow.whole, guess)),
+                .density = 0,
+                .bias = {0, 0}};
     }
     const double estimated = variance_of(pilot.wide.estimated, guess);
     const double growth = variance_of(pilot.narrow.estimated, guess) - estimated;
@@ -126,7 +133,8 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
     return model;
 }
 
-Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth, const Image& guess) {
+Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth,
+                 const Image& guess) {
     return posterior(usual_bias * model.estimated * bias_share(passes, model.wide), spread_of_bias,
                      squared_difference(estimated, truth, guess));
 }

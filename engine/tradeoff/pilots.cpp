@@ -23,22 +23,23 @@ bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
 } // namespace
 
 RenderResult Pilots::run(const RenderSettings& settings, double seconds, const GoOn& go_on) {
-    std::optional<PilotCourse> pilot;   // until it is complete
+    std::optional<PilotCourse> pilot; // until it is complete
     pilot.emplace(settings, [&](const Pilot& so_far) {
         return so_far.seconds > seconds || takes_few_passes(so_far, aim_);
     });
     OnPass next;
-    RenderResult result = render_(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
-        if (pilot) {
-            if (const std::optional<PassPlan> plan = (*pilot)(so_far)) {
-                return plan;
+    RenderResult result =
+        render_(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
+            if (pilot) {
+                if (const std::optional<PassPlan> plan = (*pilot)(so_far)) {
+                    return plan;
+                }
+                add(std::move(*pilot).take());
+                pilot.reset();
+                next = go_on();
             }
-            add(std::move(*pilot).take());
-            pilot.reset();
-            next = go_on();
-        }
-        return next ? next(so_far) : std::nullopt;
-    });
+            return next ? next(so_far) : std::nullopt;
+        });
     // There may be no random numbers for more passes.
     if (pilot && !result.statistics.interrupted) {
         add(std::move(*pilot).take());
@@ -55,7 +56,8 @@ bool Pilots::improve_truth(double seconds) {
         return true;
     }
     RenderSettings more = path->settings;
-    const double samples = std::floor(seconds / (pilot_passes * path->seconds_per_pass)) * more.samples;
+    const double samples =
+        std::floor(seconds / (pilot_passes * path->seconds_per_pass)) * more.samples;
     if (samples < 1) {
         return true;
     }
@@ -74,13 +76,15 @@ bool Pilots::improve_truth(double seconds) {
 }
 
 std::size_t Pilots::count(const std::string& method) const {
-    return static_cast<std::size_t>(std::count_if(
-        pilots_.begin(), pilots_.end(), [&](const Pilot& pilot) { return pilot.settings.method == method; }));
+    return static_cast<std::size_t>(
+        std::count_if(pilots_.begin(), pilots_.end(),
+                      [&](const Pilot& pilot) { return pilot.settings.method == method; }));
 }
 
 bool Pilots::last_is_best() const {
     const RenderSettings &last = pilots_.back().settings, &best = prospects_.front().settings;
-    return last.method == best.method && last.samples == best.samples && last.photons == best.photons;
+    return last.method == best.method && last.samples == best.samples &&
+           last.photons == best.photons;
 }
 
 void Pilots::add(Pilot pilot) {

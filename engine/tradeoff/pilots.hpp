@@ -10,7 +10,8 @@
 namespace argand {
 
 /// Renders the settings' samples and photons again and again, as argand::render with `on_pass`.
-using RenderPasses = std::function<RenderResult(const RenderSettings& settings, const OnPass& on_pass)>;
+using RenderPasses =
+    std::function<RenderResult(const RenderSettings& settings, const OnPass& on_pass)>;
 
 /// Asked when a pilot is complete for what goes on from its passes; nothing: they are thrown away.
 using GoOn = std::function<OnPass()>;
@@ -22,11 +23,12 @@ public:
     Pilots(const RenderPasses& render, const Aim& aim, bool with_path)
         : render_(render), aim_(aim), with_path_(with_path) {}
 
-    /// Runs one more, which ends early after so many seconds, and what goes on from it. While `go_on` is asked, the prospects
-    /// are such that the last pilot goes on.
+    /// Runs one more, which ends early after so many seconds, and what goes on from it. While
+    /// `go_on` is asked, the prospects are such that the last pilot goes on.
     RenderResult run(const RenderSettings& settings, double seconds, const GoOn& go_on);
 
-    /// More samples of path, which tell the others' bias, for so many seconds. Returns false if it was interrupted.
+    /// More samples of path, which tell the others' bias, for so many seconds. Returns false if it
+    /// was interrupted.
     bool improve_truth(double seconds);
 
     /// The estimated light without bias, once path has run.
@@ -56,7 +58,7 @@ private:
     std::optional<Pair> truth_;
     double truth_samples_ = 0, seconds_ = 0;
     std::vector<Pilot> pilots_;
-    std::vector<ErrorModel> models_;    ///< of each
+    std::vector<ErrorModel> models_; ///< of each
     std::vector<Prospect> prospects_;
 };
 

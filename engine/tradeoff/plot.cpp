@@ -1,5 +1,5 @@
-#include "base/text.hpp"
 #include "tradeoff/plot.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,13 @@ namespace argand {
 
 namespace {
 
-constexpr double left = 90, right = 170, top = 70, bottom = 70;     // margins
-constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, front_color = 0x666666, noise_color = 0xc04000;
+constexpr double left = 90, right = 170, top = 70, bottom = 70; // margins
+constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, front_color = 0x666666,
+                        noise_color = 0xc04000;
 
 /// Colours that stay apart to colour-blind eyes (Okabe and Ito 2008, "Color Universal Design").
-constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0xd55e00, 0x56b4e9, 0xf0e442};
+constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
+                                               0xd55e00, 0x56b4e9, 0xf0e442};
 
 std::uint32_t color_of(const std::string& method) {
     const std::vector<std::string> methods = method_names();
@@ -28,7 +30,7 @@ struct Frame {
 
     Place at(double seconds, double error) const {
         const auto share = [](const LogAxis& axis, double value) {
-            return std::log(value / axis.low) / std::log(axis.high / axis.low);     // low < high
+            return std::log(value / axis.low) / std::log(axis.high / axis.low); // low < high
         };
         return {left + share(x, seconds) * (width - left - right),
                 height - bottom - share(y, error) * (height - top - bottom)};
@@ -41,14 +43,18 @@ bool can_be_drawn(const Measurement& m) {
     return std::isfinite(m.rel_mse.mean) && m.wall_seconds > least_seconds;
 }
 
-bool is_clamped(const Results& results, const Measurement& m) { return m.rel_mse.mean < results.least_error; }
-
-bool any_clamped(const Results& results) {
-    return std::any_of(results.measurements.begin(), results.measurements.end(),
-                       [&](const Measurement& m) { return can_be_drawn(m) && is_clamped(results, m); });
+bool is_clamped(const Results& results, const Measurement& m) {
+    return m.rel_mse.mean < results.least_error;
 }
 
-/// Where errors begin to be about as small as what they are measured with; nothing if no error comes near that.
+bool any_clamped(const Results& results) {
+    return std::any_of(
+        results.measurements.begin(), results.measurements.end(),
+        [&](const Measurement& m) { return can_be_drawn(m) && is_clamped(results, m); });
+}
+
+/// Where errors begin to be about as small as what they are measured with; nothing if no error
+/// comes near that.
 std::optional<double> noise_level(const Results& results) {
     if (results.reference_error && *results.reference_error > results.least_error) {
         return results.reference_error;
@@ -57,13 +63,16 @@ std::optional<double> noise_level(const Results& results) {
 }
 
 std::string title_of(const Results& results, const Measurement& m) {
-    std::string title = m.knob == "default" ? m.method + ", default" : fmt::format("{}, {} {}", m.method, m.knob, m.value);
-    title += fmt::format("\n{:.3g} s, relMSE {:.3g} ± {:.1g}", m.wall_seconds, m.rel_mse.mean, m.rel_mse.deviation);
+    std::string title = m.knob == "default" ? m.method + ", default"
+                                            : fmt::format("{}, {} {}", m.method, m.knob, m.value);
+    title += fmt::format("\n{:.3g} s, relMSE {:.3g} ± {:.1g}", m.wall_seconds, m.rel_mse.mean,
+                         m.rel_mse.deviation);
     if (m.bias) {
         title += fmt::format("\nsquared bias {:.2g}, variance {:.2g}", *m.bias, *m.variance);
     }
     if (is_clamped(results, m)) {
-        title += "\nno error that could be told from none: it counts as " + fmt::format("{:.2g}", results.least_error);
+        title += "\nno error that could be told from none: it counts as " +
+                 fmt::format("{:.2g}", results.least_error);
     } else if (results.reference_error && m.rel_mse.mean < *results.reference_error) {
         title += "\nless than the reference's own error: uncertain";
     }
@@ -75,7 +84,8 @@ void add_axes(Plot& plot, const Frame& frame) {
     for (const double tick : frame.x.ticks) {
         const Place low = frame.at(tick, frame.y.low);
         plot.lines.push_back({low, frame.at(tick, frame.y.high), grid, 1});
-        plot.labels.push_back({{low.x, low.y + 18}, Align::middle, fmt::format("{:g}", tick), black});
+        plot.labels.push_back(
+            {{low.x, low.y + 18}, Align::middle, fmt::format("{:g}", tick), black});
     }
     for (const double tick : frame.y.ticks) {
         const Place low = frame.at(frame.x.low, tick);
@@ -86,21 +96,25 @@ void add_axes(Plot& plot, const Frame& frame) {
     const Place end = frame.at(frame.x.high, frame.y.high);
     plot.lines.push_back({origin, {end.x, origin.y}, black, 1.5});
     plot.lines.push_back({origin, {origin.x, end.y}, black, 1.5});
-    plot.labels.push_back({{0.5 * (origin.x + end.x), origin.y + 44}, Align::middle, "seconds to render", black});
+    plot.labels.push_back(
+        {{0.5 * (origin.x + end.x), origin.y + 44}, Align::middle, "seconds to render", black});
     plot.labels.push_back({{16, end.y - 26}, Align::left, "error (relMSE)", black});
 }
 
 /// What it is of, and which way is better.
 void add_title(Plot& plot, const Results& results) {
-    constexpr std::size_t longest_name = 40;    // that there is room for
+    constexpr std::size_t longest_name = 40; // that there is room for
     std::string title = "Error against time";
     if (results.run.contains("scene")) {
-        title = one_line(results.run.at("scene").get<std::string>(), longest_name) + ": error against time";
+        title = one_line(results.run.at("scene").get<std::string>(), longest_name) +
+                ": error against time";
     }
     const double middle = 0.5 * (left + plot.width - right);
     plot.labels.push_back({{middle, 18}, PlotLabel::Align::middle, title, black});
-    plot.labels.push_back({{middle, 42}, PlotLabel::Align::middle,
-                           "better is down (more exact) and to the left (quicker)", gray});
+    plot.labels.push_back({{middle, 42},
+                           PlotLabel::Align::middle,
+                           "better is down (more exact) and to the left (quicker)",
+                           gray});
 }
 
 void add_noise(Plot& plot, const Results& results, const Frame& frame) {
@@ -109,8 +123,11 @@ void add_noise(Plot& plot, const Results& results, const Frame& frame) {
         plot.lines.push_back({from, frame.at(frame.x.high, *level), noise_color, 1.5});
         // The lower left is empty: what would be there would be the best of all.
         const bool is_noise = *level > results.least_error;
-        plot.labels.push_back({{from.x + 8, from.y + (is_noise ? 12 : -12)}, PlotLabel::Align::left,
-                               is_noise ? "below: within the reference's noise" : "on this line: no error found", noise_color});
+        plot.labels.push_back(
+            {{from.x + 8, from.y + (is_noise ? 12 : -12)},
+             PlotLabel::Align::left,
+             is_noise ? "below: within the reference's noise" : "on this line: no error found",
+             noise_color});
     }
 }
 
@@ -210,7 +227,8 @@ Plot lay_out(const Results& results) {
     if (any_clamped(results)) {
         y = cut_below(y, results.least_error);
     }
-    const Frame frame{log_axis(times), y, static_cast<double>(plot.width), static_cast<double>(plot.height)};
+    const Frame frame{log_axis(times), y, static_cast<double>(plot.width),
+                      static_cast<double>(plot.height)};
     add_axes(plot, frame);
     add_title(plot, results);
     add_noise(plot, results, frame);
@@ -227,8 +245,9 @@ Plot lay_out(const Results& results) {
     for (std::size_t i = 0; i < results.measurements.size(); ++i) {
         const Measurement& m = results.measurements[i];
         if (can_be_drawn(m)) {
-            plot.points.push_back({frame.at(m.wall_seconds, counted_error(results, m)), color_of(m.method),
-                                   std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
+            plot.points.push_back(
+                {frame.at(m.wall_seconds, counted_error(results, m)), color_of(m.method),
+                 std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
         }
     }
     add_legend(plot, results);

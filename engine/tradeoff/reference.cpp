@@ -48,7 +48,8 @@ double least_error_of(const Reference& reference) {
         return rounding_error;
     }
     double sum = 0, squares = 0;
-    for (const double x : rel_products(reference.a, reference.b, reference.a, reference.b, reference.mean())) {
+    for (const double x :
+         rel_products(reference.a, reference.b, reference.a, reference.b, reference.mean())) {
         sum += x;
         squares += x * x;
     }
@@ -81,7 +82,8 @@ std::optional<Reference> render_reference(const RenderTrials& render, const Rend
         }
         // Twice as many, or as many as there is time for.
         const double round_seconds = std::max(seconds_since(start) - before, 1e-6);
-        samples = std::floor(samples * std::min(2.0, (seconds - seconds_since(start)) / round_seconds));
+        samples =
+            std::floor(samples * std::min(2.0, (seconds - seconds_since(start)) / round_seconds));
         if (samples < 1) {
             return reference;
         }
@@ -94,11 +96,12 @@ Reference read_reference(const std::vector<std::filesystem::path>& files, int wi
         const std::vector<Layer> layers = read_image(file);
         const Image* image = find_layer(layers, "");
         if (!image) {
-            fail("reading the reference '{}': it has no channels R, G, B of the whole picture", file.string());
+            fail("reading the reference '{}': it has no channels R, G, B of the whole picture",
+                 file.string());
         }
         if (image->width != width || image->height != height) {
-            fail("reading the reference '{}': it has {} × {} pixels; give --size {}x{}", file.string(), image->width,
-                 image->height, image->width, image->height);
+            fail("reading the reference '{}': it has {} × {} pixels; give --size {}x{}",
+                 file.string(), image->width, image->height, image->width, image->height);
         }
         images.push_back(*image);
     }
@@ -110,7 +113,8 @@ Reference read_reference(const std::vector<std::filesystem::path>& files, int wi
 }
 
 void write_reference(const std::filesystem::path& file, const Reference& reference) {
-    write_exr(file, std::array{Layer{"", reference.mean()}, Layer{"a", reference.a}, Layer{"b", reference.b}});
+    write_exr(file, std::array{Layer{"", reference.mean()}, Layer{"a", reference.a},
+                               Layer{"b", reference.b}});
 }
 
 Reference reread_reference(const std::filesystem::path& file) {
@@ -123,7 +127,8 @@ Reference reread_reference(const std::filesystem::path& file) {
     const Image* a = find_layer(layers, "a");
     const Image* b = find_layer(layers, "b");
     if (!a || !b) {
-        fail("reading the reference '{}': it is not of a sweep; remove it, and it is made again", file.string());
+        fail("reading the reference '{}': it is not of a sweep; remove it, and it is made again",
+             file.string());
     }
     return {.a = *a, .b = *b};
 }

@@ -47,7 +47,8 @@ Results results_from(const Json& json) {
 Json to_json(const Results& results) {
     Json learnt = Json::object();
     for (const auto& [method, widths] : results.learnt) {
-        learnt[method] = {{"radius", widths.radius}, {"k", widths.neighbours}, {"smoothing", widths.smoothing}};
+        learnt[method] = {
+            {"radius", widths.radius}, {"k", widths.neighbours}, {"smoothing", widths.smoothing}};
     }
     Json measurements = Json::array();
     for (const Measurement& measurement : results.measurements) {
@@ -72,12 +73,15 @@ Results read_results(const std::filesystem::path& file) try {
     const std::vector<std::uint8_t> bytes = read_file(file);
     return results_from(Json::parse(bytes.begin(), bytes.end()));
 } catch (const nlohmann::json::exception&) {
-    fail("going on with '{}': it is not what `argand tradeoff` writes; remove it, or name another folder", file.string());
+    fail("going on with '{}': it is not what `argand tradeoff` writes; remove it, or name another "
+         "folder",
+         file.string());
 }
 
 double counted_error(const Results& results, const Measurement& measurement) {
     const double error = measurement.rel_mse.mean;
-    return std::isfinite(error) ? std::max(error, results.least_error) : std::numeric_limits<double>::infinity();
+    return std::isfinite(error) ? std::max(error, results.least_error)
+                                : std::numeric_limits<double>::infinity();
 }
 
 std::vector<std::size_t> front_of(const Results& results) {
@@ -90,15 +94,17 @@ std::vector<std::size_t> front_of(const Results& results) {
 
 std::string to_csv(const Results& results) {
     const std::vector<std::size_t> front = front_of(results);
-    std::string csv = "method,knob,value,wall_seconds,device_seconds,peak_bytes,relMSE,relMSE_deviation,SSIM,"
-                      "SSIM_deviation,squared_bias,variance,seeds,on_front,options\n";
+    std::string csv =
+        "method,knob,value,wall_seconds,device_seconds,peak_bytes,relMSE,relMSE_deviation,SSIM,"
+        "SSIM_deviation,squared_bias,variance,seeds,on_front,options\n";
     for (std::size_t i = 0; i < results.measurements.size(); ++i) {
         const Measurement& m = results.measurements[i];
         const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", m.method, m.knob, m.value,
-                           cell(m.wall_seconds), cell(m.device_seconds), m.peak_bytes, cell(m.rel_mse.mean),
-                           cell(m.rel_mse.deviation), cell(m.ssim.mean), cell(m.ssim.deviation), cell(m.bias),
-                           cell(m.variance), m.seeds, on_front ? 1 : 0, m.options);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", m.method, m.knob,
+                           m.value, cell(m.wall_seconds), cell(m.device_seconds), m.peak_bytes,
+                           cell(m.rel_mse.mean), cell(m.rel_mse.deviation), cell(m.ssim.mean),
+                           cell(m.ssim.deviation), cell(m.bias), cell(m.variance), m.seeds,
+                           on_front ? 1 : 0, m.options);
     }
     return csv;
 }

@@ -14,7 +14,8 @@ namespace argand {
 
 namespace {
 
-/// Turns a knob. The option's value is read from the settings' parameters, so that it is spelt as a user would.
+/// Turns a knob. The option's value is read from the settings' parameters, so that it is spelt as a
+/// user would.
 using Turn = std::function<void(RenderSettings&)>;
 
 /// The settings of one method.
@@ -34,7 +35,8 @@ public:
     }
 
     template <class T>
-    void turn(const std::string& knob, std::initializer_list<T> values, void (*set)(RenderSettings&, T)) {
+    void turn(const std::string& knob, std::initializer_list<T> values,
+              void (*set)(RenderSettings&, T)) {
         for (const T value : values) {
             turn(knob, [&](RenderSettings& settings) { set(settings, value); });
         }
@@ -68,14 +70,17 @@ void turn_widths(MethodSweep& sweep, const RenderStatistics& learnt) {
     const std::string& method = sweep.base().method;
     for (const double factor : widths) {
         if (learnt.radius > 0) {
-            sweep.turn("radius", [&](RenderSettings& s) { s.radius = rounded(factor * learnt.radius); });
+            sweep.turn("radius",
+                       [&](RenderSettings& s) { s.radius = rounded(factor * learnt.radius); });
         }
         if (method == "knn" && learnt.neighbours > 0) {
             const auto k = static_cast<std::uint32_t>(std::max(factor * learnt.neighbours, 2.0));
             sweep.turn("k", [&](RenderSettings& s) { s.neighbours = k; });
         }
         if (method == "footprints" && learnt.smoothing > 0) {
-            sweep.turn("smoothing", [&](RenderSettings& s) { s.footprints.smoothing = rounded(factor * learnt.smoothing); });
+            sweep.turn("smoothing", [&](RenderSettings& s) {
+                s.footprints.smoothing = rounded(factor * learnt.smoothing);
+            });
         }
     }
 }
@@ -83,10 +88,13 @@ void turn_widths(MethodSweep& sweep, const RenderStatistics& learnt) {
 void turn_footprints(MethodSweep& sweep, const SceneUse& use) {
     if (use.followed) {
         for (const double factor : widths) {
-            sweep.turn("caustic-smoothing", [&](RenderSettings& s) { s.footprints.caustic_smoothing *= factor; });
+            sweep.turn("caustic-smoothing",
+                       [&](RenderSettings& s) { s.footprints.caustic_smoothing *= factor; });
         }
     }
-    sweep.turn("flatness", {0.1, 1.0}, +[](RenderSettings& s, double value) { s.footprints.flatness = value; });
+    sweep.turn(
+        "flatness", {0.1, 1.0},
+        +[](RenderSettings& s, double value) { s.footprints.flatness = value; });
     sweep.turn("uniform-kernel", [](RenderSettings& s) { s.footprints.uniform_kernel = true; });
     sweep.turn("paper-axes", [](RenderSettings& s) { s.footprints.paper_axes = true; });
     sweep.turn("paper-reemission", [](RenderSettings& s) { s.footprints.paper_reemission = true; });
@@ -94,8 +102,11 @@ void turn_footprints(MethodSweep& sweep, const SceneUse& use) {
 
 /// What all photon maps have.
 void turn_map(MethodSweep& sweep) {
-    sweep.turn("query-cell", {0.0, 0.5}, +[](RenderSettings& s, double value) { s.query_cell = value; });
-    sweep.turn("leaf-size", {4u, 16u, 64u}, +[](RenderSettings& s, unsigned value) { s.footprints.leaf_size = value; });
+    sweep.turn(
+        "query-cell", {0.0, 0.5}, +[](RenderSettings& s, double value) { s.query_cell = value; });
+    sweep.turn(
+        "leaf-size", {4u, 16u, 64u},
+        +[](RenderSettings& s, unsigned value) { s.footprints.leaf_size = value; });
     sweep.turn("wide-codes", [](RenderSettings& s) { s.wide_codes = true; });
     sweep.turn("photon-sampling", [](RenderSettings& s) { s.photon_sampling = Sampling::random; });
     sweep.turn("final-gather", [](RenderSettings& s) { s.final_gather = true; });
@@ -139,8 +150,9 @@ void turn_followed(MethodSweep& sweep, const Scene& scene) {
     }
 }
 
-std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base, const SceneUse& use,
-                                  const RenderStatistics& learnt, Extent extent) {
+std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base,
+                                  const SceneUse& use, const RenderStatistics& learnt,
+                                  Extent extent) {
     MethodSweep sweep(base);
     const bool full = extent == Extent::full;
     const bool asks = base.method != "path" && use.estimated && base.bounces > 0;
@@ -162,7 +174,8 @@ std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base
         }
     }
     if (full && use.estimated) {
-        sweep.turn("bounces", {1u, 4u}, +[](RenderSettings& s, unsigned value) { s.bounces = value; });
+        sweep.turn(
+            "bounces", {1u, 4u}, +[](RenderSettings& s, unsigned value) { s.bounces = value; });
     }
     if (full && asks && use.glossy) {
         turn_followed(sweep, scene);
@@ -180,8 +193,9 @@ SceneUse use_of(const Scene& scene, const RenderSettings& base) {
             .glossy = plan.needs(Feature::ggx) || plan.needs(Feature::phong)};
 }
 
-std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base, const std::vector<std::string>& methods,
-                           const LearntWidths& learnt, Extent extent) {
+std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base,
+                           const std::vector<std::string>& methods, const LearntWidths& learnt,
+                           Extent extent) {
     const SceneUse use = use_of(scene, base);
     std::vector<Setting> all;
     std::set<std::string> seen;
@@ -193,7 +207,8 @@ std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base, const
         of_method.method = method;
         const auto found = learnt.find(method);
         const std::vector<Setting> some =
-            sweep_method(scene, of_method, use, found == learnt.end() ? RenderStatistics() : found->second, extent);
+            sweep_method(scene, of_method, use,
+                         found == learnt.end() ? RenderStatistics() : found->second, extent);
         all.insert(all.end(), some.begin(), some.end());
     }
     return all;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::uint32_t, 1> pilot_seed{0x40000000u};     // which no setting has
+constexpr std::array<std::uint32_t, 1> pilot_seed{0x40000000u}; // which no setting has
 
 fs::path results_file(const fs::path& folder) { return folder / "tradeoff.json"; }
 fs::path reference_file(const fs::path& folder) { return folder / "reference.exr"; }
@@ -44,7 +44,8 @@ nlohmann::ordered_json run_of(const TradeoffRequest& request) {
     run["seeds"] = request.seeds;
     for (const fs::path& file : request.reference_files) {
         const std::vector<std::uint8_t> bytes = read_file(file);
-        run["references"].push_back(fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes)))));
+        run["references"].push_back(
+            fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes)))));
     }
     return run;
 }
@@ -68,8 +69,8 @@ RenderTrials without_bad_alloc(const RenderTrials& render) {
 /// Whether a render was finished.
 enum class Outcome { rendered, failed, interrupted };
 
-/// One render of a setting, whose picture is to be had without counting as measured: where it fails, for want of memory
-/// say, other settings can be measured all the same.
+/// One render of a setting, whose picture is to be had without counting as measured: where it
+/// fails, for want of memory say, other settings can be measured all the same.
 Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Trial& trial) {
     try {
         std::optional<Trials> pilot = render(settings, pilot_seed);
@@ -83,8 +84,10 @@ Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Tr
     }
 }
 
-/// What each method chooses for the base by itself, if it can be rendered; false if it was interrupted.
-bool learn_widths(const TradeoffRequest& request, const RenderTrials& render, LearntWidths& learnt) {
+/// What each method chooses for the base by itself, if it can be rendered; false if it was
+/// interrupted.
+bool learn_widths(const TradeoffRequest& request, const RenderTrials& render,
+                  LearntWidths& learnt) {
     for (const std::string& method : request.methods) {
         if (method == "path" || learnt.contains(method)) {
             continue;
@@ -106,9 +109,10 @@ bool learn_widths(const TradeoffRequest& request, const RenderTrials& render, Le
 /// A setting for each number of photons and samples, the most first.
 using ByWork = std::map<std::pair<std::uint64_t, std::uint64_t>, RenderSettings, std::greater<>>;
 
-/// Of each method, a picture of the setting that takes the most photons and samples and can be rendered: about the least
-/// errors that there are going to be. Nothing if it was interrupted.
-std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& settings, const RenderTrials& render) {
+/// Of each method, a picture of the setting that takes the most photons and samples and can be
+/// rendered: about the least errors that there are going to be. Nothing if it was interrupted.
+std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& settings,
+                                                const RenderTrials& render) {
     std::map<std::string, ByWork> methods;
     for (const Setting& setting : settings) {
         const RenderSettings& s = setting.render;
@@ -131,10 +135,12 @@ std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& sett
     return pictures;
 }
 
-std::optional<Reference> make_reference(const TradeoffRequest& request, const std::vector<Setting>& settings,
+std::optional<Reference> make_reference(const TradeoffRequest& request,
+                                        const std::vector<Setting>& settings,
                                         const RenderTrials& render) {
     const std::optional<std::vector<Image>> pilots = render_pilots(settings, render);
-    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds) : std::nullopt;
+    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds)
+                  : std::nullopt;
 }
 
 /// A setting's picture, by name so that a user finds it.
@@ -144,8 +150,8 @@ std::string picture_file(const Setting& setting) {
 }
 
 /// Adds a measurement or a failure; false if it was interrupted.
-bool measure_setting(const TradeoffRequest& request, const Setting& setting, const RenderTrials& render,
-                     const Reference& reference, Results& results) {
+bool measure_setting(const TradeoffRequest& request, const Setting& setting,
+                     const RenderTrials& render, const Reference& reference, Results& results) {
     std::vector<std::uint32_t> seeds(request.seeds);
     std::iota(seeds.begin(), seeds.end(), 0u);
     std::optional<Trials> trials;
@@ -160,7 +166,8 @@ bool measure_setting(const TradeoffRequest& request, const Setting& setting, con
     }
     Measurement measurement = measure(setting, *trials, reference);
     measurement.picture = picture_file(setting);
-    write_exr(request.folder / measurement.picture, std::array{Layer{"", trials->trials[0].picture}});
+    write_exr(request.folder / measurement.picture,
+              std::array{Layer{"", trials->trials[0].picture}});
     results.measurements.push_back(std::move(measurement));
     return true;
 }
@@ -171,29 +178,32 @@ std::string differences(const nlohmann::ordered_json& before, const nlohmann::or
         if (!run.contains(key)) {
             return std::string("none");
         }
-        return run.at(key).is_string() ? one_line(run.at(key).get<std::string>()) : run.at(key).dump();
+        return run.at(key).is_string() ? one_line(run.at(key).get<std::string>())
+                                       : run.at(key).dump();
     };
     nlohmann::ordered_json keys = before;
     keys.update(now);
     std::vector<std::string> texts;
     for (const auto& [key, any] : keys.items()) {
         if (value(before, key) != value(now, key)) {
-            texts.push_back(fmt::format("{} ({}, now {})", key, value(before, key), value(now, key)));
+            texts.push_back(
+                fmt::format("{} ({}, now {})", key, value(before, key), value(now, key)));
         }
     }
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 /// The results so far, which are those of the same run. Nothing if there are none.
-std::optional<Results> results_before(const TradeoffRequest& request, const nlohmann::ordered_json& run) {
+std::optional<Results> results_before(const TradeoffRequest& request,
+                                      const nlohmann::ordered_json& run) {
     const fs::path file = results_file(request.folder);
     if (!fs::exists(file)) {
         return std::nullopt;
     }
     Results results = read_results(file);
     if (results.run != run) {
-        fail("going on with '{}': it is of another {}; remove the folder, or name another with -o", file.string(),
-             differences(results.run, run));
+        fail("going on with '{}': it is of another {}; remove the folder, or name another with -o",
+             file.string(), differences(results.run, run));
     }
     std::erase_if(results.measurements,
                   [&](const Measurement& m) { return !fs::exists(request.folder / m.picture); });
@@ -206,16 +216,16 @@ std::vector<Setting> not_measured(const std::vector<Setting>& settings, const Re
         known.insert(measurement.key);
     }
     std::vector<Setting> open;
-    std::copy_if(settings.begin(), settings.end(), std::back_inserter(open), [&](const Setting& setting) {
-        return !known.contains(parameter_key(setting.render));
-    });
+    std::copy_if(
+        settings.begin(), settings.end(), std::back_inserter(open),
+        [&](const Setting& setting) { return !known.contains(parameter_key(setting.render)); });
     return open;
 }
 
 } // namespace
 
-Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, const RenderTrials& trials,
-                         const OnStep& on_step) {
+Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
+                         const RenderTrials& trials, const OnStep& on_step) {
     const RenderTrials render = without_bad_alloc(trials);
     const nlohmann::ordered_json run = run_of(request);
     const std::optional<Results> before = results_before(request, run);
@@ -224,7 +234,8 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, con
     if (is_kept) {
         reference = reread_reference(reference_file(request.folder));
     } else if (!request.reference_files.empty()) {
-        reference = read_reference(request.reference_files, request.base.width, request.base.height);
+        reference =
+            read_reference(request.reference_files, request.base.width, request.base.height);
     }
     make_folder(request.folder / "pictures");
     Results results = before.value_or(Results{.run = run});
@@ -234,7 +245,8 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene, con
     if (!learn_widths(request, render, results.learnt)) {
         return results;
     }
-    const std::vector<Setting> settings = sweep(scene, request.base, request.methods, results.learnt, request.extent);
+    const std::vector<Setting> settings =
+        sweep(scene, request.base, request.methods, results.learnt, request.extent);
     if (!reference) {
         reference = make_reference(request, settings, render);
     }

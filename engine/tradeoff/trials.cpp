@@ -45,8 +45,10 @@ std::optional<Trial> render_once(Device& device, const Scene& scene, const Rende
 
 } // namespace
 
-RenderTrials trials_on_device(const OpenDevice& open, const Scene& scene, const std::function<bool()>& go_on) {
-    return [=, &scene](RenderSettings settings, std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
+RenderTrials trials_on_device(const OpenDevice& open, const Scene& scene,
+                              const std::function<bool()>& go_on) {
+    return [=, &scene](RenderSettings settings,
+                       std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
         const std::unique_ptr<Device> device = open();
         if (!render_once(*device, scene, warm_up(settings), go_on)) {
             return std::nullopt;

@@ -1,6 +1,6 @@
-// Included first by every twin. A twin is the text of a kernel (shaders/shared/kernels/) as the member functions of a
-// struct, whose members are what the GLSL kernel declares: compiled by nvcc it runs on a GPU, compiled as C++ on the
-// host's cores.
+// Included first by every twin. A twin is the text of a kernel (shaders/shared/kernels/) as the
+// member functions of a struct, whose members are what the GLSL kernel declares: compiled by nvcc
+// it runs on a GPU, compiled as C++ on the host's cores.
 #ifndef ARGAND_CUDA_KERNEL_H
 #define ARGAND_CUDA_KERNEL_H
 
@@ -8,7 +8,8 @@
 #include "shared/prelude.h"
 
 #define THREAD_INDEX thread_index
-// What is read at random and much: by 16 bytes at a time, which GLM's vectors, aligned to 4, do not tell nvcc.
+// What is read at random and much: by 16 bytes at a time, which GLM's vectors, aligned to 4, do not
+// tell nvcc.
 #define NODES(i) read4(nodes, i)
 #define PHOTONS(i) read4(photons, i)
 #define FOOTPRINTS(i) read4(footprints, i)
@@ -26,26 +27,30 @@ __device__ inline vec4 read4(const vec4* from, uint i) {
     return vec4(v.x, v.y, v.z, v.w);
 }
 #else
-template <class T>
-FN T read4(const T* from, uint i) { return from[i]; }
+template <class T> FN T read4(const T* from, uint i) { return from[i]; }
 #endif
 
 #ifdef __CUDA_ARCH__
 __device__ inline uint atomicAdd(uint& to, uint value) { return ::atomicAdd(&to, value); }
 __device__ inline uint atomicMin(uint& to, uint value) { return ::atomicMin(&to, value); }
 __device__ inline uint atomicExchange(uint& to, uint value) { return ::atomicExch(&to, value); }
-__device__ inline uint atomicCompSwap(uint& to, uint expected, uint value) { return ::atomicCAS(&to, expected, value); }
+__device__ inline uint atomicCompSwap(uint& to, uint expected, uint value) {
+    return ::atomicCAS(&to, expected, value);
+}
 #define MEMORY_FENCE() __threadfence()
 #else
 FN uint atomicAdd(uint& to, uint value) { return __atomic_fetch_add(&to, value, __ATOMIC_ACQ_REL); }
-FN uint atomicExchange(uint& to, uint value) { return __atomic_exchange_n(&to, value, __ATOMIC_ACQ_REL); }
+FN uint atomicExchange(uint& to, uint value) {
+    return __atomic_exchange_n(&to, value, __ATOMIC_ACQ_REL);
+}
 FN uint atomicCompSwap(uint& to, uint expected, uint value) {
     __atomic_compare_exchange_n(&to, &expected, value, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE);
     return expected;
 }
 FN uint atomicMin(uint& to, uint value) {
     uint old = __atomic_load_n(&to, __ATOMIC_RELAXED);
-    while (value < old && !__atomic_compare_exchange_n(&to, &old, value, false, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED)) {
+    while (value < old && !__atomic_compare_exchange_n(&to, &old, value, false, __ATOMIC_ACQ_REL,
+                                                       __ATOMIC_RELAXED)) {
     }
     return old;
 }
@@ -57,42 +62,43 @@ FN uint atomicMin(uint& to, uint value) {
 #ifdef __CUDACC__
 
 // Grid-stride loops, so that a count that only the device knows needs no launch of its own size.
-#define ARGAND_TWIN(name)                                                                                              \
-    namespace argand::twins {                                                                                          \
-    __global__ void __launch_bounds__(128) name##_kernel(const __grid_constant__ name##_arguments arguments,           \
-                                                         std::uint64_t threads, const std::uint32_t* count) {          \
-        name kernel{arguments};                                                                                        \
-        const std::uint64_t end = count != nullptr ? *count : threads;                                                 \
-        for (std::uint64_t i = blockIdx.x * std::uint64_t(blockDim.x) + threadIdx.x; i < end;                          \
-             i += std::uint64_t(gridDim.x) * blockDim.x) {                                                             \
-            kernel.thread_index = static_cast<uint>(i);                                                                \
-            kernel.main();                                                                                             \
-        }                                                                                                              \
-    }                                                                                                                  \
-    }                                                                                                                  \
-    namespace argand::kernels {                                                                                        \
-    LaunchOnCuda cuda_##name;                                                                                          \
-    void cuda_##name(const TwinArguments& arguments, std::uint64_t threads, const std::uint32_t* count,                \
-                     void* stream) {                                                                                   \
-        const std::uint64_t groups = (threads + 127) / 128;                                                            \
-        twins::name##_kernel<<<static_cast<unsigned>(groups < 65536 ? groups : 65536), 128, 0,                 \
-                                       static_cast<cudaStream_t>(stream)>>>(twins::arguments_of(arguments), threads,   \
-                                                                            count);                                    \
-    }                                                                                                                  \
+#define ARGAND_TWIN(name)                                                                          \
+    namespace argand::twins {                                                                      \
+    __global__ void __launch_bounds__(128) name                                                    \
+        ##_kernel(const __grid_constant__ name##_arguments arguments, std::uint64_t threads,       \
+                  const std::uint32_t* count) {                                                    \
+        name kernel{arguments};                                                                    \
+        const std::uint64_t end = count != nullptr ? *count : threads;                             \
+        for (std::uint64_t i = blockIdx.x * std::uint64_t(blockDim.x) + threadIdx.x; i < end;      \
+             i += std::uint64_t(gridDim.x) * blockDim.x) {                                         \
+            kernel.thread_index = static_cast<uint>(i);                                            \
+            kernel.main();                                                                         \
+        }                                                                                          \
+    }                                                                                              \
+    }                                                                                              \
+    namespace argand::kernels {                                                                    \
+    LaunchOnCuda cuda_##name;                                                                      \
+    void cuda_##name(const TwinArguments& arguments, std::uint64_t threads,                        \
+                     const std::uint32_t* count, void* stream) {                                   \
+        const std::uint64_t groups = (threads + 127) / 128;                                        \
+        twins::name##_kernel<<<static_cast<unsigned>(groups < 65536 ? groups : 65536), 128, 0,     \
+                               static_cast<cudaStream_t>(stream)>>>(                               \
+            twins::arguments_of(arguments), threads, count);                                       \
+    }                                                                                              \
     }
 
 #else
 
-#define ARGAND_TWIN(name)                                                                                              \
-    namespace argand::kernels {                                                                                        \
-    RunOnHost twin_##name;                                                                                             \
-    void twin_##name(const TwinArguments& arguments, std::uint64_t first, std::uint64_t end) {                         \
-        twins::name kernel{twins::arguments_of(arguments)};                                                            \
-        for (std::uint64_t i = first; i < end; ++i) {                                                                  \
-            kernel.thread_index = static_cast<uint>(i);                                                                \
-            kernel.main();                                                                                             \
-        }                                                                                                              \
-    }                                                                                                                  \
+#define ARGAND_TWIN(name)                                                                          \
+    namespace argand::kernels {                                                                    \
+    RunOnHost twin_##name;                                                                         \
+    void twin_##name(const TwinArguments& arguments, std::uint64_t first, std::uint64_t end) {     \
+        twins::name kernel{twins::arguments_of(arguments)};                                        \
+        for (std::uint64_t i = first; i < end; ++i) {                                              \
+            kernel.thread_index = static_cast<uint>(i);                                            \
+            kernel.main();                                                                         \
+        }                                                                                          \
+    }                                                                                              \
     }
 
 #endif

@@ -1,14 +1,18 @@
-// The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume (of which only whether
-// there is a thickness), in the shading frame: wo and wi point away from the surface, and the frame is turned so that
-// wo.z > 0 whichever side wo is on. A sum of lobes, which all but the last are scaled by the surface's alpha (coverage):
-//   diffuse    Lambertian, under the dielectric's specular layer, or beside the specular lobe of modified Phong
-//   glossy     GGX reflection by metal and by the layer; or that of modified Phong
+// The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume
+// (of which only whether there is a thickness), in the shading frame: wo and wi point away from the
+// surface, and the frame is turned so that wo.z > 0 whichever side wo is on. A sum of lobes, which
+// all but the last are scaled by the surface's alpha (coverage):
+//   diffuse    Lambertian, under the dielectric's specular layer, or beside the specular lobe of
+//   modified Phong glossy     GGX reflection by metal and by the layer; or that of modified Phong
 //   mirror     the same where the surface is smooth; reflection by the border of a solid dielectric
-//   transmit   straight on through a thin wall, refracted at the border of a solid dielectric; tinted by the base
+//   transmit   straight on through a thin wall, refracted at the border of a solid dielectric;
+//   tinted by the base
 //              colour; always smooth
-//   pass       straight on and untinted, past the share of the surface that is not there (1 - alpha)
-// All of it is reciprocal, but for refraction's factor eta_scale. As in glTF, layer and base are mixed by Fresnel's
-// factor at the half vector: where wo grazes, a bright dielectric may reflect more than it receives.
+//   pass       straight on and untinted, past the share of the surface that is not there (1 -
+//   alpha)
+// All of it is reciprocal, but for refraction's factor eta_scale. As in glTF, layer and base are
+// mixed by Fresnel's factor at the half vector: where wo grazes, a bright dielectric may reflect
+// more than it receives.
 #ifndef ARGAND_SHARED_BSDF_H
 #define ARGAND_SHARED_BSDF_H
 
@@ -24,7 +28,7 @@ CONSTANT uint LOBE_GLOSSY = 2u;
 CONSTANT uint LOBE_MIRROR = 4u;
 CONSTANT uint LOBE_TRANSMIT = 8u;
 CONSTANT uint LOBE_PASS = 16u;
-CONSTANT uint LOBES_DELTA = 28u;    // mirror, transmit and pass
+CONSTANT uint LOBES_DELTA = 28u; // mirror, transmit and pass
 CONSTANT uint LOBES_ALL = 31u;
 
 // What a scene's materials may have besides: glossy lobes by GGX, by Phong, solids that refract.
@@ -33,53 +37,70 @@ CONSTANT uint MATERIAL_PHONG = 64u;
 CONSTANT uint MATERIAL_SOLID = 128u;
 CONSTANT uint MATERIAL_ALL = 255u;
 // What a metal or a dielectric's layer needs.
-CONSTANT uint MATERIAL_LAYER = 36u;     // GGX or mirror
+CONSTANT uint MATERIAL_LAYER = 36u; // GGX or mirror
 
 // Below, single precision cannot tell GGX from a mirror.
 CONSTANT real SMALLEST_ALPHA = real(1e-3);
 
 struct BsdfSample {
     vec3 wi;
-    vec3 weight;        // f |cos| / density, as flux scatters; radiance is to be multiplied by eta_scale as well
-    real pdf;           // solid-angle density; 0 for mirror, transmit and pass
+    vec3 weight; // f |cos| / density, as flux scatters; radiance is to be multiplied by eta_scale
+                 // as well
+    real pdf;    // solid-angle density; 0 for mirror, transmit and pass
     uint lobe;
-    real probability;   // with which this lobe was chosen
-    real eta_scale;     // by which refraction scales radiance: (index on wo's side / index on wi's side)²
+    real probability; // with which this lobe was chosen
+    real eta_scale;   // by which refraction scales radiance: (index on wo's side / index on wi's
+                      // side)²
 };
 
-// Whether some material of the scene has any of these. Kernels know it when they are specialised: of what no material has
-// there is no code left. For materials of the scene it never changes what comes out.
+// Whether some material of the scene has any of these. Kernels know it when they are specialised:
+// of what no material has there is no code left. For materials of the scene it never changes what
+// comes out.
 FN bool may_have(IN(MaterialRecord) m, uint bits) { return (m.absent & bits) != bits; }
-FN bool asks_for(IN(MaterialRecord) m, uint lobes, uint lobe) { return may_have(m, lobe) && (lobes & lobe) != 0u; }
+FN bool asks_for(IN(MaterialRecord) m, uint lobes, uint lobe) {
+    return may_have(m, lobe) && (lobes & lobe) != 0u;
+}
 
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
 // Modified Phong: no metal, nothing transparent, and a roughness as wide as the lobe.
-FN bool is_phong(IN(MaterialRecord) m) { return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0); }
-FN real coverage(IN(MaterialRecord) m) { return may_have(m, LOBE_PASS) ? real(m.coverage) : real(1.0); }
-FN real metallic(IN(MaterialRecord) m) { return may_have(m, MATERIAL_LAYER) ? real(m.metallic) : real(0.0); }
+FN bool is_phong(IN(MaterialRecord) m) {
+    return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0);
+}
+FN real coverage(IN(MaterialRecord) m) {
+    return may_have(m, LOBE_PASS) ? real(m.coverage) : real(1.0);
+}
+FN real metallic(IN(MaterialRecord) m) {
+    return may_have(m, MATERIAL_LAYER) ? real(m.metallic) : real(0.0);
+}
 FN real transmission(IN(MaterialRecord) m) {
     return may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID) ? real(m.transmission) : real(0.0);
 }
-FN vec3 phong_specular(IN(MaterialRecord) m) { return vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m); }
+FN vec3 phong_specular(IN(MaterialRecord) m) {
+    return vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m);
+}
 // It matters only for what a layer, metal or Phong's lobe reflects.
 FN bool roughness_is_delta(IN(MaterialRecord) m) {
     return may_have(m, LOBE_MIRROR) && (!may_have(m, LOBE_GLOSSY) || ggx_alpha(m) < SMALLEST_ALPHA);
 }
 
-// Shares of the surface: what is not there; metal; what is not metal, split by the transmission factor.
+// Shares of the surface: what is not there; metal; what is not metal, split by the transmission
+// factor.
 FN real pass_share(IN(MaterialRecord) m) { return real(1.0) - coverage(m); }
 FN real metal_share(IN(MaterialRecord) m) { return coverage(m) * metallic(m); }
 FN real dielectric_share(IN(MaterialRecord) m) { return coverage(m) * (real(1.0) - metallic(m)); }
-FN real opaque_share(IN(MaterialRecord) m) { return dielectric_share(m) * (real(1.0) - transmission(m)); }
+FN real opaque_share(IN(MaterialRecord) m) {
+    return dielectric_share(m) * (real(1.0) - transmission(m));
+}
 FN real clear_share(IN(MaterialRecord) m) { return dielectric_share(m) * transmission(m); }
 FN bool is_solid(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_SOLID) && clear_share(m) > real(0.0) && m.thickness > float32(0.0);
 }
 
-// Reflectance of the dielectric's layer, by Schlick. An index of 0 gives an f0 of 1, as KHR_materials_ior wants.
+// Reflectance of the dielectric's layer, by Schlick. An index of 0 gives an f0 of 1, as
+// KHR_materials_ior wants.
 FN vec3 dielectric_f0(IN(MaterialRecord) m) {
-    real r = (real(m.ior) - real(1.0)) / (real(m.ior) + real(1.0));     // the index is not negative
+    real r = (real(m.ior) - real(1.0)) / (real(m.ior) + real(1.0)); // the index is not negative
     vec3 f0 = vec3(m.specular_r, m.specular_g, m.specular_b) * (r * r);
     return min(f0, vec3(real(1.0))) * real(m.specular);
 }
@@ -91,7 +112,8 @@ FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
     return fresnel_schlick(dielectric_f0(m), real(m.specular), cosine);
 }
 
-// Reflectance of metal and layer together, without the border of a solid; or of the specular lobe, cosine being wo's.
+// Reflectance of metal and layer together, without the border of a solid; or of the specular lobe,
+// cosine being wo's.
 FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
     if (is_phong(m)) {
         return phong_specular(m) * phong_albedo(real(m.exponent), cosine);
@@ -104,19 +126,21 @@ FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
            dielectric_fresnel(m, cosine) * layer_share;
 }
 
-// What the diffuse lobe reflects of light that it gets through the layer at this cosine with the half vector.
+// What the diffuse lobe reflects of light that it gets through the layer at this cosine with the
+// half vector.
 FN vec3 diffuse_reflectance(IN(MaterialRecord) m, real cosine) {
     if (is_phong(m)) {
         return base_color(m) * opaque_share(m);
     }
-    return base_color(m) * (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+    return base_color(m) *
+           (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
 }
 
 // Smooth lobes: what goes where.
 struct Border {
-    vec3 reflected;         // by the mirror lobe
+    vec3 reflected; // by the mirror lobe
     vec3 transmitted;
-    real eta;               // index of wi's side over that of wo's side; 1 through thin walls
+    real eta; // index of wi's side over that of wo's side; 1 through thin walls
     real cosine_refracted;
 };
 
@@ -131,7 +155,9 @@ FN Border bsdf_border(IN(MaterialRecord) m, real cosine, bool front) {
         return border;
     }
     if (!is_solid(m)) {
-        border.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+        border.transmitted =
+            base_color(m) *
+            (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
         return border;
     }
     vec3 reflectance = vec3(real(1.0));
@@ -139,11 +165,14 @@ FN Border bsdf_border(IN(MaterialRecord) m, real cosine, bool front) {
         border.eta = front ? real(m.ior) : real(1.0) / real(m.ior);
         real fresnel = fresnel_dielectric(cosine, border.eta, border.cosine_refracted);
         if (border.cosine_refracted > real(0.0)) {
-            reflectance = min(vec3(m.specular_r, m.specular_g, m.specular_b) * fresnel, vec3(real(1.0))) * real(m.specular);
+            reflectance =
+                min(vec3(m.specular_r, m.specular_g, m.specular_b) * fresnel, vec3(real(1.0))) *
+                real(m.specular);
         }
     }
     border.reflected = border.reflected + reflectance * clear_share(m);
-    border.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
+    border.transmitted =
+        base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
     return border;
 }
 
@@ -175,12 +204,13 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
 // Whether nothing but the diffuse lobe reflects.
 FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS) == LOBE_DIFFUSE; }
 
-// About what the lobes of the mask scatter of light from wo, exactly for the smooth ones. front: wo is on the side
-// from which the triangle's vertices run counter-clockwise, the outside of a solid.
+// About what the lobes of the mask scatter of light from wo, exactly for the smooth ones. front: wo
+// is on the side from which the triangle's vertices run counter-clockwise, the outside of a solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
     if (asks_for(m, lobes, LOBE_DIFFUSE)) {
-        // Between wo and most of the hemisphere the half vector is never far from either: little more than f0.
+        // Between wo and most of the hemisphere the half vector is never far from either: little
+        // more than f0.
         albedo += diffuse_reflectance(m, real(1.0));
     }
     if (asks_for(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
@@ -195,9 +225,9 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     return albedo;
 }
 
-// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy one, and any of the smooth ones; all 0 if
-// the mask has no lobe. They must not depend on the side of wo, which bsdf_pdf does not know: a solid's border counts
-// with its whole share.
+// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy one, and any of the
+// smooth ones; all 0 if the mask has no lobe. They must not depend on the side of wo, which
+// bsdf_pdf does not know: a solid's border counts with its whole share.
 FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec3 p = vec3(real(0.0));
@@ -211,7 +241,8 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     if (asks_for(m, present, LOBE_MIRROR) && roughness_is_delta(m)) {
         p.z = mean_component(layer);
     }
-    if (asks_for(m, present, LOBE_MIRROR | LOBE_TRANSMIT) && (is_solid(m) || asks_for(m, present, LOBE_TRANSMIT))) {
+    if (asks_for(m, present, LOBE_MIRROR | LOBE_TRANSMIT) &&
+        (is_solid(m) || asks_for(m, present, LOBE_TRANSMIT))) {
         p.z += clear_share(m) * max(mean_component(base_color(m)), real(0.04));
     }
     if (asks_for(m, present, LOBE_PASS)) {
@@ -221,8 +252,10 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     return sum > real(0.0) ? p / sum : p;
 }
 
-// Diffuse and glossy lobes of the mask without cosine [1/sr], and the density of wi for these probabilities of theirs.
-FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, vec3 probabilities, OUT(real) pdf) {
+// Diffuse and glossy lobes of the mask without cosine [1/sr], and the density of wi for these
+// probabilities of theirs.
+FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, vec3 probabilities,
+                          OUT(real) pdf) {
     vec3 f = vec3(real(0.0));
     pdf = real(0.0);
     vec3 h = wo + wi;
@@ -230,7 +263,7 @@ FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, ve
     if (!(wo.z > real(0.0)) || !(wi.z > real(0.0)) || !(h2 > real(0.0))) {
         return f;
     }
-    real cosine = min(real(0.5) * sqrt(h2), real(1.0));     // between wo (or wi) and the half vector
+    real cosine = min(real(0.5) * sqrt(h2), real(1.0)); // between wo (or wi) and the half vector
     if (asks_for(m, lobes, LOBE_DIFFUSE)) {
         f = diffuse_reflectance(m, cosine) * INV_PI;
         pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
@@ -254,7 +287,8 @@ FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     return bsdf_eval_and_pdf(m, wo, wi, lobes, vec3(real(0.0)), pdf);
 }
 
-// Solid-angle density with which bsdf_sample, given this mask, returns wi by way of a diffuse or glossy lobe.
+// Solid-angle density with which bsdf_sample, given this mask, returns wi by way of a diffuse or
+// glossy lobe.
 FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
     bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
@@ -262,11 +296,12 @@ FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
 }
 
 // Chooses mirror, transmit or pass by u in [0, 1); probability: that any is asked for.
-FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u, real probability,
-                      INOUT(BsdfSample) s) {
+FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u,
+                      real probability, INOUT(BsdfSample) s) {
     Border border = bsdf_border(m, wo.z, front);
     real reflected = asks_for(m, lobes, LOBE_MIRROR) ? mean_component(border.reflected) : real(0.0);
-    real transmitted = asks_for(m, lobes, LOBE_TRANSMIT) ? mean_component(border.transmitted) : real(0.0);
+    real transmitted =
+        asks_for(m, lobes, LOBE_TRANSMIT) ? mean_component(border.transmitted) : real(0.0);
     real passed = asks_for(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0);
     real sum = reflected + transmitted + passed;
     if (!(sum > real(0.0))) {
@@ -297,9 +332,10 @@ FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, rea
     return true;
 }
 
-// Samples a direction by the lobes of the mask; u.x chooses the lobe, u.y and u.z the direction, u.w is not used. False
-// where the light is absorbed.
-FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 u, OUT(BsdfSample) s) {
+// Samples a direction by the lobes of the mask; u.x chooses the lobe, u.y and u.z the direction,
+// u.w is not used. False where the light is absorbed.
+FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 u,
+                    OUT(BsdfSample) s) {
     s.wi = vec3(real(0.0), real(0.0), real(1.0));
     s.weight = vec3(real(0.0));
     s.pdf = real(0.0);
@@ -331,7 +367,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         }
     }
     if (!(s.wi.z > real(0.0))) {
-        return false;   // reflected into the surface: what a single scattering loses
+        return false; // reflected into the surface: what a single scattering loses
     }
     vec3 f = bsdf_eval_and_pdf(m, wo, s.wi, lobes, p, s.pdf);
     if (!(s.pdf > real(0.0))) {
@@ -339,7 +375,8 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     }
     if (p.x == real(1.0)) {
         vec3 sum = wo + s.wi;
-        s.weight = diffuse_reflectance(m, min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0)));  // the rest cancels, exactly
+        s.weight = diffuse_reflectance(
+            m, min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0))); // the rest cancels, exactly
     } else {
         s.weight = f * (s.wi.z / s.pdf);
     }

@@ -5,25 +5,26 @@
 
 ARGAND_SHARED_BEGIN
 
-// A camera for one size of picture. A point of the picture, x and y pixels from its top left corner, lies at
-// x·across + y·down from that corner. In perspective the rays start at `origin` and `forward` goes from there to the
-// corner, on the plane at distance 1; orthographically they start in the picture, whose corner is `origin`, and go along
-// `forward`. Lanes of 16 bytes.
+// A camera for one size of picture. A point of the picture, x and y pixels from its top left
+// corner, lies at x·across + y·down from that corner. In perspective the rays start at `origin` and
+// `forward` goes from there to the corner, on the plane at distance 1; orthographically they start
+// in the picture, whose corner is `origin`, and go along `forward`. Lanes of 16 bytes.
 struct CameraRecord {
     float32 origin_x, origin_y, origin_z;
-    float32 origin_share;           // 0: perspective, 1: orthographic
+    float32 origin_share; // 0: perspective, 1: orthographic
     float32 forward_x, forward_y, forward_z, pad0;
-    float32 across_x, across_y, across_z, pad1;     // from one pixel to the next in a row
-    float32 down_x, down_y, down_z, pad2;           // from one row to the next
+    float32 across_x, across_y, across_z, pad1; // from one pixel to the next in a row
+    float32 down_x, down_y, down_z, pad2;       // from one row to the next
 };
 
 // The ray through (x, y), in pixels from the picture's top left corner; direction: unit.
 FN void camera_ray(IN(CameraRecord) c, real x, real y, OUT(vec3) origin, OUT(vec3) direction) {
-    vec3 in_picture = vec3(c.across_x, c.across_y, c.across_z) * x + vec3(c.down_x, c.down_y, c.down_z) * y;
+    vec3 in_picture =
+        vec3(c.across_x, c.across_y, c.across_z) * x + vec3(c.down_x, c.down_y, c.down_z) * y;
     real share = real(c.origin_share);
     origin = vec3(c.origin_x, c.origin_y, c.origin_z) + in_picture * share;
     vec3 d = vec3(c.forward_x, c.forward_y, c.forward_z) + in_picture * (real(1.0) - share);
-    direction = d / sqrt(dot3(d, d));   // at least 1 along the camera's axis
+    direction = d / sqrt(dot3(d, d)); // at least 1 along the camera's axis
 }
 
 ARGAND_SHARED_END

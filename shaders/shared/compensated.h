@@ -1,5 +1,5 @@
-// Sums with compensation for rounding, so that a million small terms add up (Kahan 1965, "Further remarks on reducing
-// truncation errors").
+// Sums with compensation for rounding, so that a million small terms add up (Kahan 1965, "Further
+// remarks on reducing truncation errors").
 #ifndef ARGAND_SHARED_COMPENSATED_H
 #define ARGAND_SHARED_COMPENSATED_H
 

@@ -1,7 +1,8 @@
-// Photon differentials: how the position and the direction of a photon change with the two parameters of its emission,
-// times the spacing of neighbouring photons in them. Fabianowski and Dingliana 2009, "Interactive Global Photon Mapping",
-// section 4; Igehy 1999, "Tracing Ray Differentials". Derivations: docs/methods/footprints.md.
-// Where n photons have the density p around one, its two differentials span a parallelogram of area 1 / (n p).
+// Photon differentials: how the position and the direction of a photon change with the two
+// parameters of its emission, times the spacing of neighbouring photons in them. Fabianowski and
+// Dingliana 2009, "Interactive Global Photon Mapping", section 4; Igehy 1999, "Tracing Ray
+// Differentials". Derivations: docs/methods/footprints.md. Where n photons have the density p
+// around one, its two differentials span a parallelogram of area 1 / (n p).
 #ifndef ARGAND_SHARED_DIFFERENTIAL_H
 #define ARGAND_SHARED_DIFFERENTIAL_H
 
@@ -10,8 +11,8 @@
 ARGAND_SHARED_BEGIN
 
 struct PhotonDifferential {
-    vec3 dp_du, dp_dv;      // of the position [length]
-    vec3 dd_du, dd_dv;      // of the unit direction, at right angles to it
+    vec3 dp_du, dp_dv; // of the position [length]
+    vec3 dd_du, dd_dv; // of the unit direction, at right angles to it
 };
 
 // Bounds that no meaningful differential reaches; they keep products of several finite.
@@ -38,7 +39,8 @@ FN real parallelogram_side(vec3 a, vec3 b) {
     return sqrt(size_a) * sqrt(size_b) * sqrt(sine);
 }
 
-// Distance between neighbours of n photons with this density, over directions or areas: eq. 5 for 1 / 4 pi.
+// Distance between neighbours of n photons with this density, over directions or areas: eq. 5 for 1
+// / 4 pi.
 FN real photon_spacing(real photons, real density) {
     return real(1.0) / sqrt(max(photons, real(1.0)) * max(density, real(1e-30)));
 }
@@ -46,8 +48,8 @@ FN real photon_spacing(real photons, real density) {
 // The spacing Δ of eq. 9.
 FN real sphere_spacing(real photons) { return photon_spacing(photons, UNIFORM_SPHERE_PDF); }
 
-// The unit vectors of eq. 8 for a direction in polar coordinates around f.z; any two in the pole itself, where they are
-// undefined.
+// The unit vectors of eq. 8 for a direction in polar coordinates around f.z; any two in the pole
+// itself, where they are undefined.
 FN void direction_axes(IN(Frame) f, vec3 direction, OUT(vec3) along_cosine, OUT(vec3) around) {
     real sine;
     vec3 local = vec3(-dot3(f.y, direction), dot3(f.x, direction), real(0.0));
@@ -67,8 +69,9 @@ FN PhotonDifferential no_differential() {
     return d;
 }
 
-// Along a ray of unit direction to its hit at distance t, on a plane of unit normal n (either side): Igehy's eqs. 10 and
-// 12, as one double product, which lies in the plane however the ray grazes it.
+// Along a ray of unit direction to its hit at distance t, on a plane of unit normal n (either
+// side): Igehy's eqs. 10 and 12, as one double product, which lies in the plane however the ray
+// grazes it.
 FN vec3 transferred_offset(vec3 dp, vec3 dd, vec3 direction, real t, vec3 n) {
     real cosine = dot3(direction, n);
     cosine = cosine < real(0.0) ? min(cosine, -SMALLEST_COSINE) : max(cosine, SMALLEST_COSINE);
@@ -80,11 +83,11 @@ FN void transfer_differential(INOUT(PhotonDifferential) d, vec3 direction, real 
     d.dp_dv = transferred_offset(d.dp_dv, d.dd_dv, direction, t, n);
 }
 
-// How the interpolated unit normal changes with a step dp within a triangle of vertices v and normals n, at the weights
-// b of its second and third vertex. shading_normal: as make_surface made it; where that fell back to the flat normal, or
-// the triangle has no area, there is no change.
-FN vec3 shading_normal_change(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, vec2 b, vec3 shading_normal,
-                              vec3 dp) {
+// How the interpolated unit normal changes with a step dp within a triangle of vertices v and
+// normals n, at the weights b of its second and third vertex. shading_normal: as make_surface made
+// it; where that fell back to the flat normal, or the triangle has no area, there is no change.
+FN vec3 shading_normal_change(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, vec2 b,
+                              vec3 shading_normal, vec3 dp) {
     real size, size1, size2, sine;
     vec3 unit = unit_and_length(n0 * (real(1.0) - b.x - b.y) + n1 * b.x + n2 * b.y, size);
     vec3 edge1 = unit_and_length(v1 - v0, size1);
@@ -108,32 +111,37 @@ FN vec3 reflected_spread(vec3 dd, vec3 direction, vec3 n, vec3 dn) {
     return limit_length(dd - (dn * dot3(direction, n) + n * change) * real(2.0), LARGEST_SPREAD);
 }
 
-// Refracted at a surface of unit normal n on the side where the ray comes from; eta > 0: index of the far side over that
-// of the near side. Igehy's eqs. 17 and 18, with their differences taken analytically: an index of 1 changes nothing,
-// to the bit. Near total reflection the spread grows without bound, here up to LARGEST_SPREAD.
+// Refracted at a surface of unit normal n on the side where the ray comes from; eta > 0: index of
+// the far side over that of the near side. Igehy's eqs. 17 and 18, with their differences taken
+// analytically: an index of 1 changes nothing, to the bit. Near total reflection the spread grows
+// without bound, here up to LARGEST_SPREAD.
 FN vec3 refracted_spread(vec3 dd, vec3 direction, vec3 n, vec3 dn, real eta) {
     real ratio = real(1.0) / max(eta, real(1e-6));
     real cosine = max(-dot3(direction, n), real(0.0));
     real k = ((eta - real(1.0)) * (eta + real(1.0)) + cosine * cosine) * ratio * ratio;
     real refracted = max(safe_sqrt(k), SMALLEST_COSINE);
     // direction' = ratio direction + step n
-    real step = (real(1.0) - eta) * (real(1.0) + eta) * ratio * ratio / (ratio * cosine + refracted);
+    real step =
+        (real(1.0) - eta) * (real(1.0) + eta) * ratio * ratio / (ratio * cosine + refracted);
     real change = ratio * step / refracted * (dot3(dd, n) + dot3(direction, dn));
     return limit_length(dd * ratio + n * change + dn * step, LARGEST_SPREAD);
 }
 
-FN void reflect_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n, vec3 dn_du, vec3 dn_dv) {
+FN void reflect_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n, vec3 dn_du,
+                             vec3 dn_dv) {
     d.dd_du = reflected_spread(d.dd_du, direction, n, dn_du);
     d.dd_dv = reflected_spread(d.dd_dv, direction, n, dn_dv);
 }
 
-FN void refract_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n, vec3 dn_du, vec3 dn_dv, real eta) {
+FN void refract_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n, vec3 dn_du,
+                             vec3 dn_dv, real eta) {
     d.dd_du = refracted_spread(d.dd_du, direction, n, dn_du, eta);
     d.dd_dv = refracted_spread(d.dd_dv, direction, n, dn_dv, eta);
 }
 
-// A photon went on with this probability (section 4.2): its footprint's area is divided by it. Also for the choice of a
-// lobe, and for light that a thin or partly covering surface lets straight through.
+// A photon went on with this probability (section 4.2): its footprint's area is divided by it. Also
+// for the choice of a lobe, and for light that a thin or partly covering surface lets straight
+// through.
 FN void roulette_differential(INOUT(PhotonDifferential) d, real probability) {
     real factor = real(1.0) / sqrt(clamp(probability, real(1e-6), real(1.0)));
     d.dp_du = limit_length(d.dp_du * factor, LARGEST_OFFSET);
@@ -142,9 +150,9 @@ FN void roulette_differential(INOUT(PhotonDifferential) d, real probability) {
     d.dd_dv = limit_length(d.dd_dv * factor, LARGEST_SPREAD);
 }
 
-// Adds a spread of directions that has nothing to do with the positions: a quarter turn from them, so that areas add,
-// |dp|² + t² spread², as variances do. The turn is relative to the orthogonal factor of the offsets' polar
-// decomposition, which leaves no mixed term.
+// Adds a spread of directions that has nothing to do with the positions: a quarter turn from them,
+// so that areas add, |dp|² + t² spread², as variances do. The turn is relative to the orthogonal
+// factor of the offsets' polar decomposition, which leaves no mixed term.
 FN void add_independent_spread(INOUT(PhotonDifferential) d, vec3 direction, real spread) {
     Frame f = make_frame(direction);
     real size_u, size_v;
@@ -162,30 +170,35 @@ FN void add_independent_spread(INOUT(PhotonDifferential) d, vec3 direction, real
     vec3 turned = unit_and_length(vec3(u.x + side * v.y, u.y - side * v.x, real(0.0)), size);
     turned = size > real(0.0) ? turned : vec3(real(1.0), real(0.0), real(0.0));
     d.dd_du = limit_length(d.dd_du + (f.y * turned.x - f.x * turned.y) * spread, LARGEST_SPREAD);
-    d.dd_dv = limit_length(d.dd_dv - (f.x * turned.x + f.y * turned.y) * (side * spread), LARGEST_SPREAD);
+    d.dd_dv =
+        limit_length(d.dd_dv - (f.x * turned.x + f.y * turned.y) * (side * spread), LARGEST_SPREAD);
 }
 
-// How diffuse surfaces emit photons again. The paper's spaces them as over a whole sphere and matches the areas of
-// footprint and beam (eqs. 10 to 13); by cosine: as they are sampled, over the hemisphere with density cos θ / pi, and
-// footprints match on the surface; independent: as by cosine, but positions and directions are two spreads of their own.
+// How diffuse surfaces emit photons again. The paper's spaces them as over a whole sphere and
+// matches the areas of footprint and beam (eqs. 10 to 13); by cosine: as they are sampled, over the
+// hemisphere with density cos θ / pi, and footprints match on the surface; independent: as by
+// cosine, but positions and directions are two spreads of their own.
 CONSTANT uint REEMIT_PAPER = 0u;
 CONSTANT uint REEMIT_COSINE = 1u;
 CONSTANT uint REEMIT_INDEPENDENT = 2u;
 
-// Diffuse reflection (or transmission) at the hit that d has been transferred to, off the side of frame.z, the shading
-// normal. photons: all of this pass, whatever was lost on the way: roulette has enlarged d.
-FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame) frame, vec3 direction, real photons,
-                                             uint mode) {
+// Diffuse reflection (or transmission) at the hit that d has been transferred to, off the side of
+// frame.z, the shading normal. photons: all of this pass, whatever was lost on the way: roulette
+// has enlarged d.
+FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame) frame,
+                                             vec3 direction, real photons, uint mode) {
     PhotonDifferential next = no_differential();
     real cosine = max(abs(dot3(direction, frame.z)), SMALLEST_EMISSION_COSINE);
-    real spread = photon_spacing(photons, mode == REEMIT_PAPER ? UNIFORM_SPHERE_PDF : cosine * INV_PI);
+    real spread =
+        photon_spacing(photons, mode == REEMIT_PAPER ? UNIFORM_SPHERE_PDF : cosine * INV_PI);
     if (mode == REEMIT_INDEPENDENT) {
         next.dp_du = d.dp_du;
         next.dp_dv = d.dp_dv;
         add_independent_spread(next, direction, spread);
         return next;
     }
-    // Size of the beam, at right angles to it, where it leaves the surface: the virtual origin's distance times spread.
+    // Size of the beam, at right angles to it, where it leaves the surface: the virtual origin's
+    // distance times spread.
     real side = parallelogram_side(d.dp_du, d.dp_dv);
     side = min(mode == REEMIT_PAPER ? side : side * sqrt(cosine), LARGEST_OFFSET);
     vec3 axis_u, axis_v;
@@ -197,14 +210,16 @@ FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame)
     return next;
 }
 
-// Glossy reflection into a direction of this solid-angle density: what comes in is mirrored at the half vector, which
-// turns with the shading normal n, and the lobe's own spread is independent of it.
-FN void gloss_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing, vec3 n, vec3 dn_du, vec3 dn_dv,
-                           real photons, real density) {
+// Glossy reflection into a direction of this solid-angle density: what comes in is mirrored at the
+// half vector, which turns with the shading normal n, and the lobe's own spread is independent of
+// it.
+FN void gloss_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing, vec3 n,
+                           vec3 dn_du, vec3 dn_dv, real photons, real density) {
     real size;
     vec3 h = unit_and_length(outgoing - incoming, size);
     real cosine = dot3(n, h);
-    reflect_differential(d, incoming, h, dn_du * cosine - n * dot3(dn_du, h), dn_dv * cosine - n * dot3(dn_dv, h));
+    reflect_differential(d, incoming, h, dn_du * cosine - n * dot3(dn_du, h),
+                         dn_dv * cosine - n * dot3(dn_dv, h));
     real least = SMALLEST_EMISSION_COSINE * INV_PI;
     add_independent_spread(d, outgoing, photon_spacing(photons, max(density, least)));
 }

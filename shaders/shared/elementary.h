@@ -1,7 +1,7 @@
-// Elementary functions, exact to a few units in the last place (ULP) on every device: built-ins differ between drivers
-// (pow by 20 ULP on lavapipe). Minimax polynomials after reduction of the argument; without fused multiply-add,
-// with which the tricks below that split numbers would still be right but the bits would differ. As double they are the
-// standard library's, the tests' truth.
+// Elementary functions, exact to a few units in the last place (ULP) on every device: built-ins
+// differ between drivers (pow by 20 ULP on lavapipe). Minimax polynomials after reduction of the
+// argument; without fused multiply-add, with which the tricks below that split numbers would still
+// be right but the bits would differ. As double they are the standard library's, the tests' truth.
 #ifndef ARGAND_SHARED_ELEMENTARY_H
 #define ARGAND_SHARED_ELEMENTARY_H
 
@@ -21,23 +21,30 @@ CONSTANT real INV_PI = real(0.31830988618379067154);
 // Sine and cosine for |x| up to pi/4.
 FN void sincos_eighth(real x, OUT(real) s, OUT(real) c) {
     real z = x * x;
-    s = x + x * (z * (real(-0.16666654873513564) + z * (real(0.008332173545502582) + z * real(-0.0001951665613228911))));
-    c = real(1.0) - (real(0.5) * z - z * z * (real(0.041666646747906703) +
-        z * (real(-0.0013887361455679613) + z * real(2.443773065703703e-05))));
+    s = x + x * (z * (real(-0.16666654873513564) +
+                      z * (real(0.008332173545502582) + z * real(-0.0001951665613228911))));
+    c = real(1.0) -
+        (real(0.5) * z - z * z *
+                             (real(0.041666646747906703) + z * (real(-0.0013887361455679613) +
+                                                                z * real(2.443773065703703e-05))));
 }
 
 // exp(x) - 1 - x for |x| up to ln(2)/2.
 FN real exp_remainder(real x) {
-    return x * x * (real(0.5000000101259033) + x * (real(0.1666651289384798) + x * (real(0.04166618637093602) +
-           x * (real(0.008369598011938885) + x * real(0.0013951773318023543)))));
+    return x * x *
+           (real(0.5000000101259033) +
+            x * (real(0.1666651289384798) +
+                 x * (real(0.04166618637093602) +
+                      x * (real(0.008369598011938885) + x * real(0.0013951773318023543)))));
 }
 
-// atanh(s)/s - 1 - s²/3 over s⁴, as a function of z = s², for exp(2 atanh(s)) between sqrt(1/2) and sqrt(2).
+// atanh(s)/s - 1 - s²/3 over s⁴, as a function of z = s², for exp(2 atanh(s)) between sqrt(1/2) and
+// sqrt(2).
 FN real atanh_tail(real z) {
     return real(0.2000007844039877) + z * (real(0.14273316197216385) + z * real(0.117155045457851));
 }
 
-CONSTANT real LN2_HIGH = real(0.693145751953125);           // 15 bits, so that multiples up to 2^9 are exact
+CONSTANT real LN2_HIGH = real(0.693145751953125); // 15 bits, so that multiples up to 2^9 are exact
 CONSTANT real LN2_LOW = real(1.428606765330187e-06);
 CONSTANT real LOG2_E = real(1.44269504088896341);
 
@@ -101,7 +108,8 @@ FN bool is_finite(real x) {
 #endif
 }
 
-// Sine and cosine of 2 pi u, the angle of u full turns, |u| < 2^20. The reduction to an eighth of a turn is exact.
+// Sine and cosine of 2 pi u, the angle of u full turns, |u| < 2^20. The reduction to an eighth of a
+// turn is exact.
 FN void sincos_2pi(real u, OUT(real) s, OUT(real) c) {
     real quarter = floor(u * real(4.0) + real(0.5));
     real x = (u - quarter * real(0.25)) * (real(2.0) * PI);
@@ -140,7 +148,7 @@ FN real exp_negative(real x) {
     return std::exp(x);
 #else
     if (!(x > real(-104.0))) {
-        return real(0.0);   // less than half the smallest number
+        return real(0.0); // less than half the smallest number
     }
     real power = floor(x * LOG2_E + real(0.5));
     real r = (x - power * LN2_HIGH) - power * LN2_LOW;
@@ -157,8 +165,8 @@ FN real exp_complement(real x) {
 #endif
 }
 
-// x to the power of y, for finite x >= 0 and y. The logarithm is carried in two numbers, for a result near the largest
-// number multiplies its relative error by 88.
+// x to the power of y, for finite x >= 0 and y. The logarithm is carried in two numbers, for a
+// result near the largest number multiplies its relative error by 88.
 FN real pow_real(real x, real y) {
 #ifdef ARGAND_REAL_DOUBLE
     return std::pow(x, y);
@@ -187,7 +195,8 @@ FN real pow_real(real x, real y) {
     real third_low = (((cube - p) - product_error(real(3.0), third, p)) + cube_low) / real(3.0);
     // log(x) = k ln(2) + 2 atanh(s), the terms added without loss from the largest down.
     real high = k * LN2_HIGH;
-    real low = k * LN2_LOW + real(2.0) * ((s_low + third_low) + (z * s_low + cube * z * atanh_tail(z)));
+    real low =
+        k * LN2_LOW + real(2.0) * ((s_low + third_low) + (z * s_low + cube * z * atanh_tail(z)));
     add_without_loss(high, low, real(2.0) * s);
     add_without_loss(high, low, real(2.0) * third);
     real log_x = high + low;

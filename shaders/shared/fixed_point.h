@@ -1,4 +1,5 @@
-// Sums that do not depend on the order of their terms: 64-bit fixed point in two words, the low one in x.
+// Sums that do not depend on the order of their terms: 64-bit fixed point in two words, the low one
+// in x.
 #ifndef ARGAND_SHARED_FIXED_POINT_H
 #define ARGAND_SHARED_FIXED_POINT_H
 

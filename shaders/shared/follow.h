@@ -6,10 +6,13 @@
 
 ARGAND_SHARED_BEGIN
 
-// The lobes of a material that are followed from the eye: smooth ones, and glossy ones up to a roughness. All others are
-// estimated, from light samples and from photons (docs/design.md: "Which path is whose").
+// The lobes of a material that are followed from the eye: smooth ones, and glossy ones up to a
+// roughness. All others are estimated, from light samples and from photons (docs/design.md: "Which
+// path is whose").
 FN uint followed_lobes(IN(MaterialRecord) material, real follow_roughness) {
-    uint glossy = may_have(material, LOBE_GLOSSY) && material.roughness <= follow_roughness ? LOBE_GLOSSY : 0u;
+    uint glossy = may_have(material, LOBE_GLOSSY) && material.roughness <= follow_roughness
+                      ? LOBE_GLOSSY
+                      : 0u;
     return bsdf_lobes(material) & (LOBES_DELTA | glossy);
 }
 

@@ -1,5 +1,6 @@
-// Footprints of photons: skewed ellipses in the plane of the surface they hit, with the normal as a third axis.
-// Fabianowski and Dingliana 2009, sections 3.2 and 4.3. Derivations: docs/methods/footprints.md.
+// Footprints of photons: skewed ellipses in the plane of the surface they hit, with the normal as a
+// third axis. Fabianowski and Dingliana 2009, sections 3.2 and 4.3. Derivations:
+// docs/methods/footprints.md.
 #ifndef ARGAND_SHARED_FOOTPRINT_H
 #define ARGAND_SHARED_FOOTPRINT_H
 
@@ -8,22 +9,25 @@
 
 ARGAND_SHARED_BEGIN
 
-// Semi-axes of the ellipsoid |M x| <= 1: u and v in the tangent plane, at any angle to each other, w along the normal.
+// Semi-axes of the ellipsoid |M x| <= 1: u and v in the tangent plane, at any angle to each other,
+// w along the normal.
 struct Footprint {
     vec3 u, v, w;
 };
 
-// The vectors of the tangent plane that are dual to u and v: a·u = b·v = 1, a·v = b·u = 0; so (a·x)² + (b·x)² is the
-// squared distance in units of the ellipse.
+// The vectors of the tangent plane that are dual to u and v: a·u = b·v = 1, a·v = b·u = 0; so
+// (a·x)² + (b·x)² is the squared distance in units of the ellipse.
 struct FootprintDuals {
     vec3 a, b;
 };
 
-// photons: of this pass; reference_photons: at which smoothing holds; length: of the scene, which smoothing (in units of
-// length^(3/4)) and largest are relative to; exponent: footprints shrink as photons^-exponent, 1/6 by default and 1/2 in
-// the paper, whose smoothing is fixed. The axes are the paper's, the differentials as they are.
-FN FootprintScale make_footprint_scale(real photons, real reference_photons, real length, real smoothing,
-                                       real caustic_smoothing, real largest, real flatness, real exponent) {
+// photons: of this pass; reference_photons: at which smoothing holds; length: of the scene, which
+// smoothing (in units of length^(3/4)) and largest are relative to; exponent: footprints shrink as
+// photons^-exponent, 1/6 by default and 1/2 in the paper, whose smoothing is fixed. The axes are
+// the paper's, the differentials as they are.
+FN FootprintScale make_footprint_scale(real photons, real reference_photons, real length,
+                                       real smoothing, real caustic_smoothing, real largest,
+                                       real flatness, real exponent) {
     real n = max(photons, real(1.0));
     real growth = pow_real(n / max(reference_photons, real(1.0)), real(0.5) - exponent);
     FootprintScale s;
@@ -41,7 +45,8 @@ FN FootprintScale make_footprint_scale(real photons, real reference_photons, rea
     return s;
 }
 
-// Turns conjugate semi-axes of an ellipse into its principal ones, u the longer (a Jacobi rotation).
+// Turns conjugate semi-axes of an ellipse into its principal ones, u the longer (a Jacobi
+// rotation).
 FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
     real largest = max(max_component(abs(u)), max_component(abs(v)));
     if (!is_finite(largest) || !(largest > real(0.0))) {
@@ -53,10 +58,10 @@ FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
     real product = real(2.0) * dot3(a, b);
     real both = sqrt(difference * difference + product * product);
     if (!(both > real(0.0))) {
-        return;     // a circle
+        return; // a circle
     }
     // cos and sin of half the angle of (difference, product), without cancellation
-    real c = sqrt(real(0.5) * (real(1.0) + abs(difference) / both));    // at least sqrt(1/2)
+    real c = sqrt(real(0.5) * (real(1.0) + abs(difference) / both)); // at least sqrt(1/2)
     real s = product / (real(2.0) * both * c);
     if (difference < real(0.0)) {
         real swap = c;
@@ -72,17 +77,21 @@ FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
 FN vec3 footprint_axis(vec3 dp, vec3 normal, bool caustic, IN(FootprintScale) s) {
     real size;
     vec3 tangent = dp - normal * dot3(dp, normal);
-    tangent = tangent - normal * dot3(tangent, normal);     // of what rounding left, where dp is along the normal
+    tangent = tangent -
+              normal * dot3(tangent, normal); // of what rounding left, where dp is along the normal
     vec3 unit = unit_and_length(tangent, size);
-    real radius = caustic ? size * real(s.caustic)
-                          : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing)));   // the spacing is positive
+    real radius =
+        caustic ? size * real(s.caustic)
+                : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing))); // the spacing is positive
     return unit * (caustic ? clamp(radius, real(s.caustic_min), real(s.caustic_max))
                            : clamp(radius, real(s.radius_min), real(s.radius_max)));
 }
 
-// Of a photon whose differential has been transferred to its hit. normal: unit, geometric. caustic: none but mirrors and
-// refraction since the light. Axes that are nearly one, or nothing, are parted to radius_min.
-FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic, IN(FootprintScale) s) {
+// Of a photon whose differential has been transferred to its hit. normal: unit, geometric. caustic:
+// none but mirrors and refraction since the light. Axes that are nearly one, or nothing, are parted
+// to radius_min.
+FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic,
+                            IN(FootprintScale) s) {
     vec3 u = limit_length(d.dp_du, LARGEST_OFFSET);
     vec3 v = limit_length(d.dp_dv, LARGEST_OFFSET);
     if (s.principal_axes != 0u) {
@@ -126,8 +135,8 @@ FN FootprintDuals footprint_duals(IN(Footprint) f, vec3 normal) {
     return duals;
 }
 
-// The ellipsoid of dual axes, for boxes around what is really kept: exactly where footprint_weight is not 0, though
-// packing has turned normal and dual axes a little out of their right angles.
+// The ellipsoid of dual axes, for boxes around what is really kept: exactly where footprint_weight
+// is not 0, though packing has turned normal and dual axes a little out of their right angles.
 FN Footprint footprint_of_duals(IN(FootprintDuals) duals, vec3 normal, real flatness) {
     real size_a, size_b;
     vec3 unit_a = unit_and_length(duals.a, size_a);
@@ -159,30 +168,34 @@ FN real footprint_kernel(real q, bool uniform_kernel) {
     return uniform_kernel ? real(1.0) : real(2.0) * max(real(0.0), real(1.0) - q);
 }
 
-// Irradiance per flux [1/length²] of a photon at `offset` from it, on a surface of unit normal query_normal: the kernel
-// over the area of the ellipse that the query's tangent plane, moved through the photon, cuts out of the ellipsoid; so
-// the flux is conserved on that plane whichever way it is tilted. 0 outside of the ellipsoid.
-FN real footprint_weight(IN(FootprintDuals) f, vec3 normal, vec3 query_normal, vec3 offset, real flatness,
-                         bool uniform_kernel) {
+// Irradiance per flux [1/length²] of a photon at `offset` from it, on a surface of unit normal
+// query_normal: the kernel over the area of the ellipse that the query's tangent plane, moved
+// through the photon, cuts out of the ellipsoid; so the flux is conserved on that plane whichever
+// way it is tilted. 0 outside of the ellipsoid.
+FN real footprint_weight(IN(FootprintDuals) f, vec3 normal, vec3 query_normal, vec3 offset,
+                         real flatness, bool uniform_kernel) {
     real x = dot3(f.a, offset);
     real y = dot3(f.b, offset);
-    real inverse_area = abs(dot3(cross3(f.a, f.b), normal));    // of the parallelogram of u and v
-    real inverse_height2 = inverse_area / (flatness * flatness);    // the flatness is positive
+    real inverse_area = abs(dot3(cross3(f.a, f.b), normal));     // of the parallelogram of u and v
+    real inverse_height2 = inverse_area / (flatness * flatness); // the flatness is positive
     real z = dot3(normal, offset);
     real q = x * x + y * y + z * z * inverse_height2;
     if (!(q <= real(1.0))) {
         return real(0.0);
     }
-    // Components of the query's normal along u, v and w, over |w|; u = (b × n) / [a b n], v = (n × a) / [a b n].
+    // Components of the query's normal along u, v and w, over |w|; u = (b × n) / [a b n], v = (n ×
+    // a) / [a b n].
     real along_u = dot3(cross3(f.b, normal), query_normal);
     real along_v = dot3(cross3(normal, f.a), query_normal);
     real along_w = dot3(normal, query_normal);
-    real tilt2 = (along_u * along_u + along_v * along_v) / (inverse_area * flatness * flatness) + along_w * along_w;
+    real tilt2 = (along_u * along_u + along_v * along_v) / (inverse_area * flatness * flatness) +
+                 along_w * along_w;
     return footprint_kernel(q, uniform_kernel) * INV_PI * inverse_area * sqrt(tilt2);
 }
 
-// A dual axis in 3 × 16 bits, in units of the power of two above its largest component, whose sign and exponent are the
-// last 16. Error below 2^-15 of the largest component; any magnitude of single precision.
+// A dual axis in 3 × 16 bits, in units of the power of two above its largest component, whose sign
+// and exponent are the last 16. Error below 2^-15 of the largest component; any magnitude of single
+// precision.
 FN uvec2 pack_dual(vec3 v) {
     real largest = clamp(max_component(abs(v)), real(1e-30), real(1e30));
     uint exponent = (float_bits(float32(largest)) & 0x7f800000u) + 0x00800000u;
@@ -196,7 +209,8 @@ FN uvec2 pack_dual(vec3 v) {
 FN vec3 unpack_dual(uint xy, uint zs) {
     real scale = real(bits_float(zs & 0xffff0000u)) / real(32767.0);
     return vec3(real(xy & 0xffffu) - real(32768.0), real(xy >> 16u) - real(32768.0),
-                real(zs & 0xffffu) - real(32768.0)) * scale;
+                real(zs & 0xffffu) - real(32768.0)) *
+           scale;
 }
 
 ARGAND_SHARED_END

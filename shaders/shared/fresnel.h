@@ -5,9 +5,9 @@
 
 ARGAND_SHARED_BEGIN
 
-// Share of unpolarised light that the smooth border of two dielectrics reflects. cosine: of the incident direction, in
-// [0, 1]; eta > 0: refractive index of the far side over that of the near side. cosine_refracted: by Snell's law; 0
-// where all is reflected.
+// Share of unpolarised light that the smooth border of two dielectrics reflects. cosine: of the
+// incident direction, in [0, 1]; eta > 0: refractive index of the far side over that of the near
+// side. cosine_refracted: by Snell's law; 0 where all is reflected.
 FN real fresnel_dielectric(real cosine, real eta, OUT(real) cosine_refracted) {
     // (eta² - sin²), so that an index of 1 leaves grazing rays alone.
     real k = (eta - real(1.0)) * (eta + real(1.0)) + cosine * cosine;

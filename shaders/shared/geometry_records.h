@@ -24,8 +24,8 @@ struct RayRecord {
 
 CONSTANT uint no_triangle = 0xffffffffu;
 
-// What a ray hit: the triangle as numbered in the scene (no_triangle: nothing), the distance in units of the ray's
-// direction, and the barycentric weights of its second and third vertex.
+// What a ray hit: the triangle as numbered in the scene (no_triangle: nothing), the distance in
+// units of the ray's direction, and the barycentric weights of its second and third vertex.
 struct HitRecord {
     uint triangle;
     float32 t, u, v;

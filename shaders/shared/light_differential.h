@@ -7,12 +7,13 @@
 
 ARGAND_SHARED_BEGIN
 
-// photons: expected of this light in the pass, N times its probability; emitter_photons: of all triangles together that
-// make up the same emitter (all emissive triangles, where nobody knows better), so that an emitter cut into many
-// triangles spreads its light no wider than one; for other lights not used. direction, normal: what light_emit gave;
-// radius: of the scene's bounding sphere.
-FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 direction, vec3 normal, real radius,
-                                         real photons, real emitter_photons) {
+// photons: expected of this light in the pass, N times its probability; emitter_photons: of all
+// triangles together that make up the same emitter (all emissive triangles, where nobody knows
+// better), so that an emitter cut into many triangles spreads its light no wider than one; for
+// other lights not used. direction, normal: what light_emit gave; radius: of the scene's bounding
+// sphere.
+FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 direction, vec3 normal,
+                                         real radius, real photons, real emitter_photons) {
     PhotonDifferential d = no_differential();
     if (is_light(l, kinds, light_point) || is_light(l, kinds, light_spot)) {
         Frame f;
@@ -28,7 +29,8 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 dir
             real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
             // No wider than the whole cone, though its rim is dark.
             real least = real(1.0) / max(photons, real(1.0));
-            density = max(spot_falloff(dot3(direction, f.z), cos_inner, cos_outer), least) / max(all, real(1e-12));
+            density = max(spot_falloff(dot3(direction, f.z), cos_inner, cos_outer), least) /
+                      max(all, real(1e-12));
         }
         real spread = photon_spacing(photons, density);
         vec3 axis_u, axis_v;
@@ -38,7 +40,7 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 dir
         return d;
     }
     Frame f = make_frame(direction);
-    real side = radius * sqrt(PI / max(photons, real(1.0)));        // of the disc that photons start on
+    real side = radius * sqrt(PI / max(photons, real(1.0))); // of the disc that photons start on
     real spread = real(0.0);
     if (is_light(l, kinds, light_sky)) {
         spread = sqrt(PI / max(photons, real(1.0)));

@@ -9,23 +9,25 @@ CONSTANT uint light_point = 0u;
 CONSTANT uint light_spot = 1u;
 CONSTANT uint light_directional = 2u;
 CONSTANT uint light_triangle = 3u;
-CONSTANT uint light_sky = 4u;           // the same radiance from all directions
+CONSTANT uint light_sky = 4u; // the same radiance from all directions
 
 // A bit for each, 1u << light_*.
 CONSTANT uint all_light_kinds = 31u;
-CONSTANT uint light_kinds_at_a_point = 3u;      // point and spot
-CONSTANT uint light_kinds_from_outside = 20u;   // directional and sky
+CONSTANT uint light_kinds_at_a_point = 3u;    // point and spot
+CONSTANT uint light_kinds_from_outside = 20u; // directional and sky
 
 // A light of any kind. Lanes of 16 bytes.
 struct LightRecord {
-    float32 x, y, z;            // position (point, spot) or first vertex (triangle)
+    float32 x, y, z; // position (point, spot) or first vertex (triangle)
     uint kind;
-    float32 r, g, b;            // intensity [cd] (point, spot), irradiance [lux] (directional), radiance [cd/m²]
-    float32 cos_inner;          // spot
-    float32 dx, dy, dz;         // unit, the way the light goes (spot, directional), or second vertex (triangle)
-    float32 cos_outer;          // spot
-    float32 ex, ey, ez;         // third vertex (triangle)
-    uint double_sided;          // triangle: emits from its back as well
+    float32 r, g,
+        b; // intensity [cd] (point, spot), irradiance [lux] (directional), radiance [cd/m²]
+    float32 cos_inner; // spot
+    float32 dx, dy,
+        dz; // unit, the way the light goes (spot, directional), or second vertex (triangle)
+    float32 cos_outer;  // spot
+    float32 ex, ey, ez; // third vertex (triangle)
+    uint double_sided;  // triangle: emits from its back as well
 };
 
 ARGAND_SHARED_END

@@ -1,4 +1,5 @@
-// Lights seen from a point, and photons leaving them. Units of glTF: a point light of I candela has radiant intensity I.
+// Lights seen from a point, and photons leaving them. Units of glTF: a point light of I candela has
+// radiant intensity I.
 #ifndef ARGAND_SHARED_LIGHTS_H
 #define ARGAND_SHARED_LIGHTS_H
 
@@ -12,14 +13,16 @@ ARGAND_SHARED_BEGIN
 // A direction from a point towards a light.
 struct LightSample {
     vec3 wi;
-    real distance;      // free of obstacles if the light is seen; a surface's is a little less than that of the point
-    vec3 radiance;      // arriving, over the density of the sample; for lights without extent, irradiance across wi
-    real pdf;           // solid-angle density; 0 for lights without extent
-    bool delta;         // a light without extent, which no other way of sampling finds
+    real distance; // free of obstacles if the light is seen; a surface's is a little less than that
+                   // of the point
+    vec3 radiance; // arriving, over the density of the sample; for lights without extent,
+                   // irradiance across wi
+    real pdf;      // solid-angle density; 0 for lights without extent
+    bool delta;    // a light without extent, which no other way of sampling finds
 };
 
-// Whether the light is of this kind, `kinds` (1u << light_*) being those that the scene has: where kernels know them, no
-// code is left of others.
+// Whether the light is of this kind, `kinds` (1u << light_*) being those that the scene has: where
+// kernels know them, no code is left of others.
 FN bool is_light(IN(LightRecord) l, uint kinds, uint kind) {
     uint bit = 1u << kind;
     return kinds == bit || ((kinds & bit) != 0u && l.kind == kind);
@@ -29,18 +32,21 @@ FN vec3 light_color(IN(LightRecord) l) { return vec3(l.r, l.g, l.b); }
 FN vec3 light_position(IN(LightRecord) l) { return vec3(l.x, l.y, l.z); }
 FN vec3 light_direction(IN(LightRecord) l) { return vec3(l.dx, l.dy, l.dz); }
 
-// Width in cos θ of the ramp of a spot's falloff, which begins at cos_outer. KHR_lights_punctual keeps it at least 0.001
-// wide, so that the ramp of a narrow cone may be cut short by the axis.
-FN real spot_ramp(real cos_inner, real cos_outer) { return max(cos_inner - cos_outer, real(0.001)); }
+// Width in cos θ of the ramp of a spot's falloff, which begins at cos_outer. KHR_lights_punctual
+// keeps it at least 0.001 wide, so that the ramp of a narrow cone may be cut short by the axis.
+FN real spot_ramp(real cos_inner, real cos_outer) {
+    return max(cos_inner - cos_outer, real(0.001));
+}
 
-// Share of a spot's intensity at this angle from its axis: KHR_lights_punctual, "Inner and Outer Cone Angles".
+// Share of a spot's intensity at this angle from its axis: KHR_lights_punctual, "Inner and Outer
+// Cone Angles".
 FN real spot_falloff(real cosine, real cos_inner, real cos_outer) {
     real x = clamp((cosine - cos_outer) / spot_ramp(cos_inner, cos_outer), real(0.0), real(1.0));
     return x * x;
 }
 
-// The falloff's integral over directions [sr]; ramp: the part of it that lies on the ramp, ramp_share: how much of the
-// ramp there is.
+// The falloff's integral over directions [sr]; ramp: the part of it that lies on the ramp,
+// ramp_share: how much of the ramp there is.
 FN real spot_solid_angles(real cos_inner, real cos_outer, OUT(real) ramp, OUT(real) ramp_share) {
     real width = spot_ramp(cos_inner, cos_outer);
     ramp_share = min((real(1.0) - cos_outer) / width, real(1.0));
@@ -55,14 +61,15 @@ FN vec3 light_normal(IN(LightRecord) l, OUT(real) area) {
     real length1, length2;
     vec3 unit1 = unit_and_length(edge1, length1);
     vec3 unit2 = unit_and_length(edge2, length2);
-    vec3 n = unit_and_length(cross3(unit1, unit2), area);   // the sine between the edges so far
+    vec3 n = unit_and_length(cross3(unit1, unit2), area); // the sine between the edges so far
     area = real(0.5) * area * length1 * length2;
     return n;
 }
 
 FN real light_sides(IN(LightRecord) l) { return l.double_sided != 0u ? real(2.0) : real(1.0); }
 
-// Power that a light sends into a scene with this bounding sphere: I times solid angle, E·pi r², pi L A, 4 pi·pi r²·L.
+// Power that a light sends into a scene with this bounding sphere: I times solid angle, E·pi r², pi
+// L A, 4 pi·pi r²·L.
 FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
     real factor = real(0.0);
     if (is_light(l, kinds, light_point)) {
@@ -73,7 +80,7 @@ FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
     } else if (is_light(l, kinds, light_directional)) {
         factor = PI * radius * radius;
     } else if (is_light(l, kinds, light_sky)) {
-        factor = real(39.478417604357434) * radius * radius;    // 4 pi²
+        factor = real(39.478417604357434) * radius * radius; // 4 pi²
     } else if (is_light(l, kinds, light_triangle)) {
         real area;
         light_normal(l, area);
@@ -82,12 +89,14 @@ FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
     return light_color(l) * factor;
 }
 
-// Mean over the channels of an emissive triangle's power per area and side, for choosing lights in proportion to power.
+// Mean over the channels of an emissive triangle's power per area and side, for choosing lights in
+// proportion to power.
 FN real light_weight_of_emitter(vec3 radiance) { return PI * mean_component(radiance); }
 
-// Density, in solid angle, with which a light chosen in proportion to these weights, of which light_weight is the sum, and
-// light_sample find the point of an emissive triangle that is met at this distance, under this cosine (above 0) to its
-// normal. The triangle's area does not matter: a larger one is chosen more often.
+// Density, in solid angle, with which a light chosen in proportion to these weights, of which
+// light_weight is the sum, and light_sample find the point of an emissive triangle that is met at
+// this distance, under this cosine (above 0) to its normal. The triangle's area does not matter: a
+// larger one is chosen more often.
 FN real emitter_density(vec3 radiance, real sides, real light_weight, real distance, real cosine) {
     real weight = light_weight_of_emitter(radiance) * sides;
     return weight / light_weight * distance * distance / cosine;
@@ -98,7 +107,8 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
     vec3 n = light_normal(l, area);
     vec2 b = sample_triangle(u);
     vec3 error;
-    vec3 q = hit_point(light_position(l), vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y, error);
+    vec3 q = hit_point(light_position(l), vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y,
+                       error);
     s.wi = unit_and_length(q - p, s.distance);
     real cosine = -dot3(s.wi, n);
     cosine = l.double_sided != 0u ? abs(cosine) : cosine;
@@ -116,9 +126,9 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
     return is_finite(s.pdf) && s.pdf > real(0.0);
 }
 
-// Samples a direction towards the light from p, the very origin of the shadow ray: seen from the surface's point the
-// emitter lies elsewhere, by the offset of the origin, which on a large floor is more than the rounding allowed for here.
-// False where none of its light arrives.
+// Samples a direction towards the light from p, the very origin of the shadow ray: seen from the
+// surface's point the emitter lies elsewhere, by the offset of the origin, which on a large floor
+// is more than the rounding allowed for here. False where none of its light arrives.
 FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSample) s) {
     s.wi = -light_direction(l);
     s.distance = real(far_away);
@@ -153,15 +163,16 @@ FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSam
     return share > real(0.0) && is_finite3(s.radiance);
 }
 
-// Direction of a spot's photon, exactly in proportion to the falloff. On the ramp, where it grows with the square of the
-// distance from the outer cosine, that distance is the largest of three uniform numbers.
+// Direction of a spot's photon, exactly in proportion to the falloff. On the ramp, where it grows
+// with the square of the distance from the outer cosine, that distance is the largest of three
+// uniform numbers.
 FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     real cos_inner = real(l.cos_inner);
     real cos_outer = real(l.cos_outer);
     real ramp, ramp_share;
     real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
     real width = spot_ramp(cos_inner, cos_outer);
-    real below = ((real(1.0) - cos_outer) - width) * u.z;       // 1 - cos θ, in the full cone
+    real below = ((real(1.0) - cos_outer) - width) * u.z; // 1 - cos θ, in the full cone
     if (u.x * all < ramp) {
         below = (real(1.0) - cos_outer) - max(u.z, max(v.x, v.y)) * ramp_share * width;
     }
@@ -172,11 +183,12 @@ FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     return to_world(make_frame(light_direction(l)), vec3(sine * c, sine * s, real(1.0) - below));
 }
 
-// Emits a photon. flux: what it carries if it is the light's only one, the light's power. normal: of the emitting surface
-// on the photon's side, (0,0,0) if it does not leave one; the origin has then been moved off the surface already.
-// Directional light and the sky start on a disc that covers the bounding sphere, outside of it.
-FN bool light_emit(IN(LightRecord) l, uint kinds, vec4 u, vec4 v, vec3 center, real radius, OUT(vec3) origin,
-                   OUT(vec3) direction, OUT(vec3) normal, OUT(vec3) flux) {
+// Emits a photon. flux: what it carries if it is the light's only one, the light's power. normal:
+// of the emitting surface on the photon's side, (0,0,0) if it does not leave one; the origin has
+// then been moved off the surface already. Directional light and the sky start on a disc that
+// covers the bounding sphere, outside of it.
+FN bool light_emit(IN(LightRecord) l, uint kinds, vec4 u, vec4 v, vec3 center, real radius,
+                   OUT(vec3) origin, OUT(vec3) direction, OUT(vec3) normal, OUT(vec3) flux) {
     origin = light_position(l);
     direction = light_direction(l);
     normal = vec3(real(0.0));

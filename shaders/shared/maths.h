@@ -26,8 +26,8 @@ FN vec3 cross3(vec3 a, vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// Unit vector along v and the length of v; (0,0,0) and 0 where v is zero or not finite. Scaled by the largest component
-// first, so that no square over- or underflows.
+// Unit vector along v and the length of v; (0,0,0) and 0 where v is zero or not finite. Scaled by
+// the largest component first, so that no square over- or underflows.
 FN vec3 unit_and_length(vec3 v, OUT(real) v_length) {
     real largest = max_component(abs(v));
     v_length = real(0.0);
@@ -35,7 +35,7 @@ FN vec3 unit_and_length(vec3 v, OUT(real) v_length) {
         return vec3(real(0.0));
     }
     vec3 scaled = v / largest;
-    real scaled_length = sqrt(dot3(scaled, scaled));    // at least 1
+    real scaled_length = sqrt(dot3(scaled, scaled)); // at least 1
     v_length = scaled_length * largest;
     return scaled / scaled_length;
 }

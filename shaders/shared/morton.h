@@ -15,7 +15,8 @@ FN uint spread_bits(uint v) {
     return (v | (v << 2u)) & 0x09249249u;
 }
 
-// Cell of x of `cells` between low and high. Outside, the nearest; 0 where there is no extent or x is NaN.
+// Cell of x of `cells` between low and high. Outside, the nearest; 0 where there is no extent or x
+// is NaN.
 FN uint morton_cell(real x, real low, real high, real cells) {
     real extent = high - low;
     // Halves, so that a box as large as single precision's range has a finite extent.
@@ -45,7 +46,8 @@ FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
     uint y = morton_cell(p.y, low.y, high.y, real(2097152.0));
     uint z = morton_cell(p.z, low.z, high.z, real(2097152.0));
     uint lowest = (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
-    uint middle = (spread_bits(x >> 10u) << 2u) | (spread_bits(y >> 10u) << 1u) | spread_bits(z >> 10u);
+    uint middle =
+        (spread_bits(x >> 10u) << 2u) | (spread_bits(y >> 10u) << 1u) | spread_bits(z >> 10u);
     uint highest = ((x >> 20u) << 2u) | ((y >> 20u) << 1u) | (z >> 20u);
     return uvec2(lowest | (middle << 30u), (middle >> 2u) | (highest << 28u));
 }
@@ -53,9 +55,10 @@ FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
 // Zero bits above the highest one; 32 for 0.
 FN uint leading_zeros(uint v) { return uint(31 - findMSB(v)); }
 
-// How far two leaves are apart whose codes are neighbours in their order: the highest bit in which the codes differ as if
-// each were followed by its place, which makes equal ones differ (Karras 2012, "Maximizing Parallelism in the Construction
-// of BVHs, Octrees, and k-d Trees"). Codes of 32 bits are the high word.
+// How far two leaves are apart whose codes are neighbours in their order: the highest bit in which
+// the codes differ as if each were followed by its place, which makes equal ones differ (Karras
+// 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Codes of 32
+// bits are the high word.
 FN uint code_distance(uvec2 code_a, uint place_a, uvec2 code_b, uint place_b) {
     return code_a.y != code_b.y   ? 95u - leading_zeros(code_a.y ^ code_b.y)
            : code_a.x != code_b.x ? 63u - leading_zeros(code_a.x ^ code_b.x)

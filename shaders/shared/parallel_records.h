@@ -5,23 +5,24 @@
 
 ARGAND_SHARED_BEGIN
 
-// How many elements there are: `number`, or where `on_device` is not 0 the uint at `index` of a buffer, but at most
-// `number`.
+// How many elements there are: `number`, or where `on_device` is not 0 the uint at `index` of a
+// buffer, but at most `number`.
 struct CountRecord {
     uint number;
     uint index;
     uint on_device;
 };
 
-// The elements fall into `parts` contiguous parts of part_size() elements; trailing parts may be short or empty. A
-// part is worked on by one work-group, or on devices that run lanes serially by one lane.
+// The elements fall into `parts` contiguous parts of part_size() elements; trailing parts may be
+// short or empty. A part is worked on by one work-group, or on devices that run lanes serially by
+// one lane.
 struct PartsRecord {
     uint parts;
-    uint grain;     // elements; a part's size is a multiple of it
+    uint grain; // elements; a part's size is a multiple of it
 };
 
-// Elements per part. The number of grains is odd: parts that start at multiples of a power of two would compete for
-// the same few sets of a CPU's cache.
+// Elements per part. The number of grains is odd: parts that start at multiples of a power of two
+// would compete for the same few sets of a CPU's cache.
 FN uint part_size(uint count, PartsRecord parts) {
     uint spread = parts.parts * parts.grain;
     uint grains = count / spread + (count % spread > 0u ? 1u : 0u);
@@ -31,7 +32,7 @@ FN uint part_size(uint count, PartsRecord parts) {
 CONSTANT uint reduce_op_sum = 0u;
 CONSTANT uint reduce_op_min = 1u;
 CONSTANT uint reduce_op_max = 2u;
-CONSTANT uint reduce_op_count = 3u;     // of the elements that are not 0
+CONSTANT uint reduce_op_count = 3u; // of the elements that are not 0
 
 struct ReduceParams {
     CountRecord count;

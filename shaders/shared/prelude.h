@@ -1,7 +1,8 @@
-// The common subset of GLSL, CUDA and C++ in which everything under shared/ is written: free functions, plain structs,
-// literals written real(0.1). In C++ and CUDA the code lives in namespace argand (float) or, where ARGAND_REAL_DOUBLE
-// is defined before the first include, in argand::oracle (double): the same text is its own double-precision truth. A
-// translation unit is one or the other, never both. Constants that take more than one rounding are written out: glslang
+// The common subset of GLSL, CUDA and C++ in which everything under shared/ is written: free
+// functions, plain structs, literals written real(0.1). In C++ and CUDA the code lives in namespace
+// argand (float) or, where ARGAND_REAL_DOUBLE is defined before the first include, in
+// argand::oracle (double): the same text is its own double-precision truth. A translation unit is
+// one or the other, never both. Constants that take more than one rounding are written out: glslang
 // folds constant expressions in double precision, C++ operation by operation.
 #ifndef ARGAND_SHARED_PRELUDE_H
 #define ARGAND_SHARED_PRELUDE_H
@@ -27,8 +28,12 @@
 #endif
 
 #ifdef ARGAND_REAL_DOUBLE
-#define ARGAND_SHARED_BEGIN namespace argand { namespace oracle {
-#define ARGAND_SHARED_END } }
+#define ARGAND_SHARED_BEGIN                                                                        \
+    namespace argand {                                                                             \
+    namespace oracle {
+#define ARGAND_SHARED_END                                                                          \
+    }                                                                                              \
+    }
 #else
 #define ARGAND_SHARED_BEGIN namespace argand {
 #define ARGAND_SHARED_END }

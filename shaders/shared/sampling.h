@@ -5,8 +5,8 @@
 
 ARGAND_SHARED_BEGIN
 
-// Which random numbers a path takes. The first few vertices share quasi-random sequences, where good distribution
-// pays most; further on a hash does as well and is cheaper.
+// Which random numbers a path takes. The first few vertices share quasi-random sequences, where
+// good distribution pays most; further on a hash does as well and is cheaper.
 CONSTANT uint sobol_dimensions = 4u;
 
 // Eye paths: a sequence over the samples of each pixel.
@@ -19,7 +19,7 @@ FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
 
 // Photons: one sequence over all of them, or, for comparison, a hash everywhere.
 FN vec4 photon_random4(uint seed, uint photon, uint dimension, bool quasi_random) {
-    const uint of_photons = 0x40000000u;    // no pixel has this number
+    const uint of_photons = 0x40000000u; // no pixel has this number
     if (quasi_random && dimension < sobol_dimensions) {
         return sobol_random4(seed, of_photons, photon, dimension);
     }

@@ -91,8 +91,9 @@ TEST_P(LbvhBuild, TellsEqualCodesApartByTheirPlace) {
 
 TEST_P(LbvhBuild, TakesFlatAndExtremeBoxes) {
     Device& device = open_variant();
-    for (const glm::vec3 scale : {glm::vec3(1, 1, 0), glm::vec3(0, 1, 0), glm::vec3(1e6f), glm::vec3(1e-6f),
-                                  glm::vec3(1e30f), glm::vec3(1e-30f, 1e30f, 1)}) {
+    for (const glm::vec3 scale :
+         {glm::vec3(1, 1, 0), glm::vec3(0, 1, 0), glm::vec3(1e6f), glm::vec3(1e-6f),
+          glm::vec3(1e30f), glm::vec3(1e-30f, 1e30f, 1)}) {
         SCOPED_TRACE(scale.x);
         expect_serial(device, random_boxes(2000, 0.1f, scale));
     }
@@ -130,7 +131,8 @@ using Lbvh1Thread = DeviceTest;
 TEST_F(Lbvh1Thread, BuildsWhatTwoBuild) {
     const std::vector<BoxRecord> boxes = random_boxes(20000, 0.02f);
     const SerialLbvh two = build_on(open(), boxes, boxes.size(), boxes.size());
-    const ScopedEnvironment threads("LP_NUM_THREADS", "1"); // of lavapipe; other devices do not read it
+    const ScopedEnvironment threads("LP_NUM_THREADS",
+                                    "1"); // of lavapipe; other devices do not read it
     expect_same(build_on(open(), boxes, boxes.size(), boxes.size()), two);
 }
 

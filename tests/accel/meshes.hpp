@@ -55,8 +55,8 @@ inline Mesh random_triangles(std::size_t count, float size, std::uint32_t seed) 
     return mesh;
 }
 
-/// A closed, bumpy sphere with shared vertices: `rings` rows of 2 `rings` quadrilaterals, triangles at the
-/// poles.
+/// A closed, bumpy sphere with shared vertices: `rings` rows of 2 `rings` quadrilaterals, triangles
+/// at the poles.
 inline Mesh bumpy_sphere(std::uint32_t rings, float bump) {
     const std::uint32_t sectors = 2 * rings;
     Mesh mesh;
@@ -67,8 +67,8 @@ inline Mesh bumpy_sphere(std::uint32_t rings, float bump) {
             const double phi = 2 * M_PI * sector / sectors;
             const double radius = 1 + bump * std::sin(7 * theta) * std::cos(5 * phi);
             mesh.positions.emplace_back(radius * std::sin(theta) * std::cos(phi),
-                                        radius * std::sin(theta) * std::sin(phi), radius * std::cos(theta),
-                                        1);
+                                        radius * std::sin(theta) * std::sin(phi),
+                                        radius * std::cos(theta), 1);
         }
     }
     mesh.positions.emplace_back(0, 0, -1, 1);

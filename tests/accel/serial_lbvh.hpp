@@ -17,12 +17,14 @@ struct SerialLbvh {
 };
 
 inline BoxRecord box_union(const BoxRecord& a, const BoxRecord& b) {
-    return {std::min(a.low_x, b.low_x),   std::min(a.low_y, b.low_y),   std::min(a.low_z, b.low_z),   0,
-            std::max(a.high_x, b.high_x), std::max(a.high_y, b.high_y), std::max(a.high_z, b.high_z), 0};
+    return {std::min(a.low_x, b.low_x),   std::min(a.low_y, b.low_y),
+            std::min(a.low_z, b.low_z),   0,
+            std::max(a.high_x, b.high_x), std::max(a.high_y, b.high_y),
+            std::max(a.high_z, b.high_z), 0};
 }
 
-/// The tree that build_lbvh builds, from the root down: a range of leaves is split where the highest bit
-/// differs in which the codes of its ends do, or their places if the codes are equal.
+/// The tree that build_lbvh builds, from the root down: a range of leaves is split where the
+/// highest bit differs in which the codes of its ends do, or their places if the codes are equal.
 class SerialBuild {
 public:
     explicit SerialBuild(const std::vector<BoxRecord>& boxes) : boxes_(boxes) {
@@ -55,9 +57,10 @@ public:
     SerialLbvh result;
 
 private:
-    /// Writes the subtree over first..last; returns its root's box. `inner` is the root's number if it is no
-    /// leaf.
-    BoxRecord build(std::uint32_t first, std::uint32_t last, std::uint32_t inner, std::uint32_t escape) {
+    /// Writes the subtree over first..last; returns its root's box. `inner` is the root's number if
+    /// it is no leaf.
+    BoxRecord build(std::uint32_t first, std::uint32_t last, std::uint32_t inner,
+                    std::uint32_t escape) {
         BoxRecord box;
         std::uint32_t place;
         std::uint32_t child;
@@ -72,7 +75,8 @@ private:
             }
             const std::uint32_t right = 2 * (split + 1) + (split + 1 == last ? 1 : 0);
             child = 2 * split + (split == first ? 1 : 0);
-            box = box_union(build(first, split, split, right), build(split + 1, last, split + 1, escape));
+            box = box_union(build(first, split, split, right),
+                            build(split + 1, last, split + 1, escape));
             place = 2 * inner;
         }
         result.nodes[place] = {box.low_x,  box.low_y,  box.low_z,  child,
@@ -82,7 +86,8 @@ private:
 
     std::uint64_t key(std::uint32_t i) const { return std::uint64_t(codes_[i]) << 32 | i; }
 
-    /// Whether leaf i is on the first leaf's side of the highest bit in which first and last differ.
+    /// Whether leaf i is on the first leaf's side of the highest bit in which first and last
+    /// differ.
     bool same_side(std::uint32_t first, std::uint32_t i, std::uint32_t last) const {
         const int bit = 63 - std::countl_zero(key(first) ^ key(last));
         return (key(i) >> bit) == (key(first) >> bit);

@@ -17,7 +17,8 @@ void expect_same(const std::vector<HitRecord>& a, const std::vector<HitRecord>& 
 }
 
 /// Rays that pass within rounding of an edge may go either way; all others must agree.
-void expect_exact(const Mesh& mesh, const std::vector<RayRecord>& rays, const std::vector<HitRecord>& hits) {
+void expect_exact(const Mesh& mesh, const std::vector<RayRecord>& rays,
+                  const std::vector<HitRecord>& hits) {
     std::size_t differing = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const ExactHit exact = exact_closest(mesh, rays[i]);
@@ -118,9 +119,10 @@ TEST_P(Trace, LeavesOtherRaysAlone) {
         device.fill(hits, 0xabcdef01u);
         Traversal working = tracer.traversal(rays.size(), {.careful = careful});
         // Four of the five, and the device alone knows that.
-        trace_closest(device, tracer.bvh, working, upload(device, "rays", rays),
-                      upload(device, "active", active), hits,
-                      Count(upload(device, "counts", std::vector<std::uint32_t>{1, 2, 4}), 2, active.size()));
+        trace_closest(
+            device, tracer.bvh, working, upload(device, "rays", rays),
+            upload(device, "active", active), hits,
+            Count(upload(device, "counts", std::vector<std::uint32_t>{1, 2, 4}), 2, active.size()));
         const std::vector<HitRecord> found = download<HitRecord>(device, hits, rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool chosen = i == 7 || i == 999 || i == 0 || i == 500;
@@ -131,7 +133,8 @@ TEST_P(Trace, LeavesOtherRaysAlone) {
 
 TEST_P(Trace, MeetsRaysAlongTheAxes) {
     Device& device = open_variant();
-    // A plane of squares; the rays go through their corners, edges and insides, and in its own plane.
+    // A plane of squares; the rays go through their corners, edges and insides, and in its own
+    // plane.
     Mesh mesh;
     for (int x = 0; x < 8; ++x) {
         for (int y = 0; y < 8; ++y) {
@@ -142,7 +145,9 @@ TEST_P(Trace, MeetsRaysAlongTheAxes) {
     for (int axis = 0; axis < 3; ++axis) {
         Mesh turned = mesh;
         for (glm::vec4& p : turned.positions) {
-            p = axis == 0 ? glm::vec4(p.z, p.x, p.y, 1) : axis == 1 ? glm::vec4(p.y, p.z, p.x, 1) : p;
+            p = axis == 0   ? glm::vec4(p.z, p.x, p.y, 1)
+                : axis == 1 ? glm::vec4(p.y, p.z, p.x, 1)
+                            : p;
         }
         glm::vec3 along(0);
         along[axis] = 1;
@@ -226,9 +231,10 @@ double distance_from(const Mesh& mesh, const HitRecord& hit, const glm::dvec3& p
     return glm::length(a * (1 - u - v) + b * u + c * v - point);
 }
 
-// Strips of two slivers each, 2 long and 2·10^-6 wide, side by side in a slanting plane: no ray may slip through. Seen from
-// the ray's origin vertices are rounded by a few percent of a sliver's width: near edges the next strip may be met, and the
-// point lies elsewhere along the sliver by as large a share of its length, here by 1 %.
+// Strips of two slivers each, 2 long and 2·10^-6 wide, side by side in a slanting plane: no ray may
+// slip through. Seen from the ray's origin vertices are rounded by a few percent of a sliver's
+// width: near edges the next strip may be met, and the point lies elsewhere along the sliver by as
+// large a share of its length, here by 1 %.
 TEST_P(Trace, MeetsSliversOfAspectAMillion) {
     Device& device = open_variant();
     constexpr int count = 1000;
@@ -283,7 +289,8 @@ TEST_P(Trace, IsWatertight) {
             const glm::vec3 a = mesh.corner(i, 0);
             const glm::vec3 b = mesh.corner(i, 1);
             const glm::vec3 c = mesh.corner(i, 2);
-            for (const glm::vec3 target : {a, (a + b) / 2.0f, 0.7f * b + 0.3f * c, (a + b + c) / 3.0f}) {
+            for (const glm::vec3 target :
+                 {a, (a + b) / 2.0f, 0.7f * b + 0.3f * c, (a + b + c) / 3.0f}) {
                 rays.push_back(make_ray(origin, target - origin));
             }
         }
@@ -344,7 +351,8 @@ TEST_P(Trace, DoesNotDependOnTheStepLimit) {
         SCOPED_TRACE(limit);
         expect_same(tracer.closest(rays, {.step_limit = limit, .careful = true}), hits);
         EXPECT_EQ(tracer.any(rays, {.step_limit = limit, .careful = true}), occluded);
-        expect_same(tracer.closest(rays, {.step_limit = limit, .slots = 100, .careful = true}), hits);
+        expect_same(tracer.closest(rays, {.step_limit = limit, .slots = 100, .careful = true}),
+                    hits);
     }
     // Two dispatches are enough for some rays; the others are counted.
     std::uint32_t unfinished = 0;
@@ -393,7 +401,8 @@ TEST_F(TraceAcross, VariantsAndThreadsGiveTheSameBits) {
     for (const DeviceSetting& setting : variant_settings()) {
         expect_same(Tracer(open(setting), mesh).closest(rays), hits);
     }
-    const ScopedEnvironment threads("LP_NUM_THREADS", "1"); // of lavapipe; other devices do not read it
+    const ScopedEnvironment threads("LP_NUM_THREADS",
+                                    "1"); // of lavapipe; other devices do not read it
     expect_same(Tracer(open(), mesh).closest(rays), hits);
 }
 

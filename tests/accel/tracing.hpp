@@ -55,8 +55,8 @@ struct Tracer {
     std::vector<std::uint32_t> any(const std::vector<RayRecord>& rays,
                                    const TraceOptions& options = {}) const {
         Traversal working = traversal(rays.size(), options);
-        const Buffer occluded =
-            device.allocate("occluded", std::max<std::size_t>(rays.size(), 1) * sizeof(std::uint32_t));
+        const Buffer occluded = device.allocate("occluded", std::max<std::size_t>(rays.size(), 1) *
+                                                                sizeof(std::uint32_t));
         trace_any(device, bvh, working, upload(device, "rays", rays),
                   upload(device, "active", everyone(rays.size())), occluded, rays.size());
         EXPECT_EQ(download<std::uint32_t>(device, working.unfinished, 1)[0], 0u);
@@ -76,8 +76,10 @@ struct ExactHit {
     double t = 0, u = 0, v = 0;
 };
 
-/// Distance and weights (Möller, Trumbore 1997), in double precision; nothing if the triangle is missed.
-inline std::optional<glm::dvec3> exact_hit(const Mesh& mesh, std::size_t triangle, const RayRecord& ray) {
+/// Distance and weights (Möller, Trumbore 1997), in double precision; nothing if the triangle is
+/// missed.
+inline std::optional<glm::dvec3> exact_hit(const Mesh& mesh, std::size_t triangle,
+                                           const RayRecord& ray) {
     const glm::dvec3 origin(ray.origin_x, ray.origin_y, ray.origin_z);
     const glm::dvec3 direction(ray.direction_x, ray.direction_y, ray.direction_z);
     const glm::dvec3 a(mesh.corner(triangle, 0));
@@ -102,8 +104,8 @@ inline std::optional<glm::dvec3> exact_hit(const Mesh& mesh, std::size_t triangl
 /// Sine of the angle between the ray and the triangle's plane.
 inline double exact_grazing(const Mesh& mesh, std::size_t triangle, const RayRecord& ray) {
     const glm::dvec3 a(mesh.corner(triangle, 0));
-    const glm::dvec3 normal =
-        glm::cross(glm::dvec3(mesh.corner(triangle, 1)) - a, glm::dvec3(mesh.corner(triangle, 2)) - a);
+    const glm::dvec3 normal = glm::cross(glm::dvec3(mesh.corner(triangle, 1)) - a,
+                                         glm::dvec3(mesh.corner(triangle, 2)) - a);
     const glm::dvec3 direction(ray.direction_x, ray.direction_y, ray.direction_z);
     return std::abs(glm::dot(normal, direction)) / (glm::length(normal) * glm::length(direction));
 }

@@ -42,13 +42,14 @@ public:
         EXPECT_LE(count, 4u);
         for (std::uint32_t i = 0; i < count; ++i) {
             const Box child = visit(children[i]);
-            const glm::dvec3 low = corner(node, {node.low_cells_x, node.low_cells_y, node.low_cells_z}, i);
+            const glm::dvec3 low =
+                corner(node, {node.low_cells_x, node.low_cells_y, node.low_cells_z}, i);
             const glm::dvec3 high =
                 corner(node, {node.high_cells_x, node.high_cells_y, node.high_cells_z}, i);
             const glm::dvec3 cell = cells(node);
             // Within what make_ray in traverse.glsl allows for, and not a cell more than needed.
-            const glm::dvec3 slack =
-                1e-6 * (glm::abs(glm::dvec3(child.low)) + glm::abs(glm::dvec3(child.high)) + 256.0 * cell);
+            const glm::dvec3 slack = 1e-6 * (glm::abs(glm::dvec3(child.low)) +
+                                             glm::abs(glm::dvec3(child.high)) + 256.0 * cell);
             for (int axis = 0; axis < 3; ++axis) {
                 EXPECT_LE(low[axis], child.low[axis] + slack[axis]);
                 EXPECT_GE(high[axis], child.high[axis] - slack[axis]);
@@ -97,8 +98,8 @@ TEST_P(WideTree, HoldsEachTriangleOnceInBoxesThatFit) {
 
 TEST_P(WideTree, HoldsScenesOfAnyScale) {
     Device& device = open_variant();
-    for (const glm::vec3 scale : {glm::vec3(1e6f), glm::vec3(1e-6f), glm::vec3(1, 1, 0), glm::vec3(1, 0, 0),
-                                  glm::vec3(0), glm::vec3(1e-20f, 1, 1e15f)}) {
+    for (const glm::vec3 scale : {glm::vec3(1e6f), glm::vec3(1e-6f), glm::vec3(1, 1, 0),
+                                  glm::vec3(1, 0, 0), glm::vec3(0), glm::vec3(1e-20f, 1, 1e15f)}) {
         SCOPED_TRACE(scale.x);
         Mesh mesh = random_triangles(500, 0.1f, 4);
         for (glm::vec4& position : mesh.positions) {

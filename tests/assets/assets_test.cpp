@@ -58,7 +58,8 @@ TEST_P(Asset, LoadsAsItIsMeant) {
     const Scene scene = load_gltf(folder / expected.file);
     EXPECT_EQ(scene.triangles.size(), expected.triangles);
     EXPECT_EQ(scene.materials.size(), expected.materials);
-    EXPECT_EQ(static_cast<std::size_t>(std::ranges::count_if(scene.materials, emits)), expected.emitters);
+    EXPECT_EQ(static_cast<std::size_t>(std::ranges::count_if(scene.materials, emits)),
+              expected.emitters);
     EXPECT_EQ(scene.lights.size(), expected.lights);
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.cameras[0].name, "camera");
@@ -76,7 +77,8 @@ TEST_P(Asset, HasNoTriangleWithoutArea) {
     const Scene scene = load_gltf(folder / GetParam().file);
     for (const glm::uvec3& t : scene.triangles) {
         const glm::vec3 edge = scene.positions[t.y] - scene.positions[t.x];
-        EXPECT_GT(glm::length(glm::cross(edge, scene.positions[t.z] - scene.positions[t.x])), 1e-5f);
+        EXPECT_GT(glm::length(glm::cross(edge, scene.positions[t.z] - scene.positions[t.x])),
+                  1e-5f);
     }
 }
 
@@ -96,7 +98,8 @@ double volume(const Scene& scene, const std::string& name) {
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         if (scene.materials[scene.triangle_material[i]].name == name) {
             const glm::uvec3& t = scene.triangles[i];
-            const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+            const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]),
+                c(scene.positions[t.z]);
             sum += glm::dot(a, glm::cross(b, c)) / 6;
         }
     }
@@ -116,12 +119,14 @@ TEST(Assets, BodiesFaceOutwardsAndRoomsInwards) {
     constexpr double pi = 3.14159265358979;
     EXPECT_NEAR(volume(load_gltf(folder / "cornell_area.glb"), "tall box"), 0.6 * 0.6 * 1.21, 1e-5);
     EXPECT_NEAR(volume(load_gltf(folder / "cornell_mirror.glb"), "mirror"), 0.6 * 0.6 * 1.21, 1e-5);
-    EXPECT_NEAR(volume(load_gltf(folder / "cornell_glass.glb"), "glass sphere") / (4 * pi / 3 * 0.064), 1,
-                0.005);
+    EXPECT_NEAR(volume(load_gltf(folder / "cornell_glass.glb"), "glass sphere") /
+                    (4 * pi / 3 * 0.064),
+                1, 0.005);
     EXPECT_NEAR(volume(load_gltf(folder / "closed_box.gltf"), "walls"), -8, 1e-5);
     // A ring of mean radius 1.04, 0.08 thick and 0.46 high, its corners rounded (Pappus).
     const double section = 0.08 * 0.46 - (4 - pi) * 0.025 * 0.025;
-    EXPECT_NEAR(volume(load_gltf(folder / "ring.glb"), "ring") / (2 * pi * 1.04 * section), 1, 0.005);
+    EXPECT_NEAR(volume(load_gltf(folder / "ring.glb"), "ring") / (2 * pi * 1.04 * section), 1,
+                0.005);
 }
 
 TEST(Assets, InterpolatedNormalsFaceAsTheirTriangles) {
@@ -174,11 +179,13 @@ TEST(Assets, LightsStandWhereTheyShould) {
 
     const Light spot = load_gltf(folder / "spot.glb").lights.at(0);
     EXPECT_EQ(spot.kind, LightKind::spot);
-    EXPECT_NEAR(glm::distance(spot.direction, glm::normalize(glm::vec3(-0.9f, -1.3f, -0.35f))), 0, 1e-5);
+    EXPECT_NEAR(glm::distance(spot.direction, glm::normalize(glm::vec3(-0.9f, -1.3f, -0.35f))), 0,
+                1e-5);
 
     const Light sun = load_gltf(folder / "courtyard.glb").lights.at(0);
     EXPECT_EQ(sun.kind, LightKind::directional);
-    EXPECT_NEAR(glm::distance(sun.direction, glm::normalize(glm::vec3(-0.55f, -1, -0.5f))), 0, 1e-5);
+    EXPECT_NEAR(glm::distance(sun.direction, glm::normalize(glm::vec3(-0.55f, -1, -0.5f))), 0,
+                1e-5);
 }
 
 TEST(Assets, CamerasLookAtTheirScenes) {
@@ -198,8 +205,8 @@ TEST(Assets, AreWhatTheScriptWrites) {
         GTEST_SKIP() << "python3 is not installed; the other tests check the scenes themselves";
     }
     const ScratchDirectory scratch;
-    const std::string command =
-        "python3 -B '" + (folder / "make_scenes.py").string() + "' '" + scratch.path().string() + "'";
+    const std::string command = "python3 -B '" + (folder / "make_scenes.py").string() + "' '" +
+                                scratch.path().string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     ASSERT_EQ(scene_files(scratch.path()), scene_files(folder));
     for (const std::string& name : scene_files(folder)) {

@@ -56,7 +56,9 @@ private:
 /// Relative paths are taken from here.
 class WorkingDirectory {
 public:
-    explicit WorkingDirectory(const fs::path& path) : before_(fs::current_path()) { fs::current_path(path); }
+    explicit WorkingDirectory(const fs::path& path) : before_(fs::current_path()) {
+        fs::current_path(path);
+    }
     ~WorkingDirectory() { fs::current_path(before_); }
 
 private:
@@ -125,13 +127,14 @@ TEST(AtomicWrite, WritesToDevicesWithoutReplacingThem) {
 TEST(AtomicWrite, RefusesADirectory) {
     const ScratchDirectory scratch;
     fs::create_directory(scratch / "folder");
-    for (const fs::path& target : {scratch / "folder", scratch / "folder/", scratch / "folder/missing/..",
-                                   fs::path("."), fs::path("/")}) {
+    for (const fs::path& target : {scratch / "folder", scratch / "folder/",
+                                   scratch / "folder/missing/..", fs::path("."), fs::path("/")}) {
         EXPECT_THAT(error_of([&] { write_atomically(target, "x"); }),
                     ::testing::AnyOf(HasSubstr("directory"), HasSubstr("does not exist")))
             << target;
     }
-    EXPECT_THAT(error_of([&] { write_atomically(scratch / "folder", "x"); }), HasSubstr("it is a directory"));
+    EXPECT_THAT(error_of([&] { write_atomically(scratch / "folder", "x"); }),
+                HasSubstr("it is a directory"));
     EXPECT_TRUE(fs::is_empty(scratch / "folder"));
 }
 
@@ -149,7 +152,8 @@ TEST(AtomicWrite, NamesWhatIsMissing) {
     EXPECT_THAT(error_of([&] { write_atomically(scratch / std::string(256, 'n'), "x"); }),
                 HasSubstr("too long"));
     fs::create_symlink("loop", scratch / "loop");
-    EXPECT_THAT(error_of([&] { write_atomically(scratch / "loop", "x"); }), HasSubstr("symbolic links"));
+    EXPECT_THAT(error_of([&] { write_atomically(scratch / "loop", "x"); }),
+                HasSubstr("symbolic links"));
 }
 
 TEST(AtomicWrite, RespectsWriteProtection) {
@@ -163,7 +167,8 @@ TEST(AtomicWrite, RespectsWriteProtection) {
         const WithoutPrivilege nobody;
         EXPECT_THAT(error_of([&] { write_atomically(scratch / "kept.png", "new"); }),
                     HasSubstr("write-protected"));
-        const std::string message = error_of([&] { write_atomically(scratch / "locked/new.png", "new"); });
+        const std::string message =
+            error_of([&] { write_atomically(scratch / "locked/new.png", "new"); });
         EXPECT_THAT(message, HasSubstr("locked/new.png"));
         EXPECT_THAT(message, HasSubstr("Permission denied"));
         EXPECT_THAT(error_of([&] { check_writable(scratch / "locked/new.png"); }),
@@ -194,7 +199,8 @@ TEST(AtomicWrite, ChecksWithoutATrace) {
     check_writable(scratch / "there.png");
     EXPECT_EQ(read_text(scratch / "there.png"), "old");
     check_writable("/dev/null");
-    EXPECT_THAT(error_of([&] { check_writable(scratch / "missing/x.png"); }), HasSubstr("does not exist"));
+    EXPECT_THAT(error_of([&] { check_writable(scratch / "missing/x.png"); }),
+                HasSubstr("does not exist"));
 }
 
 } // namespace

@@ -20,9 +20,7 @@ TEST(Base64, TestVectorsOfRfc4648) {
     EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
 }
 
-TEST(Base64, BytesBeyondAscii) {
-    EXPECT_EQ(encoded("\xfb\xff\xfe"), "+//+");
-}
+TEST(Base64, BytesBeyondAscii) { EXPECT_EQ(encoded("\xfb\xff\xfe"), "+//+"); }
 
 } // namespace
 } // namespace argand

@@ -6,7 +6,8 @@ using namespace argand;
 
 namespace {
 
-/// What the test's own parent made of the signals (a background job ignores SIGINT) must not matter.
+/// What the test's own parent made of the signals (a background job ignores SIGINT) must not
+/// matter.
 void take_signals_as_usual() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);

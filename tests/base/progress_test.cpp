@@ -50,7 +50,8 @@ TEST(Progress, LineSaysHowFarAndHowLong) {
     EXPECT_EQ(progress_line("tracing", 1, 10), "tracing  100 %");
     EXPECT_EQ(progress_line("tracing", 7, 10), "tracing  100 %");
     EXPECT_EQ(progress_line("tracing", -1, 10), "tracing  0 %");
-    EXPECT_EQ(progress_line("tracing", std::numeric_limits<double>::quiet_NaN(), 10), "tracing  0 %");
+    EXPECT_EQ(progress_line("tracing", std::numeric_limits<double>::quiet_NaN(), 10),
+              "tracing  0 %");
 }
 
 TEST(Progress, DrawsOnATerminalAndErasesItself) {
@@ -72,7 +73,8 @@ TEST(Progress, DrawsSeldom) {
     for (int i = 0; i < 100000; ++i) {
         progress.update(i * 1e-5);
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::string drawn = terminal.read();
     EXPECT_LE(static_cast<double>(std::count(drawn.begin(), drawn.end(), '\r')), 2 + seconds * 10);
 }

@@ -36,7 +36,8 @@ TEST_F(ReadFile, SaysWhatIsWrong) {
     EXPECT_THAT(problem_of(directory / "absent"), ::testing::HasSubstr("there is no such file"));
     EXPECT_THAT(problem_of(directory.path()), ::testing::HasSubstr("it is a directory"));
     EXPECT_THAT(problem_of(""), ::testing::HasSubstr("there is no such file"));
-    EXPECT_THAT(problem_of(directory / std::string(5000, 'x')), ::testing::HasSubstr("cannot read"));
+    EXPECT_THAT(problem_of(directory / std::string(5000, 'x')),
+                ::testing::HasSubstr("cannot read"));
 }
 
 TEST_F(ReadFile, DoesNotWaitForAPipe) {

@@ -5,9 +5,7 @@
 namespace argand {
 namespace {
 
-TEST(OneLine, KeepsAPlainLine) {
-    EXPECT_EQ(one_line("a plain line"), "a plain line");
-}
+TEST(OneLine, KeepsAPlainLine) { EXPECT_EQ(one_line("a plain line"), "a plain line"); }
 
 TEST(OneLine, FoldsWhiteSpaceAndControlCharacters) {
     EXPECT_EQ(one_line(" \n a\r\n\tb \x1b[31m c\x7f\n"), "a b [31m c");

@@ -14,14 +14,16 @@
 namespace argand::testing {
 
 struct Outcome {
-    int exit_code = -1;                 ///< -1: ended by a signal
+    int exit_code = -1; ///< -1: ended by a signal
     std::string out, error;
 };
 
 /// Runs the command-line tool in a directory of its own.
 class ArgandTest : public ::testing::Test {
 protected:
-    static std::string asset(const std::string& name) { return ARGAND_SOURCE_DIR "/assets/" + name; }
+    static std::string asset(const std::string& name) {
+        return ARGAND_SOURCE_DIR "/assets/" + name;
+    }
 
     /// Path of a file in the directory.
     std::string file(const std::string& name) const { return (directory_ / name).string(); }
@@ -32,18 +34,21 @@ protected:
         return names;
     }
 
-    /// Under the API's validation: a message of it would make the tool fail. `arguments` as a shell reads them,
-    /// redirections included; `environment`: NAME=VALUE ...
+    /// Under the API's validation: a message of it would make the tool fail. `arguments` as a shell
+    /// reads them, redirections included; `environment`: NAME=VALUE ...
     Outcome argand(const std::string& arguments, const std::string& environment = "") const {
         const ScratchDirectory streams;
-        const std::string command = "cd '" + directory_.path().string() + "' && env ARGAND_VALIDATION=1 " + environment +
-                                    " '" ARGAND_EXECUTABLE "' >'" + (streams / "out").string() + "' 2>'" +
-                                    (streams / "error").string() + "' </dev/null " + arguments;
+        const std::string command =
+            "cd '" + directory_.path().string() + "' && env ARGAND_VALIDATION=1 " + environment +
+            " '" ARGAND_EXECUTABLE "' >'" + (streams / "out").string() + "' 2>'" +
+            (streams / "error").string() + "' </dev/null " + arguments;
         const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(streams / "out"), read_text(streams / "error")};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(streams / "out"),
+                read_text(streams / "error")};
     }
 
-    /// Expects this exit code, one line that holds `text`, nothing on the standard output and no new file.
+    /// Expects this exit code, one line that holds `text`, nothing on the standard output and no
+    /// new file.
     void expect_failure(const std::string& arguments, int exit_code, const std::string& text,
                         const std::string& environment = "") const {
         SCOPED_TRACE(arguments);

@@ -22,7 +22,8 @@ TEST_F(BadInput, ScenesThatCannotBeRead) {
     write_text(file("nothing.gltf"), R"({"asset": {"version": "2.0"}})");
     expect_failure("render nothing.gltf", failure, "nothing.gltf");
     const std::string whole = read_text(asset("cornell_point.glb"));
-    for (const std::size_t length : {std::size_t(11), std::size_t(100), whole.size() / 2, whole.size() - 1}) {
+    for (const std::size_t length :
+         {std::size_t(11), std::size_t(100), whole.size() / 2, whole.size() - 1}) {
         write_text(file("truncated.glb"), whole.substr(0, length));
         expect_failure("render truncated.glb", failure, "truncated.glb");
     }
@@ -30,13 +31,14 @@ TEST_F(BadInput, ScenesThatCannotBeRead) {
 
 TEST_F(BadInput, SceneWithoutArea) {
     // Three vertices in one point.
-    write_text(file("flat.gltf"), R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    write_text(file("flat.gltf"),
+               R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
                        "min": [0, 0, 0], "max": [0, 0, 0]}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" +
-                                      std::string(48, 'A') + R"("}]})");
+                   std::string(48, 'A') + R"("}]})");
     expect_failure("render flat.gltf --size 8x8", failure, "flat.gltf");
 }
 
@@ -59,8 +61,9 @@ TEST_F(BadInput, Usage) {
     expect_failure("--fast", usage, "'--fast'");
     expect_failure("render", usage, "scene");
     expect_failure(scene + "--unknown", usage, "--unknown");
-    for (const char* size : {"0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "-8x8", "8.5x8", "eightxeight",
-                             "1000000x8", "99999999999999999999x8", "''", "'8 x8'"}) {
+    for (const char* size :
+         {"0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "-8x8", "8.5x8", "eightxeight",
+          "1000000x8", "99999999999999999999x8", "''", "'8 x8'"}) {
         expect_failure(scene + "--size " + size, usage, "--size");
     }
     expect_failure(scene + "--method rays", usage, "photons, ");
@@ -71,15 +74,17 @@ TEST_F(BadInput, Usage) {
 
 TEST_F(BadInput, OptionsThatTheMethodDoesNotUse) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --method ";
-    for (const char* option : {"--photons 100", "--radius 0.1", "--query-cell 0.2", "--wide-codes", "--final-gather",
-                               "--photon-sampling random", "--leaf-size 8", "--k 50"}) {
+    for (const char* option :
+         {"--photons 100", "--radius 0.1", "--query-cell 0.2", "--wide-codes", "--final-gather",
+          "--photon-sampling random", "--leaf-size 8", "--k 50"}) {
         expect_failure(scene + "path " + option, usage, "knn");
         expect_failure(scene + "path " + option, usage, "no effect with --method path");
     }
     expect_failure(scene + "footprints --k 50", usage, "--k");
     expect_failure(scene + "photons --k 50", usage, "--k");
-    for (const char* option : {"--smoothing 1", "--caustic-smoothing 1", "--max-footprint 1", "--flatness 0.3",
-                               "--uniform-kernel", "--fixed-smoothing", "--paper-axes", "--paper-reemission"}) {
+    for (const char* option :
+         {"--smoothing 1", "--caustic-smoothing 1", "--max-footprint 1", "--flatness 0.3",
+          "--uniform-kernel", "--fixed-smoothing", "--paper-axes", "--paper-reemission"}) {
         for (const char* method : {"photons", "knn", "path"}) {
             expect_failure(scene + method + " " + option, usage, "it is for footprints");
         }
@@ -94,13 +99,19 @@ TEST_F(BadInput, NumbersOutOfRange) {
         std::vector<const char*> values;
     };
     for (const Case& c : std::vector<Case>{
-             {"--spp", "from 1 to 16777216", {"0", "-1", "1.5", "many", "nan", "16777217", "99999999999999999999"}},
+             {"--spp",
+              "from 1 to 16777216",
+              {"0", "-1", "1.5", "many", "nan", "16777217", "99999999999999999999"}},
              {"--photons", "from 0 to 4000000000", {"-1", "1e30", "inf", "0.5", "4000000001"}},
              {"--bounces", "from 0 to 65535", {"-1", "65536", "nan", "few"}},
-             {"--radius", "from 1e-18 to 1e+18", {"0", "-1", "nan", "-nan", "inf", "-inf", "1e-40", "1e999", "wide"}},
+             {"--radius",
+              "from 1e-18 to 1e+18",
+              {"0", "-1", "nan", "-nan", "inf", "-inf", "1e-40", "1e999", "wide"}},
              {"--follow-roughness", "from 0 to 1", {"nan", "inf", "-0.1", "1.1", "rough"}},
              {"--seed", "from 0 to 4294967295", {"-1", "4294967296", "nan", "0.5"}},
-             {"--exposure", "from -100 to 100", {"nan", "inf", "-inf", "1e30", "101", "much", "1x"}}}) {
+             {"--exposure",
+              "from -100 to 100",
+              {"nan", "inf", "-inf", "1e30", "101", "much", "1x"}}}) {
         for (const char* value : c.values) {
             const std::string arguments = scene + c.option + " " + value;
             expect_failure(arguments, usage, c.option);
@@ -130,10 +141,12 @@ TEST_F(BadInput, DevicesThatAreNotThere) {
 TEST_F(BadInput, NoDriverAndNoLoader) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
     const std::string no_driver = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
-    for (const std::string& arguments : {scene + "--backend vulkan", std::string("bench parallel --backend vulkan")}) {
+    for (const std::string& arguments :
+         {scene + "--backend vulkan", std::string("bench parallel --backend vulkan")}) {
         expect_failure(arguments, failure, "there is no device", no_driver);
         expect_failure(arguments, failure, "mesa-vulkan-drivers", no_driver);
-        EXPECT_THAT(argand(arguments, no_driver).error, ::testing::Not(::testing::HasSubstr("code")));
+        EXPECT_THAT(argand(arguments, no_driver).error,
+                    ::testing::Not(::testing::HasSubstr("code")));
     }
     // A file of the loader's name that is none, in the way of the true one.
     const ScratchDirectory libraries;
@@ -170,16 +183,20 @@ TEST_F(BadInput, ErrorsThatCannotBeAimedAt) {
     expect_failure(scene + "--target-error nan", usage, "--target-error");
     expect_failure(scene + "--target-error 0.01 --radius 0.1", usage, "--radius");
     expect_failure(scene + "--budget 1 --radius 0.1", usage, "--radius");
-    expect_failure(scene + "--target-error 0.01 --method photons --photons 0", usage, "--photons 0");
-    expect_failure(scene + "--target-error 0.01 --method footprints --fixed-smoothing", usage, "--fixed-smoothing");
+    expect_failure(scene + "--target-error 0.01 --method photons --photons 0", usage,
+                   "--photons 0");
+    expect_failure(scene + "--target-error 0.01 --method footprints --fixed-smoothing", usage,
+                   "--fixed-smoothing");
     expect_failure(scene + "--target-error 0.01 --flatness 0.5", usage, "--flatness");
-    expect_failure("render '" + asset("ring.glb") + "' --size 8x8 --target-error 0.01 --method path", failure,
-                   "leave --method out");
+    expect_failure("render '" + asset("ring.glb") +
+                       "' --size 8x8 --target-error 0.01 --method path",
+                   failure, "leave --method out");
     expect_failure(scene + "--target-error 1e-9", failure, "ask for more error");
 }
 
 TEST_F(BadInput, PicturesThatCannotBeCompared) {
-    const std::string render = "render '" + asset("cornell_point.glb") + "' -q --spp 1 --photons 0 ";
+    const std::string render =
+        "render '" + asset("cornell_point.glb") + "' -q --spp 1 --photons 0 ";
     ASSERT_EQ(argand(render + "--size 4x4 -o a.exr").exit_code, 0);
     ASSERT_EQ(argand(render + "--size 4x6 -o b.exr").exit_code, 0);
     expect_failure("compare a.exr b.exr", failure, "b.exr");

@@ -11,8 +11,10 @@ using ::testing::HasSubstr;
 class Commands : public ArgandTest {
 protected:
     /// A render of a few pixels that is expected to work.
-    Outcome render(const std::string& options, const std::string& scene = "cornell_glass.glb") const {
-        const Outcome run = argand("render '" + asset(scene) + "' --size 6x4 --spp 2 --photons 2000 " + options);
+    Outcome render(const std::string& options,
+                   const std::string& scene = "cornell_glass.glb") const {
+        const Outcome run =
+            argand("render '" + asset(scene) + "' --size 6x4 --spp 2 --photons 2000 " + options);
         EXPECT_EQ(run.exit_code, 0) << run.error;
         return run;
     }
@@ -55,7 +57,8 @@ TEST_F(Commands, SeveralOutputsHoldTheSamePictureAndItsLayers) {
 }
 
 TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
-    render("-q -o a.png --json report.json --bounces 3 --seed 7 --exposure 0.5 --radius 0.25 --camera 0");
+    render("-q -o a.png --json report.json --bounces 3 --seed 7 --exposure 0.5 --radius 0.25 "
+           "--camera 0");
     const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
     const nlohmann::json& p = report.at("parameters");
     EXPECT_EQ(p.at("method"), "footprints");
@@ -90,7 +93,8 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
         const nlohmann::json& flux = report.at("flux");
         const double emitted = flux.at("emitted").at(channel);
         const double rest = flux.at("absorbed").at(channel).get<double>() +
-                            flux.at("escaped").at(channel).get<double>() + flux.at("cut").at(channel).get<double>();
+                            flux.at("escaped").at(channel).get<double>() +
+                            flux.at("cut").at(channel).get<double>();
         EXPECT_GT(emitted, 0);
         EXPECT_NEAR(emitted, rest, 1e-9 * emitted);
     }
@@ -115,7 +119,8 @@ TEST_F(Commands, PathTracingReportsNoPhotons) {
 }
 
 TEST_F(Commands, ReportHoldsWhatFootprintsAreMadeBy) {
-    render("-q -o a.png --json report.json --flatness 0.5 --caustic-smoothing 3 --uniform-kernel --paper-axes");
+    render("-q -o a.png --json report.json --flatness 0.5 --caustic-smoothing 3 --uniform-kernel "
+           "--paper-axes");
     const nlohmann::json p = nlohmann::json::parse(read_text(file("report.json"))).at("parameters");
     EXPECT_EQ(p.at("flatness"), 0.5);
     EXPECT_EQ(p.at("caustic_smoothing"), 3);
@@ -140,7 +145,8 @@ TEST_F(Commands, BudgetThatAPassExceedsIsNoted) {
 
 TEST_F(Commands, TargetErrorIsMetAndReported) {
     // Without kernels to compile.
-    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 48x48 --backend cpu ";
+    const std::string scene =
+        "render '" + asset("cornell_point.glb") + "' --size 48x48 --backend cpu ";
     const Outcome run = argand(scene + "--target-error 0.01 --seed 3 -o a.exr --json report.json");
     ASSERT_EQ(run.exit_code, 0) << run.error;
     EXPECT_THAT(run.error, HasSubstr("argand: picked "));
@@ -152,20 +158,23 @@ TEST_F(Commands, TargetErrorIsMetAndReported) {
     EXPECT_EQ(aim.at("expected").at(0).at("method"), report.at("parameters").at("method"));
     EXPECT_LE(aim.at("noise").get<double>() + aim.at("squared_bias").get<double>(), 0.01);
     ASSERT_EQ(argand(scene + "-q --method path --spp 512 -o truth.exr").exit_code, 0);
-    const double error = nlohmann::json::parse(argand("compare a.exr truth.exr --json").out).at("relMSE");
+    const double error =
+        nlohmann::json::parse(argand("compare a.exr truth.exr --json").out).at("relMSE");
     EXPECT_LT(error, 1.5 * 0.01);
     EXPECT_GT(error, 0.0005);
 }
 
 TEST_F(Commands, BudgetWithoutMethodPicksOne) {
-    const Outcome run = argand("render '" + asset("cornell_point.glb") +
-                               "' --size 32x32 --backend cpu --budget 3 -o a.png --json report.json");
+    const Outcome run =
+        argand("render '" + asset("cornell_point.glb") +
+               "' --size 32x32 --backend cpu --budget 3 -o a.png --json report.json");
     ASSERT_EQ(run.exit_code, 0) << run.error;
     EXPECT_THAT(run.error, HasSubstr("argand: picked "));
     const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
     EXPECT_TRUE(report.at("aim").at("reached").is_null());
     EXPECT_EQ(report.at("parameters").at("budget"), 3);
-    EXPECT_EQ(report.at("parameters").at("method"), report.at("aim").at("expected").at(0).at("method"));
+    EXPECT_EQ(report.at("parameters").at("method"),
+              report.at("aim").at("expected").at(0).at("method"));
 }
 
 TEST_F(Commands, CompareMeasuresAndDrawsTheDifference) {
@@ -193,9 +202,11 @@ TEST_F(Commands, InspectSaysWhatIsThere) {
 
 TEST_F(Commands, InspectSaysWhatWouldBeDone) {
     const auto plan = [this](const std::string& scene) {
-        return nlohmann::json::parse(argand("inspect '" + asset(scene) + "' --json").out).at("plan");
+        return nlohmann::json::parse(argand("inspect '" + asset(scene) + "' --json").out)
+            .at("plan");
     };
-    const auto required_by = [](const nlohmann::json& of, const std::string& feature) -> std::string {
+    const auto required_by = [](const nlohmann::json& of,
+                                const std::string& feature) -> std::string {
         for (const nlohmann::json& row : of.at("features")) {
             if (row.at("feature") == feature) {
                 return row.at("required_by");
@@ -222,7 +233,8 @@ TEST_F(Commands, EverythingGivesTheSamePicture) {
     render("-q -o a.exr --json a.json");
     render("-q -o b.exr --json b.json --everything");
     EXPECT_TRUE(read_text(file("a.exr")) == read_text(file("b.exr")));
-    EXPECT_EQ(nlohmann::json::parse(read_text(file("b.json"))).at("parameters").at("everything"), true);
+    EXPECT_EQ(nlohmann::json::parse(read_text(file("b.json"))).at("parameters").at("everything"),
+              true);
 }
 
 TEST_F(Commands, DevicesListsWhatThereIs) {
@@ -237,8 +249,9 @@ TEST_F(Commands, BackendsDoTheSame) {
     render("-q -o b.exr --backend cpu");
     const Outcome compared = argand("compare a.exr b.exr --json");
     EXPECT_LT(nlohmann::json::parse(compared.out)["relMSE"].get<double>(), 1e-6);
-    const Outcome stages = argand("compare-backends '" + asset("cornell_glass.glb") +
-                                  "' --size 8x8 --spp 1 --photons 500 --methods footprints,path --json");
+    const Outcome stages =
+        argand("compare-backends '" + asset("cornell_glass.glb") +
+               "' --size 8x8 --spp 1 --photons 500 --methods footprints,path --json");
     EXPECT_EQ(stages.exit_code, 0) << stages.error;
     const nlohmann::json report = nlohmann::json::parse(stages.out);
     EXPECT_GT(report["methods"]["footprints"]["isolated"].size(), 20u);
@@ -247,7 +260,8 @@ TEST_F(Commands, BackendsDoTheSame) {
 
 TEST_F(Commands, CapturesAreRecordedAndComparedWith) {
     const std::string compare = "compare-backends '" + asset("cornell_area.glb") + "' ";
-    const Outcome recorded = argand(compare + "--a cpu --record a.golden --size 6x6 --spp 1 --photons 200 --revision r1");
+    const Outcome recorded = argand(
+        compare + "--a cpu --record a.golden --size 6x6 --spp 1 --photons 200 --revision r1");
     EXPECT_EQ(recorded.exit_code, 0) << recorded.error;
     const Outcome compared = argand(compare + "--a vulkan --b golden --golden a.golden");
     EXPECT_EQ(compared.exit_code, 0) << compared.error;
@@ -266,7 +280,8 @@ TEST_F(Commands, DeviceByNameAndByIndex) {
 TEST_F(Commands, BenchPrintsARowForEachMeasurement) {
     // Buffers of 1 MiB leave the small sizes only; without time stamps the clock serves.
     for (const char* disable : {"", " ARGAND_DISABLE=timestamps"}) {
-        const Outcome run = argand("bench parallel --json", std::string("ARGAND_LIMIT=storage_range=1MiB") + disable);
+        const Outcome run = argand("bench parallel --json",
+                                   std::string("ARGAND_LIMIT=storage_range=1MiB") + disable);
         ASSERT_EQ(run.exit_code, 0) << run.error;
         const nlohmann::json rows = nlohmann::json::parse(run.out);
         ASSERT_FALSE(rows.empty());
@@ -275,8 +290,9 @@ TEST_F(Commands, BenchPrintsARowForEachMeasurement) {
             for (const auto& [key, value] : row.items()) {
                 keys.push_back(key);
             }
-            EXPECT_THAT(keys, ::testing::UnorderedElementsAre("name", "n", "seconds", "rate", "unit", "bound", "peer",
-                                                              "peer_rate"));
+            EXPECT_THAT(keys,
+                        ::testing::UnorderedElementsAre("name", "n", "seconds", "rate", "unit",
+                                                        "bound", "peer", "peer_rate"));
             EXPECT_GT(row.at("seconds"), 0) << row;
             const double items = row.at("rate").get<double>() * row.at("seconds").get<double>();
             EXPECT_NEAR(items, row.at("n"), 1e-6 * items) << row;

@@ -16,13 +16,15 @@ TEST_F(Outputs, NothingThatIsReadOrWrittenIsReplaced) {
     std::filesystem::create_symlink("scene.glb", file("link.json"));
     std::filesystem::create_directory(file("folder"));
     const std::string render = "render scene.glb --size 4x4 --spp 1 ";
-    for (const char* options : {"--json scene.glb", "--json ./folder/../scene.glb", "--json link.json",
-                                "-o a.png --json a.png", "-o a.png --json ./a.png", "-o a.png -o folder/../a.png",
-                                "-o a.exr -o b.png -o a.exr"}) {
+    for (const char* options :
+         {"--json scene.glb", "--json ./folder/../scene.glb", "--json link.json",
+          "-o a.png --json a.png", "-o a.png --json ./a.png", "-o a.png -o folder/../a.png",
+          "-o a.exr -o b.png -o a.exr"}) {
         expect_failure(render + options, usage, "would replace");
     }
     expect_failure("render '" + file("scene.glb") + "' --json scene.glb", usage, "would replace");
-    expect_failure("render scene.glb --json scene.png", usage, "would replace"); // the picture's name by default
+    expect_failure("render scene.glb --json scene.png", usage,
+                   "would replace"); // the picture's name by default
     EXPECT_TRUE(read_text(file("scene.glb")) == read_text(asset("cornell_point.glb")));
 
     ASSERT_EQ(argand(render + "-q -o a.exr -o b.exr --json report.json").exit_code, 0);
@@ -38,11 +40,13 @@ TEST_F(Outputs, AFullStandardOutputIsNamed) {
     }
     const std::string scene = "'" + asset("cornell_glass.glb") + "' ";
     for (const std::string& arguments :
-         {"inspect --json " + scene, "inspect " + scene, std::string("devices"), std::string("render --help"),
+         {"inspect --json " + scene, "inspect " + scene, std::string("devices"),
+          std::string("render --help"),
           "render --size 4x4 --spp 1 --photons 0 -o a.png " + scene}) {
         const Outcome run = argand(arguments + " >/dev/full");
         EXPECT_EQ(run.exit_code, failure) << arguments;
-        EXPECT_THAT(run.error, ::testing::StartsWith("argand: writing to the standard output: ")) << arguments;
+        EXPECT_THAT(run.error, ::testing::StartsWith("argand: writing to the standard output: "))
+            << arguments;
         EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
     }
     EXPECT_EQ(argand("render missing.glb 2>/dev/full").exit_code, failure);
@@ -51,14 +55,16 @@ TEST_F(Outputs, AFullStandardOutputIsNamed) {
 
 TEST_F(Outputs, ValidationIsHeard) {
     // Best practices are beyond what Argand asks validation for, and it follows not all of them.
-    const Outcome run = argand("render '" + asset("cornell_point.glb") + "' --size 4x4 --spp 1 --photons 0 -q -o a.png",
+    const Outcome run = argand("render '" + asset("cornell_point.glb") +
+                                   "' --size 4x4 --spp 1 --photons 0 -q -o a.png",
                                "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");
     EXPECT_EQ(run.exit_code, failure);
     EXPECT_THAT(run.error, ::testing::StartsWith("argand: validation: "));
 }
 
 TEST_F(Outputs, ReportSaysNullOfWhatThereIsNot) {
-    const std::string render = "render '" + asset("cornell_point.glb") + "' -q --size 4x4 --spp 1 --photons 100 -o a.png ";
+    const std::string render =
+        "render '" + asset("cornell_point.glb") + "' -q --size 4x4 --spp 1 --photons 100 -o a.png ";
     const Outcome run = argand(render + "--json a.json", "ARGAND_DISABLE=timestamps");
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const nlohmann::json report = nlohmann::json::parse(read_text(file("a.json")));

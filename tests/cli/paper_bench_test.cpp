@@ -7,8 +7,10 @@ namespace {
 class PaperBench : public ArgandTest {
 protected:
     nlohmann::json measure(const std::string& part) const {
-        const Outcome run = argand("bench --paper fd09 --json --size 16 --error-size 8 --photons 2000 --runs 1 "
-                                   "--reference-samples 16 --part " + part + " --scene '" + asset("cornell_area.glb") + "'");
+        const Outcome run =
+            argand("bench --paper fd09 --json --size 16 --error-size 8 --photons 2000 --runs 1 "
+                   "--reference-samples 16 --part " +
+                   part + " --scene '" + asset("cornell_area.glb") + "'");
         EXPECT_EQ(run.exit_code, 0) << run.error;
         return nlohmann::json::parse(run.out);
     }
@@ -44,8 +46,9 @@ TEST_F(PaperBench, RadiiCountEveryFootprint) {
 TEST_F(PaperBench, SharesAddUp) {
     const nlohmann::json rows = measure("figure5");
     const nlohmann::json& row = rows[0];
-    EXPECT_NEAR(row["tracing [%]"].get<double>() + row["building [%]"].get<double>() + row["rendering [%]"].get<double>(), 100,
-                1e-6);
+    EXPECT_NEAR(row["tracing [%]"].get<double>() + row["building [%]"].get<double>() +
+                    row["rendering [%]"].get<double>(),
+                100, 1e-6);
     EXPECT_GT(row["frame [s]"], 0);
 }
 
@@ -61,7 +64,7 @@ TEST_F(PaperBench, UnknownPapersAndPartsAreRefused) {
     expect_failure("bench --paper jensen96", 2, "--paper");
     expect_failure("bench --paper fd09 --part table9", 2, "--part");
     expect_failure("bench --part table1", 2, "--paper");
-    expect_failure("bench --paper fd09", 1, "--scene");     // not in the project's folder
+    expect_failure("bench --paper fd09", 1, "--scene"); // not in the project's folder
 }
 
 } // namespace

@@ -11,8 +11,9 @@ using ::testing::HasSubstr;
 using Tradeoff = ArgandTest;
 
 TEST_F(Tradeoff, MeasuresAndGoesOn) {
-    const std::string on_scene = fmt::format("tradeoff '{}' -o sweep --size 12x12 --quick --methods path --backend cpu",
-                                             asset("cornell_area.glb"));
+    const std::string on_scene =
+        fmt::format("tradeoff '{}' -o sweep --size 12x12 --quick --methods path --backend cpu",
+                    asset("cornell_area.glb"));
     const std::string command = on_scene + " --seeds 2 --reference-seconds 0";
     const Outcome first = argand(command);
     ASSERT_EQ(first.exit_code, 0) << first.error;
@@ -23,19 +24,22 @@ TEST_F(Tradeoff, MeasuresAndGoesOn) {
     const Outcome second = argand(command);
     EXPECT_EQ(second.out, first.out);
     EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
-    expect_failure(on_scene + " --seeds 3", 1, "another seeds (2, now 3); remove the folder, or name another with -o");
+    expect_failure(on_scene + " --seeds 3", 1,
+                   "another seeds (2, now 3); remove the folder, or name another with -o");
     const Outcome patient = argand(on_scene + " --seeds 2 --reference-seconds 7");
     EXPECT_EQ(patient.out, first.out) << patient.error;
     std::filesystem::remove(file("sweep/reference.exr"));
     EXPECT_EQ(argand(command).exit_code, 0);
     EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
     // What another build of the program measured is not gone on with.
-    nlohmann::ordered_json kept = nlohmann::ordered_json::parse(read_text(file("sweep/tradeoff.json")));
+    nlohmann::ordered_json kept =
+        nlohmann::ordered_json::parse(read_text(file("sweep/tradeoff.json")));
     kept.at("run").at("build") = "another";
     write_text(file("sweep/tradeoff.json"), kept.dump());
     expect_failure(command, 1, "another build (another, now ");
     // The reference's halves are what `compare` takes its noise out with.
-    const Outcome compared = argand("compare sweep/pictures/path-spp-2.exr sweep/reference.exr --json");
+    const Outcome compared =
+        argand("compare sweep/pictures/path-spp-2.exr sweep/reference.exr --json");
     ASSERT_EQ(compared.exit_code, 0) << compared.error;
     const nlohmann::json metrics = nlohmann::json::parse(compared.out);
     EXPECT_TRUE(metrics.at("relMSE_without_reference_noise").is_number());
@@ -47,15 +51,18 @@ TEST_F(Tradeoff, WhatIsAsExactAsTheReferenceIsDrawn) {
     for (nlohmann::json& node : scene.at("nodes")) {
         node.erase("extensions");
     }
-    write_text(file("unlit.gltf"), scene.dump());   // under a white sky, so that all is of one radiance
-    const Outcome swept = argand("tradeoff unlit.gltf --size 16x16 --quick --methods path,path --seeds 2 "
-                                 "--reference-seconds 0 --backend cpu");
+    write_text(file("unlit.gltf"),
+               scene.dump()); // under a white sky, so that all is of one radiance
+    const Outcome swept =
+        argand("tradeoff unlit.gltf --size 16x16 --quick --methods path,path --seeds 2 "
+               "--reference-seconds 0 --backend cpu");
     ASSERT_EQ(swept.exit_code, 0) << swept.error;
     EXPECT_THAT(swept.out, HasSubstr("4 settings measured"));
     const std::string page = read_text(file("unlit.tradeoff/tradeoff.html"));
     const auto count = [&](const std::string& text) {
         std::size_t found = 0;
-        for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) {
+        for (std::size_t at = page.find(text); at != std::string::npos;
+             at = page.find(text, at + 1)) {
             ++found;
         }
         return found;
@@ -82,11 +89,13 @@ TEST_F(Tradeoff, BadInput) {
 }
 
 TEST_F(Tradeoff, ReferenceOfAnotherSize) {
-    const Outcome rendered = argand(fmt::format("render '{}' --method path --spp 1 --size 8x8 -o reference.exr --backend cpu",
-                                                asset("cornell_area.glb")));
+    const Outcome rendered = argand(
+        fmt::format("render '{}' --method path --spp 1 --size 8x8 -o reference.exr --backend cpu",
+                    asset("cornell_area.glb")));
     ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
-    expect_failure(fmt::format("tradeoff '{}' --reference reference.exr --backend cpu", asset("cornell_area.glb")), 1,
-                   "--size 8x8");
+    expect_failure(fmt::format("tradeoff '{}' --reference reference.exr --backend cpu",
+                               asset("cornell_area.glb")),
+                   1, "--size 8x8");
 }
 
 } // namespace

@@ -21,7 +21,8 @@ RenderSettings small(const std::string& method) {
     return settings;
 }
 
-/// Diffuse with an area light, glass, a metal's caustic, a spot light: others are like one of these.
+/// Diffuse with an area light, glass, a metal's caustic, a spot light: others are like one of
+/// these.
 bool is_quick(const std::string& scene) {
     const std::string name = scene.substr(0, scene.find('.'));
     return name == "cornell_area" || name == "cornell_glass" || name == "ring" || name == "spot";
@@ -31,7 +32,8 @@ std::vector<std::string> scenes_that(bool quick) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(ARGAND_SOURCE_DIR "/assets")) {
         const std::string extension = entry.path().extension();
-        if ((extension == ".glb" || extension == ".gltf") && is_quick(entry.path().filename()) == quick) {
+        if ((extension == ".glb" || extension == ".gltf") &&
+            is_quick(entry.path().filename()) == quick) {
             names.push_back(entry.path().filename());
         }
     }
@@ -54,8 +56,9 @@ TEST_P(Backends, DoTheSame) {
         for (const StageComparison& stage : found.isolated) {
             // Lavapipe and the host round alike.
             const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
-            EXPECT_TRUE(same_bits && passes_isolated(stage)) << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
-                                                << stage.diverged << " diverged of " << stage.items;
+            EXPECT_TRUE(same_bits && passes_isolated(stage))
+                << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
+                << stage.diverged << " diverged of " << stage.items;
         }
     }
 }
@@ -70,9 +73,11 @@ INSTANTIATE_TEST_SUITE_P(SlowAssets, Backends, ::testing::ValuesIn(scenes_that(f
 /// A device that writes a wrong word after one kernel.
 class FaultyDevice final : public host::HostDevice {
 public:
-    FaultyDevice(std::string kernel, std::size_t binding) : HostDevice(host::describe()), kernel_(std::move(kernel)), binding_(binding) {}
+    FaultyDevice(std::string kernel, std::size_t binding)
+        : HostDevice(host::describe()), kernel_(std::move(kernel)), binding_(binding) {}
 
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override {
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override {
         HostDevice::dispatch(kernel, arguments, threads);
         if (kernel.name == kernel_) {
             host::words_of(BufferView(*arguments.buffers[binding_])).front() ^= 0x00800000u;
@@ -88,7 +93,8 @@ class Faults : public DeviceTest {};
 
 TEST_F(Faults, AreFoundInTheirStageAlone) {
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
-    const std::pair<const char*, std::size_t> faults[] = {{"photon_codes", 3}, {"photon_boxes", 4}, {"query_cells", 6}};
+    const std::pair<const char*, std::size_t> faults[] = {
+        {"photon_codes", 3}, {"photon_boxes", 4}, {"query_cells", 6}};
     for (const auto& [kernel, binding] : faults) {
         SCOPED_TRACE(kernel);
         host::HostDevice good(host::describe());
@@ -109,7 +115,9 @@ class BreakingDevice final : public host::HostDevice {
 public:
     BreakingDevice() : HostDevice(host::describe()) {}
 
-    void dispatch(const KernelInfo&, const KernelArguments&, std::uint64_t) override { throw DeviceFault("test", "broken"); }
+    void dispatch(const KernelInfo&, const KernelArguments&, std::uint64_t) override {
+        throw DeviceFault("test", "broken");
+    }
     void end_stage() override { throw DeviceFault("test", "broken still"); }
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 
-StageComparison compare(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, const char* layout) {
+StageComparison compare(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b,
+                        const char* layout) {
     StageComparison result;
     compare_items(a, b, layout, 1e-3, result);
     return result;
@@ -40,7 +41,8 @@ TEST(Comparison, ZerosOfEitherSignAndTheSmallestNumbersAreNeighbours) {
     EXPECT_EQ(compare({bits(0.0f)}, {bits(-0.0f)}, "f").largest_ulp, 0u);
     EXPECT_EQ(compare({bits(0.0f)}, {bits(-0.0f)}, "f").diverged, 0u);
     EXPECT_EQ(compare({bits(0.0f)}, {bits(-0.0f)}, "f").unequal, 0u);
-    // Where others are large a small one may be off by a share of them, but not where other words of the item are.
+    // Where others are large a small one may be off by a share of them, but not where other words
+    // of the item are.
     EXPECT_EQ(compare({bits(1), bits(least)}, {bits(1), bits(-least)}, "f").largest_ulp, 2u);
     EXPECT_EQ(compare({bits(1), bits(least)}, {bits(1), bits(-least)}, "ff").diverged, 1u);
     EXPECT_EQ(compare({bits(500), bits(2e-4f)}, {bits(500), bits(1e-4f)}, "ff").diverged, 1u);

@@ -84,7 +84,8 @@ TEST_F(GoldenFile, AChangedWordIsFound) {
     GoldenStep& last = golden.captures["photons"].back();
     ASSERT_EQ(last.stage, "film_add");
     last.writes.front().words.front() ^= 0x00800000u;
-    const std::vector<StageComparison> found = compare_with_golden(golden, "photons", device, scene_);
+    const std::vector<StageComparison> found =
+        compare_with_golden(golden, "photons", device, scene_);
     for (const StageComparison& stage : found) {
         EXPECT_EQ(passes_isolated(stage), stage.name != "film_add") << stage.name;
     }
@@ -93,36 +94,47 @@ TEST_F(GoldenFile, AChangedWordIsFound) {
 TEST_F(GoldenFile, OtherScenesAndMethodsAreErrors) {
     Device& device = open();
     const Golden golden = record(device, scene_);
-    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "path", device, scene_); }), HasSubstr("method path"));
+    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "path", device, scene_); }),
+                HasSubstr("method path"));
     Scene other = load_gltf(ARGAND_SOURCE_DIR "/assets/ring.glb");
-    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }), HasSubstr("record it anew"));
+    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }),
+                HasSubstr("record it anew"));
     other.name = golden.scene;
-    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }), HasSubstr("record it anew"));
+    EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }),
+                HasSubstr("record it anew"));
     // More, or less, than is done.
     Golden longer = golden;
     longer.captures["photons"].push_back({"sort", {}});
-    EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }), HasSubstr("does not come"));
+    EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }),
+                HasSubstr("does not come"));
     longer.captures["photons"].resize(longer.captures["photons"].size() - 2);
-    EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }), HasSubstr("not film_add"));
+    EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }),
+                HasSubstr("not film_add"));
 }
 
 TEST_F(GoldenFile, FilesThatAreNoneAreErrors) {
     const ScratchDirectory directory;
-    EXPECT_THAT(error_of([&] { read_golden(directory / "missing.golden"); }), HasSubstr("missing.golden"));
+    EXPECT_THAT(error_of([&] { read_golden(directory / "missing.golden"); }),
+                HasSubstr("missing.golden"));
     for (const std::string text : {"", "short", "0123456789abcdef0123456789abcdef"}) {
         std::ofstream(directory / "bad.golden") << text;
-        EXPECT_THAT(error_of([&] { read_golden(directory / "bad.golden"); }), HasSubstr("bad.golden")) << text;
+        EXPECT_THAT(error_of([&] { read_golden(directory / "bad.golden"); }),
+                    HasSubstr("bad.golden"))
+            << text;
     }
     Golden none = record(open(), scene_);
     none.captures.clear();
     write_golden(directory / "none.golden", none);
-    EXPECT_THAT(error_of([&] { read_golden(directory / "none.golden"); }), HasSubstr("holds nothing"));
+    EXPECT_THAT(error_of([&] { read_golden(directory / "none.golden"); }),
+                HasSubstr("holds nothing"));
     none = record(open(), scene_);
     none.photons = std::uint64_t(1) << 62;
     write_golden(directory / "huge.golden", none);
-    EXPECT_THAT(error_of([&] { read_golden(directory / "huge.golden"); }), HasSubstr("cannot be rendered"));
+    EXPECT_THAT(error_of([&] { read_golden(directory / "huge.golden"); }),
+                HasSubstr("cannot be rendered"));
     write_golden(directory / "cut.golden", record(open(), scene_));
-    std::filesystem::resize_file(directory / "cut.golden", std::filesystem::file_size(directory / "cut.golden") / 2);
+    std::filesystem::resize_file(directory / "cut.golden",
+                                 std::filesystem::file_size(directory / "cut.golden") / 2);
     EXPECT_THAT(error_of([&] { read_golden(directory / "cut.golden"); }), HasSubstr("cut.golden"));
 }
 
@@ -130,7 +142,8 @@ TEST_F(GoldenFile, FilesThatAreNoneAreErrors) {
 TEST_F(GoldenFile, ThisDeviceDoesWhatWasRecordedElsewhere) {
     Device& device = open();
     int files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(ARGAND_SOURCE_DIR "/assets/golden")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(ARGAND_SOURCE_DIR "/assets/golden")) {
         if (entry.path().extension() != ".golden") {
             continue;
         }
@@ -138,9 +151,11 @@ TEST_F(GoldenFile, ThisDeviceDoesWhatWasRecordedElsewhere) {
         const Golden golden = read_golden(entry.path());
         const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/" + golden.scene);
         for (const auto& [method, capture] : golden.captures) {
-            for (const StageComparison& stage : compare_with_golden(golden, method, device, scene)) {
-                EXPECT_TRUE(passes_isolated(stage)) << golden.scene << ", " << method << ": " << stage.name << ", "
-                                                    << stage.unequal << " of " << stage.items;
+            for (const StageComparison& stage :
+                 compare_with_golden(golden, method, device, scene)) {
+                EXPECT_TRUE(passes_isolated(stage))
+                    << golden.scene << ", " << method << ": " << stage.name << ", " << stage.unequal
+                    << " of " << stage.items;
             }
         }
     }

@@ -27,7 +27,8 @@ const std::vector<std::pair<const KernelInfo*, const KernelInfo*>> pairs = {
     {&kernels::trace_closest::info, &kernels::trace_closest_texels::info},
 };
 
-// A kernel that reads texels runs the twin of the one that does not, which takes buffers and constants by their place.
+// A kernel that reads texels runs the twin of the one that does not, which takes buffers and
+// constants by their place.
 TEST(Texels, VariantsDeclareWhatTheirTwinTakes) {
     for (const auto& [storage, texels] : pairs) {
         SCOPED_TRACE(texels->name);
@@ -48,7 +49,8 @@ TEST(Texels, VariantsDeclareWhatTheirTwinTakes) {
 
 TEST(Texels, EveryVariantIsInTheList) {
     std::size_t variants = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(ARGAND_SOURCE_DIR "/shaders/comp")) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(ARGAND_SOURCE_DIR "/shaders/comp")) {
         variants += entry.path().stem().string().ends_with("_texels") ? 1u : 0u;
     }
     EXPECT_EQ(variants, pairs.size());

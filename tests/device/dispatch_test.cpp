@@ -11,8 +11,7 @@ using Words = std::vector<std::uint32_t>;
 class Dispatch : public DeviceTest {
 protected:
     /// Visits per index after `run` got a buffer of `n` zeros.
-    template <class Run>
-    static Words visits(Device& device, std::size_t n, const Run& run) {
+    template <class Run> static Words visits(Device& device, std::size_t n, const Run& run) {
         const Buffer buffer = upload(device, "visits", Words(n, 0));
         run(kernels::mark_threads{.visits = buffer});
         return download<std::uint32_t>(device, buffer, n);
@@ -24,20 +23,24 @@ TEST_F(Dispatch, VisitsEachIndexOnce) {
     for (const std::uint32_t n :
          {1u, 7u, 8u, 9u, 1000u, 600'000u}) { // the last needs more than 65,535 groups
         SCOPED_TRACE(n);
-        EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }), Words(n, 1));
+        EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }),
+                  Words(n, 1));
     }
 }
 
 TEST_F(Dispatch, OfNoThreadsDoesNothing) {
     Device& device = open();
-    EXPECT_EQ(visits(device, 100, [&](const auto& kernel) { dispatch(device, kernel, 0); }), Words(100, 0));
+    EXPECT_EQ(visits(device, 100, [&](const auto& kernel) { dispatch(device, kernel, 0); }),
+              Words(100, 0));
 }
 
 TEST_F(Dispatch, SpillsIntoFurtherDimensions) {
     Device& device = open({"few groups", "", "groups=5"});
-    for (const std::uint32_t n : {40u, 41u, 199u, 200u, 201u, 1000u}) { // 5, 6, 25, 25, 26 and 125 groups
+    for (const std::uint32_t n :
+         {40u, 41u, 199u, 200u, 201u, 1000u}) { // 5, 6, 25, 25, 26 and 125 groups
         SCOPED_TRACE(n);
-        EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }), Words(n, 1));
+        EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }),
+                  Words(n, 1));
     }
 }
 
@@ -48,10 +51,11 @@ TEST_F(Dispatch, IndirectRunsAsManyThreadsAsTheCountSays) {
         for (const std::uint32_t count : {0u, 1u, 8u, 9u, 2400u, 2401u, 50'000u, n}) {
             SCOPED_TRACE(testing::Message() << count << " threads, limit " << limit);
             const Buffer counts = upload(device, "counts", Words{n, count});
-            const Words visited =
-                visits(device, n, [&](const auto& kernel) { dispatch_indirect(device, kernel, counts, 1); });
-            // Groups are of 8; the spill rounds up to whole rows, whose surplus kernels test against the
-            // count.
+            const Words visited = visits(device, n, [&](const auto& kernel) {
+                dispatch_indirect(device, kernel, counts, 1);
+            });
+            // Groups are of 8; the spill rounds up to whole rows, whose surplus kernels test
+            // against the count.
             EXPECT_EQ(Words(visited.begin(), visited.begin() + count), Words(count, 1));
             const std::uint32_t row = *limit ? 2400 : 8;
             const std::uint32_t end = std::min(n, (count + row - 1) / row * row);
@@ -66,8 +70,8 @@ TEST_F(Dispatch, IndirectSpillsIntoFurtherDimensions) {
     for (const std::uint32_t count : {0u, 40u, 41u, 200u, 201u, 399u, 401u, 999u, n}) {
         SCOPED_TRACE(count);
         const Buffer counts = upload(device, "counts", Words{count});
-        const Words visited =
-            visits(device, n, [&](const auto& kernel) { dispatch_indirect(device, kernel, counts); });
+        const Words visited = visits(
+            device, n, [&](const auto& kernel) { dispatch_indirect(device, kernel, counts); });
         EXPECT_EQ(Words(visited.begin(), visited.begin() + count), Words(count, 1));
         // Whole groups, rows of 5 groups, slices of 25.
         const std::uint32_t whole = count > 200 ? 200 : count > 40 ? 40 : 8;
@@ -148,7 +152,8 @@ TEST_P(Barriers, TransfersAndDispatchesSeeEachOther) {
     dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b}, n); // b = 2
     device.fill(a, 5);                                                             // after the read
     device.copy(b, BufferView(a, 0, n * 2));                                       // a = 2 | 5
-    dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b}, n); // b = 4 | 10, 7 at edges
+    dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b},
+             n); // b = 4 | 10, 7 at edges
     const Words nines(n, 9);
     device.upload(a, 0, std::as_bytes(std::span(nines)));
     dispatch(device, kernels::mark_threads{.visits = b}, n);
@@ -161,7 +166,8 @@ TEST_P(Barriers, TransfersAndDispatchesSeeEachOther) {
 
 INSTANTIATE_TEST_SUITE_P(Settings, Barriers,
                          testing::Values(DeviceSetting{"default", "", ""},
-                                         DeviceSetting{"no_push_descriptors", "push_descriptors", ""}),
+                                         DeviceSetting{"no_push_descriptors", "push_descriptors",
+                                                       ""}),
                          [](const auto& setting) { return setting.param.name; });
 
 TEST_F(Dispatch, AWiderGroupThanTheDeviceAllowsIsAnError) {
@@ -169,7 +175,8 @@ TEST_F(Dispatch, AWiderGroupThanTheDeviceAllowsIsAnError) {
     KernelInfo wide = kernels::mark_threads::info;
     wide.local_size[0] = device.info().limits.invocations + 1;
     const Buffer visits = device.allocate("visits", 64);
-    EXPECT_THROW(device.dispatch(wide, kernels::mark_threads{.visits = visits}.arguments(), 1), Error);
+    EXPECT_THROW(device.dispatch(wide, kernels::mark_threads{.visits = visits}.arguments(), 1),
+                 Error);
 }
 
 } // namespace

@@ -29,14 +29,16 @@ TEST_F(Open, TheHostIsTheLastDevice) {
     EXPECT_EQ(open_device("", "vulkan")->info().backend, "vulkan");
     const ScopedEnvironment backend("ARGAND_BACKEND", "cpu");
     EXPECT_EQ(open_device()->info().backend, "cpu");
-    EXPECT_THAT(error_of([] { open_device("", "metal"); }), AllOf(HasSubstr("'metal'"), HasSubstr("vulkan")));
+    EXPECT_THAT(error_of([] { open_device("", "metal"); }),
+                AllOf(HasSubstr("'metal'"), HasSubstr("vulkan")));
 }
 
 TEST_F(Open, ByIndexByPartOfTheNameAndByEnvironment) {
     const DeviceInfo info = open().info();
     EXPECT_EQ(open_device(std::to_string(info.index))->info().index, info.index);
     std::string part = info.name.substr(1, 6);
-    std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return std::toupper(c); });
+    std::transform(part.begin(), part.end(), part.begin(),
+                   [](unsigned char c) { return std::toupper(c); });
     EXPECT_EQ(open_device(part)->info().name, info.name);
     const ScopedEnvironment device("ARGAND_DEVICE", part);
     EXPECT_EQ(open_device()->info().name, info.name);
@@ -45,7 +47,8 @@ TEST_F(Open, ByIndexByPartOfTheNameAndByEnvironment) {
 TEST_F(Open, UnknownDevicesAreErrors) {
     EXPECT_THAT(error_of([] { open_device("no such device"); }),
                 AllOf(HasSubstr("'no such device'"), HasSubstr("argand devices")));
-    EXPECT_THAT(error_of([] { open_device("1000"); }), AllOf(HasSubstr("1000"), HasSubstr("argand devices")));
+    EXPECT_THAT(error_of([] { open_device("1000"); }),
+                AllOf(HasSubstr("1000"), HasSubstr("argand devices")));
     const ScopedEnvironment device("ARGAND_DEVICE", "1000");
     EXPECT_THAT(error_of([] { open_device(); }), HasSubstr("1000"));
 }
@@ -71,7 +74,8 @@ TEST_F(Open, LimitsAreLoweredNeverRaised) {
     EXPECT_EQ(lowered.memory, std::min<std::uint64_t>(device.memory, 1u << 30));
     EXPECT_EQ(lowered.groups, 7u);
     EXPECT_EQ(lowered.shared_memory, device.shared_memory);
-    EXPECT_EQ(open({"", "", "invocations=4000000000"}).info().limits.invocations, device.invocations);
+    EXPECT_EQ(open({"", "", "invocations=4000000000"}).info().limits.invocations,
+              device.invocations);
 }
 
 TEST_F(Open, UnknownFeaturesAndLimitsAreUsageErrors) {
@@ -80,12 +84,14 @@ TEST_F(Open, UnknownFeaturesAndLimitsAreUsageErrors) {
     };
     EXPECT_THROW(opening("subgroup", "")(), UsageError);
     EXPECT_THROW(opening("", "storage=1")(), UsageError);
-    EXPECT_THAT(error_of(opening("subgroup", "")),
-                AllOf(HasSubstr("ARGAND_DISABLE"), HasSubstr("'subgroup'"), HasSubstr("push_descriptors")));
-    EXPECT_THAT(error_of(opening("", "storage=1")),
-                AllOf(HasSubstr("ARGAND_LIMIT"), HasSubstr("'storage=1'"), HasSubstr("storage_range")));
-    for (const char* bad :
-         {"groups", "groups=", "groups=x", "groups=1TiB", "groups=-1", "groups=99999999999999999999"}) {
+    EXPECT_THAT(
+        error_of(opening("subgroup", "")),
+        AllOf(HasSubstr("ARGAND_DISABLE"), HasSubstr("'subgroup'"), HasSubstr("push_descriptors")));
+    EXPECT_THAT(
+        error_of(opening("", "storage=1")),
+        AllOf(HasSubstr("ARGAND_LIMIT"), HasSubstr("'storage=1'"), HasSubstr("storage_range")));
+    for (const char* bad : {"groups", "groups=", "groups=x", "groups=1TiB", "groups=-1",
+                            "groups=99999999999999999999"}) {
         EXPECT_THROW(opening("", bad)(), UsageError) << bad;
     }
 }
@@ -94,10 +100,11 @@ TEST_F(Open, ADeviceWithTooLittleIsAnError) {
     for (const char* limit :
          {"invocations=64", "shared_memory=8KiB", "storage_buffers=4", "storage_range=64KiB"}) {
         SCOPED_TRACE(limit);
-        EXPECT_THAT(error_of([&] {
-                        open({"", "", limit});
-                    }),
-                    AllOf(HasSubstr("opening device"), HasSubstr("needs"), HasSubstr("argand devices")));
+        EXPECT_THAT(
+            error_of([&] {
+                open({"", "", limit});
+            }),
+            AllOf(HasSubstr("opening device"), HasSubstr("needs"), HasSubstr("argand devices")));
     }
 }
 

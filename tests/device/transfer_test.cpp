@@ -16,11 +16,12 @@ Bytes counted_bytes(std::size_t n, std::uint8_t first) {
     return bytes;
 }
 
-// 65,536 bytes is the most that travels inside a command buffer; beyond it there is a staging buffer.
+// 65,536 bytes is the most that travels inside a command buffer; beyond it there is a staging
+// buffer.
 TEST_F(Transfer, UploadedBytesComeBackForAllSizes) {
     Device& device = open();
-    for (const std::size_t n :
-         {0, 1, 2, 3, 4, 5, 7, 15, 16, 17, 1023, 65535, 65536, 65537, 65540, 1 << 20, (1 << 24) + 1}) {
+    for (const std::size_t n : {0, 1, 2, 3, 4, 5, 7, 15, 16, 17, 1023, 65535, 65536, 65537, 65540,
+                                1 << 20, (1 << 24) + 1}) {
         SCOPED_TRACE(n);
         const Bytes bytes = counted_bytes(n, 3);
         const Buffer buffer = upload(device, "bytes", bytes);
@@ -33,12 +34,16 @@ TEST_F(Transfer, PartsOfABuffer) {
     for (const std::size_t n : {40, 200'000}) {
         Bytes expected = counted_bytes(n, 0);
         const Buffer buffer = upload(device, "bytes", expected);
-        for (const auto& [offset, size] :
-             {std::pair<std::size_t, std::size_t>{0, 1}, {3, 6}, {4, 8}, {n - 1, 1}, {n / 2, n / 3}}) {
+        for (const auto& [offset, size] : {std::pair<std::size_t, std::size_t>{0, 1},
+                                           {3, 6},
+                                           {4, 8},
+                                           {n - 1, 1},
+                                           {n / 2, n / 3}}) {
             SCOPED_TRACE(testing::Message() << size << " bytes at " << offset << " of " << n);
             const Bytes part = counted_bytes(size, static_cast<std::uint8_t>(100 + size));
             device.upload(buffer, offset, std::as_bytes(std::span(part)));
-            std::copy(part.begin(), part.end(), expected.begin() + static_cast<std::ptrdiff_t>(offset));
+            std::copy(part.begin(), part.end(),
+                      expected.begin() + static_cast<std::ptrdiff_t>(offset));
             EXPECT_TRUE(download<std::uint8_t>(device, buffer, size, offset) == part);
             EXPECT_TRUE(download<std::uint8_t>(device, buffer, n) == expected);
         }

@@ -19,7 +19,8 @@ struct Kind {
     int type;
 };
 
-constexpr int width = 29, height = 71; // more than one chunk of every compression, the last one short
+constexpr int width = 29,
+              height = 71; // more than one chunk of every compression, the last one short
 
 /// Channel B is even, so that it shrinks; R and G are not.
 float sample(int channel, int i) {

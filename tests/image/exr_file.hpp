@@ -7,8 +7,8 @@
 
 namespace argand::testing {
 
-/// An uncompressed scan-line OpenEXR file put together byte by byte, after "OpenEXR File Layout", so that
-/// readers are tested on what our writer does not write.
+/// An uncompressed scan-line OpenEXR file put together byte by byte, after "OpenEXR File Layout",
+/// so that readers are tested on what our writer does not write.
 struct ExrFile {
     struct Channel {
         std::string name;
@@ -25,14 +25,14 @@ struct ExrFile {
     bool bottom_first = false;
     std::string extra_attributes{};
 
-    template <class T>
-    static std::string number(T value) {
+    template <class T> static std::string number(T value) {
         std::string bytes(sizeof(T), '\0');
         std::memcpy(bytes.data(), &value, sizeof(T));
         return bytes;
     }
 
-    static std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+    static std::string attribute(const std::string& name, const std::string& type,
+                                 const std::string& value) {
         return name + '\0' + type + '\0' + number(static_cast<std::uint32_t>(value.size())) + value;
     }
 
@@ -42,10 +42,12 @@ struct ExrFile {
             list += channel.name + '\0' + number(channel.type) + std::string(4, '\0') +
                     number(channel.sampling) + number(channel.sampling);
         }
-        const std::string window = number(x0) + number(y0) + number(x0 + width - 1) + number(y0 + height - 1);
+        const std::string window =
+            number(x0) + number(y0) + number(x0 + width - 1) + number(y0 + height - 1);
         std::string bytes = number(std::uint32_t{20000630}) + number(version);
         bytes += attribute("channels", "chlist", list + '\0');
-        bytes += attribute("compression", "compression", std::string(1, static_cast<char>(compression)));
+        bytes +=
+            attribute("compression", "compression", std::string(1, static_cast<char>(compression)));
         bytes += attribute("dataWindow", "box2i", window);
         bytes += attribute("displayWindow", "box2i", window);
         bytes += attribute("lineOrder", "lineOrder", std::string(1, bottom_first ? '\1' : '\0'));
@@ -61,7 +63,8 @@ struct ExrFile {
         for (int row = 0; row < height; ++row) {
             std::string data;
             for (const Channel& channel : channels) {
-                const std::size_t size = static_cast<std::size_t>(width) * (channel.type == 1 ? 2 : 4);
+                const std::size_t size =
+                    static_cast<std::size_t>(width) * (channel.type == 1 ? 2 : 4);
                 data += channel.samples.substr(static_cast<std::size_t>(row) * size, size);
             }
             chunks[static_cast<std::size_t>(row)] =

@@ -104,7 +104,8 @@ TEST(Exr, RefusesWhatIsNoPicture) {
     EXPECT_THAT(error({{"", Image{2, 2, {{}, {}}}}}), HasSubstr("2 pixels but its size is 2 × 2"));
     EXPECT_THAT(error({{"", Image{100000, 1, {}}}}), HasSubstr("100000"));
     EXPECT_THAT(error({{"", noise(2, 2, 1)}, {"x", noise(2, 3, 1)}}), HasSubstr("'x' is 2 × 3"));
-    EXPECT_THAT(error({{"x", noise(2, 2, 1)}, {"x", noise(2, 2, 1)}}), HasSubstr("two layers are named 'x'"));
+    EXPECT_THAT(error({{"x", noise(2, 2, 1)}, {"x", noise(2, 2, 1)}}),
+                HasSubstr("two layers are named 'x'"));
     EXPECT_THAT(error({{std::string(300, 'x'), noise(2, 2, 1)}}), HasSubstr("longer than"));
     EXPECT_TRUE(scratch.names().empty());
 }
@@ -113,17 +114,22 @@ TEST(Exr, RefusesPlacesItCannotWriteTo) {
     const ScratchDirectory scratch;
     const Layer layers[] = {{"", noise(2, 2, 1)}};
     std::filesystem::create_directory(scratch / "folder.exr");
-    EXPECT_THAT(error_of([&] { write_exr(scratch / "folder.exr", layers); }), HasSubstr("it is a directory"));
-    EXPECT_THAT(error_of([&] { write_exr(scratch / "none/a.exr", layers); }), HasSubstr("does not exist"));
+    EXPECT_THAT(error_of([&] { write_exr(scratch / "folder.exr", layers); }),
+                HasSubstr("it is a directory"));
+    EXPECT_THAT(error_of([&] { write_exr(scratch / "none/a.exr", layers); }),
+                HasSubstr("does not exist"));
 }
 
 TEST(Exr, ReadsHalvesIntegersAndAnyChannelOrder) {
     ExrFile file{.width = 2, .height = 1};
     const auto halves =
         ExrFile::number(std::uint16_t{0x3c00}) + ExrFile::number(std::uint16_t{0xc100}); // 1, −2.5
-    const auto integers = ExrFile::number(std::uint32_t{7}) + ExrFile::number(std::uint32_t{4000000000});
-    file.channels = {
-        {"R", 1, halves}, {"Z", 2, floats({9, 9})}, {"B", 0, integers}, {"G", 2, floats({0.5f, 1e-3f})}};
+    const auto integers =
+        ExrFile::number(std::uint32_t{7}) + ExrFile::number(std::uint32_t{4000000000});
+    file.channels = {{"R", 1, halves},
+                     {"Z", 2, floats({9, 9})},
+                     {"B", 0, integers},
+                     {"G", 2, floats({0.5f, 1e-3f})}};
     const std::vector<Layer> read = read_bytes(file.bytes());
     ASSERT_EQ(read.size(), 1u);
     EXPECT_EQ(read[0].image.pixels[0], glm::vec3(1, 0.5f, 7));
@@ -132,7 +138,8 @@ TEST(Exr, ReadsHalvesIntegersAndAnyChannelOrder) {
 
 TEST(Exr, ReadsGreyAndWhatIsMissing) {
     ExrFile file{.width = 1, .height = 2};
-    file.channels = {{"Y", 2, floats({3, 4})}, {"lamp.G", 2, floats({5, 6})}, {"lamp.A", 2, floats({1, 1})}};
+    file.channels = {
+        {"Y", 2, floats({3, 4})}, {"lamp.G", 2, floats({5, 6})}, {"lamp.A", 2, floats({1, 1})}};
     const std::vector<Layer> read = read_bytes(file.bytes());
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].image.pixels[1], glm::vec3(4));
@@ -177,8 +184,10 @@ TEST(ExrHostile, SaysWhatIsNotSupported) {
     EXPECT_THAT(error([](ExrFile& f) { f.channels[0].name = std::string(300, 'n'); }),
                 HasSubstr("longer than"));
     EXPECT_THAT(error([](ExrFile& f) { f.channels.clear(); }), HasSubstr("0 channels"));
-    const auto with = [&](const std::string& name, const std::string& type, const std::string& value) {
-        return error([&](ExrFile& f) { f.extra_attributes = ExrFile::attribute(name, type, value); });
+    const auto with = [&](const std::string& name, const std::string& type,
+                          const std::string& value) {
+        return error(
+            [&](ExrFile& f) { f.extra_attributes = ExrFile::attribute(name, type, value); });
     };
     EXPECT_THAT(with("type", "string", "strange"), HasSubstr("type"));
     EXPECT_THAT(with("type", "string", "tiledimage"), HasSubstr("type"));

@@ -12,7 +12,8 @@ namespace {
 
 TEST(ImageFiles, ChoosesTheFormatByExtension) {
     const ScratchDirectory scratch;
-    const Layer layers[] = {{"direct", constant(3, 2, {1, 0, 0})}, {"", constant(3, 2, {0, 0.25f, 0})}};
+    const Layer layers[] = {{"direct", constant(3, 2, {1, 0, 0})},
+                            {"", constant(3, 2, {0, 0.25f, 0})}};
     write_image(scratch / "a.EXR", layers, 3);
     const std::vector<Layer> exr = read_image(scratch / "a.EXR");
     ASSERT_EQ(exr.size(), 2u);
@@ -24,7 +25,8 @@ TEST(ImageFiles, ChoosesTheFormatByExtension) {
     const std::vector<Layer> png = read_image(scratch / "a.png");
     ASSERT_EQ(png.size(), 1u);
     EXPECT_EQ(png[0].name, "");
-    EXPECT_EQ(png[0].image.pixels[0], glm::vec3(0, 1, 0)) << "the whole picture, after the exposure";
+    EXPECT_EQ(png[0].image.pixels[0], glm::vec3(0, 1, 0))
+        << "the whole picture, after the exposure";
 
     write_image(scratch / "b.png", std::span(layers).first(1));
     EXPECT_EQ(read_image(scratch / "b.png")[0].image.pixels[0], glm::vec3(1, 0, 0));
@@ -52,7 +54,8 @@ TEST(ImageFiles, CanBeCheckedBeforehand) {
     check_image_writable(scratch / "a.png");
     check_image_writable(scratch / "a.exr");
     EXPECT_TRUE(scratch.names().empty());
-    EXPECT_THAT(error_of([&] { check_image_writable(scratch / "none/a.png"); }), HasSubstr("does not exist"));
+    EXPECT_THAT(error_of([&] { check_image_writable(scratch / "none/a.png"); }),
+                HasSubstr("does not exist"));
 }
 
 } // namespace

@@ -16,7 +16,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Metrics, HandComputed) {
-    // B's samples are 1, 2, 3 and 0, 4, 2: mean 2, peak 4. A − B is 1, 0, −1 and 2, 0, 0: squares sum to 6.
+    // B's samples are 1, 2, 3 and 0, 4, 2: mean 2, peak 4. A − B is 1, 0, −1 and 2, 0, 0: squares
+    // sum to 6.
     const Image b{2, 1, {{1, 2, 3}, {0, 4, 2}}};
     const Image a{2, 1, {{2, 2, 2}, {2, 4, 2}}};
     const Metrics metrics = compare(a, b);
@@ -100,7 +101,9 @@ TEST(Metrics, DifferencePictureShowsWhereAndWhichWay) {
     EXPECT_NEAR(picture.pixels[2].b, 0.1 / std::sqrt(1.01), 1e-6);
     EXPECT_EQ(picture.pixels[2].r, 0);
     // Never beyond full colour, and a black reference is no trouble.
-    EXPECT_EQ(difference_picture(constant(1, 1, glm::vec3(1e30f)), constant(1, 1, glm::vec3(0))).pixels[0].r,
+    EXPECT_EQ(difference_picture(constant(1, 1, glm::vec3(1e30f)), constant(1, 1, glm::vec3(0)))
+                  .pixels[0]
+                  .r,
               1);
     EXPECT_EQ(difference_picture(b, b).pixels[2], glm::vec3(0));
 }
@@ -109,7 +112,8 @@ TEST(Metrics, DifferencePictureShowsWhereAndWhichWay) {
 double plain_ssim(const Image& a, const Image& b) {
     const auto shown = [](const Image& image, int x, int y) {
         const glm::vec3& p = image.pixels[static_cast<std::size_t>(y * image.width + x)];
-        const double linear = std::min(std::max(0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b, 0.0), 1.0);
+        const double linear =
+            std::min(std::max(0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b, 0.0), 1.0);
         return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
     };
     const int radius_x = std::min(5, (a.width - 1) / 2), radius_y = std::min(5, (a.height - 1) / 2);
@@ -122,7 +126,8 @@ double plain_ssim(const Image& a, const Image& b) {
                 for (int dy = -radius_y; dy <= radius_y; ++dy) {
                     for (int dx = -radius_x; dx <= radius_x; ++dx) {
                         const double w = std::exp(-(dx * dx + dy * dy) / (2 * 1.5 * 1.5));
-                        const double va = shown(a, cx + dx, cy + dy), vb = shown(b, cx + dx, cy + dy);
+                        const double va = shown(a, cx + dx, cy + dy),
+                                     vb = shown(b, cx + dx, cy + dy);
                         if (pass == 0) {
                             weights += w;
                             mean_a += w * va;
@@ -139,8 +144,9 @@ double plain_ssim(const Image& a, const Image& b) {
                     mean_b /= weights;
                 }
             }
-            total += (2 * mean_a * mean_b + 1e-4) * (2 * ab / weights + 9e-4) /
-                     ((mean_a * mean_a + mean_b * mean_b + 1e-4) * (aa / weights + bb / weights + 9e-4));
+            total +=
+                (2 * mean_a * mean_b + 1e-4) * (2 * ab / weights + 9e-4) /
+                ((mean_a * mean_a + mean_b * mean_b + 1e-4) * (aa / weights + bb / weights + 9e-4));
             ++windows;
         }
     }
@@ -148,7 +154,8 @@ double plain_ssim(const Image& a, const Image& b) {
 }
 
 TEST(Ssim, AgreesWithThePlainDefinition) {
-    const int sizes[][2] = {{1, 1}, {2, 1}, {1, 9}, {5, 30}, {10, 10}, {11, 11}, {12, 13}, {40, 23}};
+    const int sizes[][2] = {{1, 1},   {2, 1},   {1, 9},   {5, 30},
+                            {10, 10}, {11, 11}, {12, 13}, {40, 23}};
     for (const auto& [width, height] : sizes) {
         const Image b = noise(width, height, 5, 1.2f); // some of it clamped
         Image a = b;
@@ -163,10 +170,12 @@ TEST(Ssim, AgreesWithThePlainDefinition) {
 }
 
 TEST(Ssim, ConstantPicturesHaveAClosedForm) {
-    // Without variance SSIM is (2·x·y + C1) / (x² + y² + C1) of the encoded values, here 0.25 and 0.75.
+    // Without variance SSIM is (2·x·y + C1) / (x² + y² + C1) of the encoded values, here 0.25 and
+    // 0.75.
     const auto x = static_cast<float>(srgb_decode(0.25)), y = static_cast<float>(srgb_decode(0.75));
     const double expected = (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4);
-    EXPECT_NEAR(ssim(constant(20, 15, glm::vec3(x)), constant(20, 15, glm::vec3(y))), expected, 1e-6);
+    EXPECT_NEAR(ssim(constant(20, 15, glm::vec3(x)), constant(20, 15, glm::vec3(y))), expected,
+                1e-6);
 }
 
 TEST(Ssim, FallsWithNoise) {

@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 namespace {
 
 std::string big_endian(std::uint32_t value) {
-    return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
-            static_cast<char>(value)};
+    return {static_cast<char>(value >> 24), static_cast<char>(value >> 16),
+            static_cast<char>(value >> 8), static_cast<char>(value)};
 }
 
 std::string chunk(const std::string& type, const std::string& data) {
@@ -29,7 +29,8 @@ std::string chunk(const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + body + big_endian(~crc);
 }
 
-/// A PNG put together by hand, with stored (not compressed) rows that each begin with their filter's byte.
+/// A PNG put together by hand, with stored (not compressed) rows that each begin with their
+/// filter's byte.
 std::string png(std::uint32_t width, std::uint32_t height, int depth, int color_type,
                 const std::string& rows) {
     std::uint32_t a = 1, b = 0;
@@ -40,7 +41,8 @@ std::string png(std::uint32_t width, std::uint32_t height, int depth, int color_
     const auto size = static_cast<std::uint16_t>(rows.size());
     const std::string zlib = std::string("\x78\x01\x01", 3) + static_cast<char>(size & 0xff) +
                              static_cast<char>(size >> 8) + static_cast<char>(~size & 0xff) +
-                             static_cast<char>((~size >> 8) & 0xff) + rows + big_endian(b << 16 | a);
+                             static_cast<char>((~size >> 8) & 0xff) + rows +
+                             big_endian(b << 16 | a);
     return "\x89PNG\r\n\x1a\n" +
            chunk("IHDR", big_endian(width) + big_endian(height) + static_cast<char>(depth) +
                              static_cast<char>(color_type) + std::string(3, '\0')) +
@@ -72,8 +74,8 @@ TEST(Png, EveryCodeSurvives) {
 }
 
 TEST(Png, FollowsTheStandardsCurve) {
-    // Values of IEC 61966-2-1, worked out by hand: 0.18 → 0.4613561 · 255 = 117.6, 0.5 → 187.5 (rounds to
-    // 188), the joint of line and curve 0.0031308 → 10.3.
+    // Values of IEC 61966-2-1, worked out by hand: 0.18 → 0.4613561 · 255 = 117.6, 0.5 → 187.5
+    // (rounds to 188), the joint of line and curve 0.0031308 → 10.3.
     EXPECT_EQ(code_of(0.18f), 118);
     EXPECT_EQ(code_of(0.5f), 188);
     EXPECT_EQ(code_of(0.0031308f), 10);
@@ -130,7 +132,8 @@ TEST(Png, ReadsOtherKindsOfPng) {
     };
     const auto linear = [](double code) { return static_cast<float>(srgb_decode(code)); };
     // 16 bits grey, RGB with alpha, 1 bit grey.
-    EXPECT_EQ(read(png(1, 1, 16, 0, std::string("\0\x80\x01", 3)))[0], glm::vec3(linear(0x8001 / 65535.0)));
+    EXPECT_EQ(read(png(1, 1, 16, 0, std::string("\0\x80\x01", 3)))[0],
+              glm::vec3(linear(0x8001 / 65535.0)));
     EXPECT_EQ(read(png(1, 1, 8, 6, std::string("\0\xff\x80\0\x10", 5)))[0],
               glm::vec3(1, linear(128 / 255.0), 0));
     EXPECT_EQ(read(png(2, 1, 1, 0, std::string("\0\x40", 2))),
@@ -140,10 +143,14 @@ TEST(Png, ReadsOtherKindsOfPng) {
 TEST(Png, RefusesWhatIsNoPictureAndWhereItCannotWrite) {
     const ScratchDirectory scratch;
     EXPECT_THAT(error_of([&] { write_png(scratch / "a.png", {}); }), HasSubstr("0 × 0"));
-    EXPECT_THAT(error_of([&] { write_png(scratch / "a.png", Image{1, 2, {{}}}); }), HasSubstr("1 pixels"));
+    EXPECT_THAT(error_of([&] {
+                    write_png(scratch / "a.png", Image{1, 2, {{}}});
+                }),
+                HasSubstr("1 pixels"));
     EXPECT_TRUE(scratch.names().empty());
     std::filesystem::create_directory(scratch / "folder.png");
-    EXPECT_THAT(error_of([&] { write_png(scratch / "folder.png", noise(1, 1, 1)); }), HasSubstr("directory"));
+    EXPECT_THAT(error_of([&] { write_png(scratch / "folder.png", noise(1, 1, 1)); }),
+                HasSubstr("directory"));
     EXPECT_THAT(error_of([&] { write_png(scratch / "none/a.png", noise(1, 1, 1)); }),
                 HasSubstr("does not exist"));
 }
@@ -175,8 +182,8 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
         write_text(scratch / "bad.png", bytes);
         try {
             const Image image = read_png(scratch / "bad.png");
-            EXPECT_EQ(image.pixels.size(),
-                      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+            EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width) *
+                                               static_cast<std::size_t>(image.height));
         } catch (const Error& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         }
@@ -186,8 +193,8 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
     }
     for (std::size_t place = 0; place < whole.size(); ++place) {
         for (const char value : {'\0', '\x01', '\x7f', '\xff'}) {
-            // A width of thousands of millions is stb's to refuse, but memory for 65536² would be too much
-            // for a test.
+            // A width of thousands of millions is stb's to refuse, but memory for 65536² would be
+            // too much for a test.
             if (place >= 16 && place < 24 && value != '\0') {
                 continue;
             }
@@ -200,7 +207,8 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
 
 TEST(Hdr, ReadsSharedExponents) {
     const ScratchDirectory scratch;
-    // Two pixels of (128, 64, 0) · 2^(e − 136): e = 129 is 1, 0.5, 0; e = 139 is 1024 times as much.
+    // Two pixels of (128, 64, 0) · 2^(e − 136): e = 129 is 1, 0.5, 0; e = 139 is 1024 times as
+    // much.
     write_text(scratch / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
                                       std::string("\x80\x40\0\x81\x80\x40\0\x8b", 8));
     const Image image = read_hdr(scratch / "a.hdr");

@@ -21,13 +21,17 @@ using Sources = std::map<std::string, std::string>;
 
 /// The folders of engine/ from the bottom up; those on one level do not see each other.
 inline const std::vector<std::vector<std::string>> levels = {
-    {"base"},     {"image", "scene", "device"}, {"plan", "parallel"},
-    {"accel"},    {"photon", "imagespace"},     {"methods"},
+    {"base"},
+    {"image", "scene", "device"},
+    {"plan", "parallel"},
+    {"accel"},
+    {"photon", "imagespace"},
+    {"methods"},
     {"tradeoff", "compare"},
 };
 
-/// One include line; `target` is the file it names, "kernels/..." for a header generated from a kernel, or
-/// empty if it names no file of this repository.
+/// One include line; `target` is the file it names, "kernels/..." for a header generated from a
+/// kernel, or empty if it names no file of this repository.
 struct Include {
     std::string file;
     std::string path;
@@ -36,12 +40,14 @@ struct Include {
     int line = 0;
 };
 
-/// The source file that `path`, included from `file`, names: beside that file or below an include root.
+/// The source file that `path`, included from `file`, names: beside that file or below an include
+/// root.
 inline std::string resolve(const Sources& sources, const std::string& file, const std::string& path,
                            bool angled) {
     const std::string beside = std::filesystem::path(file).parent_path() / path;
-    for (const std::string& candidate : {angled ? std::string() : beside, "engine/" + path, "shaders/" + path,
-                                         "shaders/comp/" + path, "tools/" + path}) {
+    for (const std::string& candidate :
+         {angled ? std::string() : beside, "engine/" + path, "shaders/" + path,
+          "shaders/comp/" + path, "tools/" + path}) {
         const std::string normal = std::filesystem::path(candidate).lexically_normal();
         if (sources.contains(normal))
             return normal;
@@ -61,7 +67,8 @@ inline std::vector<Include> includes(const Sources& sources) {
             if (!std::regex_match(line, match, line_pattern))
                 continue;
             const bool angled = match[1] == "<";
-            found.push_back({file, match[2], resolve(sources, file, match[2], angled), angled, number});
+            found.push_back(
+                {file, match[2], resolve(sources, file, match[2], angled), angled, number});
         }
     }
     return found;
@@ -103,12 +110,16 @@ inline std::string objection(const std::string& from, const std::string& to) {
                    ? ""
                    : "twins see only shaders/shared, shaders/cuda, device and generated kernels";
     if (kind == "comp" || kind == "raster")
-        return to == "shared" || to == "comp" ? "" : "kernels see only shaders/shared and their own folder";
+        return to == "shared" || to == "comp"
+                   ? ""
+                   : "kernels see only shaders/shared and their own folder";
     const int level = level_of(from);
     if (level < 0)
         return fmt::format("{} has no place in the order of docs/design.md", from);
     if (to == "shared")
-        return level > 0 && from != "image" ? "" : "shaders/shared is for scene, device and what is above";
+        return level > 0 && from != "image"
+                   ? ""
+                   : "shaders/shared is for scene, device and what is above";
     if (to == "kernels")
         return from == "device" || level > 1 ? "" : "kernels are for device and what is above";
     const int other = level_of(to);
@@ -119,8 +130,8 @@ inline std::string objection(const std::string& from, const std::string& to) {
     return other < level ? "" : fmt::format("{} stands above {}", to, from);
 }
 
-/// A circle of files that include each other, through `file`, or nothing; `done` holds files known to be in
-/// none.
+/// A circle of files that include each other, through `file`, or nothing; `done` holds files known
+/// to be in none.
 inline std::vector<std::string> circle(const std::map<std::string, std::set<std::string>>& graph,
                                        const std::string& file, std::vector<std::string>& path,
                                        std::set<std::string>& done) {
@@ -142,7 +153,8 @@ inline std::vector<std::string> circle(const std::map<std::string, std::set<std:
     return {};
 }
 
-/// Includes that break the order, and the first circle of files that include each other: one line per fault.
+/// Includes that break the order, and the first circle of files that include each other: one line
+/// per fault.
 inline std::vector<std::string> faults(const Sources& sources) {
     std::vector<std::string> found;
     std::map<std::string, std::set<std::string>> graph;
@@ -155,8 +167,8 @@ inline std::vector<std::string> faults(const Sources& sources) {
             why = "no such file in this repository (libraries stand between angle brackets)";
         }
         if (!why.empty())
-            found.push_back(
-                fmt::format("{}:{}: includes {}: {}", include.file, include.line, include.path, why));
+            found.push_back(fmt::format("{}:{}: includes {}: {}", include.file, include.line,
+                                        include.path, why));
     }
     std::vector<std::string> path;
     std::set<std::string> done;
@@ -170,7 +182,8 @@ inline std::vector<std::string> faults(const Sources& sources) {
 }
 
 /// The sources of C++, GLSL and CUDA below these folders of `root`.
-inline Sources read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders) {
+inline Sources read_sources(const std::filesystem::path& root,
+                            const std::vector<std::string>& folders) {
     static constexpr std::array extensions = {".hpp",  ".cpp",  ".h",    ".glsl",
                                               ".comp", ".vert", ".frag", ".cu"};
     Sources sources;
@@ -182,8 +195,8 @@ inline Sources read_sources(const std::filesystem::path& root, const std::vector
             if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
                 continue;
             std::ifstream stream(entry.path());
-            sources[std::filesystem::relative(entry.path(), root)] = {std::istreambuf_iterator<char>(stream),
-                                                                      {}};
+            sources[std::filesystem::relative(entry.path(), root)] = {
+                std::istreambuf_iterator<char>(stream), {}};
         }
     }
     return sources;

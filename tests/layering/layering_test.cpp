@@ -18,17 +18,20 @@ Sources good_tree() {
         {"engine/scene/scene.hpp", "#include \"shared/records.h\"\n"},
         {"engine/device/device.hpp", "#include \"device/vulkan/memory.hpp\"\n"},
         {"engine/device/vulkan/memory.hpp", "#include \"base/error.hpp\"\n"},
-        {"engine/parallel/scan.cpp", "#include \"kernels/scan.hpp\"\n#include \"device/device.hpp\"\n"},
+        {"engine/parallel/scan.cpp",
+         "#include \"kernels/scan.hpp\"\n#include \"device/device.hpp\"\n"},
         {"engine/accel/tree.hpp", "#include \"shared/records.h\"\n"},
         {"engine/methods/path.cpp", "#include \"accel/tree.hpp\"\n#include \"scene/scene.hpp\"\n"},
         {"shaders/shared/records.h", "#include \"shared/prelude.h\"\n"},
         {"shaders/shared/prelude.h", "#include <cmath>\n"},
         {"shaders/comp/kernel.glsl", "#include \"shared/prelude.h\"\n"},
-        {"shaders/comp/accel/trace.comp", "#include \"kernel.glsl\"\n#include \"accel/stack.glsl\"\n"},
+        {"shaders/comp/accel/trace.comp",
+         "#include \"kernel.glsl\"\n#include \"accel/stack.glsl\"\n"},
         {"shaders/comp/accel/stack.glsl", ""},
         {"shaders/comp/photon/emit.comp", ""},
         {"shaders/cuda/kernel.h", "#include \"device/twin.hpp\"\n#include \"shared/prelude.h\"\n"},
-        {"shaders/cuda/photon/emit.cu", "#include \"cuda/kernel.h\"\n#include \"kernels/emit.twin.h\"\n"},
+        {"shaders/cuda/photon/emit.cu",
+         "#include \"cuda/kernel.h\"\n#include \"kernels/emit.twin.h\"\n"},
         {"engine/device/twin.hpp", ""},
         {"tools/argand/main.cpp", "#include \"methods/path.hpp\"\n#include \"options.hpp\"\n"},
         {"tools/argand/options.hpp", ""},
@@ -44,14 +47,13 @@ std::vector<std::string> faults_with(const std::string& file, const std::string&
     return faults(tree);
 }
 
-TEST(Layering, AcceptsATreeInOrder) {
-    EXPECT_THAT(faults(good_tree()), IsEmpty());
-}
+TEST(Layering, AcceptsATreeInOrder) { EXPECT_THAT(faults(good_tree()), IsEmpty()); }
 
 TEST(Layering, FindsAnArrowThatPointsUp) {
     EXPECT_THAT(
         faults_with("engine/accel/tree.hpp", "\"methods/path.hpp\""),
-        ElementsAre("engine/accel/tree.hpp:2: includes methods/path.hpp: methods stands above accel"));
+        ElementsAre(
+            "engine/accel/tree.hpp:2: includes methods/path.hpp: methods stands above accel"));
     EXPECT_THAT(faults_with("engine/base/error.hpp", "\"image/image.hpp\""),
                 Contains(HasSubstr("above base")));
     EXPECT_THAT(faults_with("engine/methods/path.cpp", "\"argand/options.hpp\""),
@@ -68,7 +70,8 @@ TEST(Layering, FindsAnArrowSideways) {
 TEST(Layering, IsNotDeceivedByTheSpelling) {
     for (const std::string spelling :
          {"<image/image.hpp>", "\"../image/image.hpp\"", "  \"image/image.hpp\" // why"})
-        EXPECT_THAT(faults_with("engine/scene/scene.hpp", spelling), ElementsAre(HasSubstr("side by side")))
+        EXPECT_THAT(faults_with("engine/scene/scene.hpp", spelling),
+                    ElementsAre(HasSubstr("side by side")))
             << spelling;
     Sources tree = good_tree();
     tree["engine/scene/scene.hpp"] += "\t#  include\t\"image/image.hpp\"\n";
@@ -89,16 +92,18 @@ TEST(Layering, KeepsTheSharedMathsAndTheKernelsApart) {
     EXPECT_THAT(faults_with("shaders/comp/photon/emit.comp", "\"base/error.hpp\""),
                 ElementsAre(HasSubstr("their own folder")));
     EXPECT_THAT(faults_with("shaders/comp/photon/emit.comp", "\"shared/records.h\""), IsEmpty());
-    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"methods/path.hpp\""), ElementsAre(HasSubstr("twins see only")));
-    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"comp/kernel.glsl\""), ElementsAre(HasSubstr("twins see only")));
+    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"methods/path.hpp\""),
+                ElementsAre(HasSubstr("twins see only")));
+    EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"comp/kernel.glsl\""),
+                ElementsAre(HasSubstr("twins see only")));
     EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"shared/records.h\""), IsEmpty());
 }
 
 TEST(Layering, FindsFilesThatIncludeEachOther) {
-    EXPECT_THAT(
-        faults_with("engine/device/vulkan/memory.hpp", "\"device/device.hpp\""),
-        ElementsAre("files include each other: engine/device/device.hpp > engine/device/vulkan/memory.hpp > "
-                    "engine/device/device.hpp"));
+    EXPECT_THAT(faults_with("engine/device/vulkan/memory.hpp", "\"device/device.hpp\""),
+                ElementsAre("files include each other: engine/device/device.hpp > "
+                            "engine/device/vulkan/memory.hpp > "
+                            "engine/device/device.hpp"));
     EXPECT_THAT(faults_with("tools/argand/options.hpp", "\"options.hpp\""),
                 ElementsAre(HasSubstr("options.hpp > tools/argand/options.hpp")));
 }

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 /// Folders of tests with a test, or an instance of tests, whose name has or has not "Slow" in it.
 std::set<std::string> folders_with_tests(bool slow) {
-    const std::regex begin(R"((TEST|TEST_F|TEST_P)\(\s*\w+,\s*\w+\s*\)\s*\{|INSTANTIATE_TEST_SUITE_P\(Slow)");
+    const std::regex begin(
+        R"((TEST|TEST_F|TEST_P)\(\s*\w+,\s*\w+\s*\)\s*\{|INSTANTIATE_TEST_SUITE_P\(Slow)");
     std::set<std::string> folders;
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(fs::path(ARGAND_SOURCE_DIR) / "tests")) {
@@ -23,7 +24,8 @@ std::set<std::string> folders_with_tests(bool slow) {
             continue;
         }
         const std::string text = read_text(entry.path());
-        for (std::sregex_iterator match(text.begin(), text.end(), begin), end; match != end; ++match) {
+        for (std::sregex_iterator match(text.begin(), text.end(), begin), end; match != end;
+             ++match) {
             if ((match->str().find("Slow") != std::string::npos) == slow) {
                 folders.insert(entry.path().parent_path().filename());
             }

@@ -18,11 +18,13 @@ protected:
         return {std::move(a), render(scene, settings)};
     }
 
-    static double error(const RenderResult& photons, const Reference& reference, const std::string& name = "") {
+    static double error(const RenderResult& photons, const Reference& reference,
+                        const std::string& name = "") {
         return rel_mse(layer(photons, name), layer(reference.a, name), layer(reference.b, name));
     }
 
-    RenderResult photons(const Scene& scene, int size, std::uint64_t count, std::optional<double> radius = {}) {
+    RenderResult photons(const Scene& scene, int size, std::uint64_t count,
+                         std::optional<double> radius = {}) {
         RenderSettings settings = settings_of("photons", size, 32);
         settings.photons = count;
         settings.radius = radius;
@@ -30,11 +32,14 @@ protected:
     }
 
     /// Mean radiance of a layer is the same within `tolerance`.
-    void expect_same_mean(const Scene& scene, int size, std::uint32_t samples, const std::string& name, double tolerance) {
-        const glm::dvec3 expected = mean(layer(render(scene, settings_of("path", size, samples)), name));
+    void expect_same_mean(const Scene& scene, int size, std::uint32_t samples,
+                          const std::string& name, double tolerance) {
+        const glm::dvec3 expected =
+            mean(layer(render(scene, settings_of("path", size, samples)), name));
         const glm::dvec3 actual = mean(layer(photons(scene, size, 100'000), name));
         for (int channel = 0; channel < 3; ++channel) {
-            EXPECT_RELATIVE(actual[channel], expected[channel], tolerance) << scene.name << ", " << name << ", " << channel;
+            EXPECT_RELATIVE(actual[channel], expected[channel], tolerance)
+                << scene.name << ", " << name << ", " << channel;
         }
     }
 };
@@ -48,17 +53,20 @@ TEST_F(Agreement, MeanRadianceOfEachLayer) {
 }
 
 TEST_F(Agreement, ShadingNormals) {
-    // A coarse sphere with interpolated normals: light that photons scatter from it must be weighted by their ratio.
+    // A coarse sphere with interpolated normals: light that photons scatter from it must be
+    // weighted by their ratio.
     Scene scene = room_scene();
     add_sphere(scene, {0.4f, -0.4f, 0.2f}, 0.5f, 4, true, 2);
     expect_same_mean(scene, 16, 512, "indirect", 0.05);
 }
 
 TEST_F(Agreement, SlowCameraInsideGlass) {
-    // A Lambertian block in the glass in which the camera is too: what it reflects comes to it through glass.
+    // A Lambertian block in the glass in which the camera is too: what it reflects comes to it
+    // through glass.
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(0.5f)));
     add_sphere(scene, glm::vec3(0), 0.8f, 12, false, add_material(scene, glass(1.5f, true)));
-    add_box(scene, {-0.2f, -0.2f, -0.5f}, {0.2f, 0.2f, -0.3f}, add_material(scene, lambertian(glm::vec3(0.6f))), false);
+    add_box(scene, {-0.2f, -0.2f, -0.5f}, {0.2f, 0.2f, -0.3f},
+            add_material(scene, lambertian(glm::vec3(0.6f))), false);
     scene.cameras = {look_at({0, 0, 0.3f}, {0, 0, -1}, 20)};
     expect_same_mean(scene, 8, 4096, "", 0.05);
 }

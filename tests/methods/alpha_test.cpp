@@ -1,4 +1,5 @@
-// Surfaces of which alpha leaves only a share: what is behind them is followed, by eye paths and by photons.
+// Surfaces of which alpha leaves only a share: what is behind them is followed, by eye paths and by
+// photons.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -53,7 +54,8 @@ TEST_P(Alpha, SunBehindItIsACaustic) {
 // A lamp with an area, which paths can find behind a veil as photons do: each layer on its own.
 TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
-    add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1}, add_material(scene, emitter(glm::vec3(2))));
+    add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
+             add_material(scene, emitter(glm::vec3(2))));
     Material varnished = lambertian({0.2f, 0.6f, 0.7f});
     varnished.specular = 1;
     varnished.roughness = 0.6f;
@@ -65,7 +67,8 @@ TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     RenderSettings reference = settings_of("path", 16, 4096);
     reference.seed = 7;
     const RenderResult expected = render(scene, reference);
-    const RenderResult found = render(scene, settings(16, GetParam() == "path" ? 4096 : 128, 200'000));
+    const RenderResult found =
+        render(scene, settings(16, GetParam() == "path" ? 4096 : 128, 200'000));
     expect_same_layers(found, expected, 0.04);
     EXPECT_GT(mean(layer(expected, "caustic")).g, 0.1 * mean(layer(expected, "direct")).g);
 }

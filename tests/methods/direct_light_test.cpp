@@ -1,4 +1,5 @@
-// Light that comes straight from a light to a Lambertian surface, against the integral done by hand.
+// Light that comes straight from a light to a Lambertian surface, against the integral done by
+// hand.
 #include "rendering.hpp"
 
 #include "scene/light_power.hpp"
@@ -24,7 +25,8 @@ TEST_P(DirectLight, PointLightOverAPlane) {
     scene.lights = {point_light({0, height, 0}, glm::vec3(intensity))};
     for (const float x : {0.0f, 0.5f, 1.5f, 6.0f}) {
         const double distance = std::hypot(height, double(x));
-        const double expected = albedo / pi * intensity * (height / distance) / (distance * distance);
+        const double expected =
+            albedo / pi * intensity * (height / distance) / (distance * distance);
         EXPECT_RELATIVE(floor_radiance(scene, x, 0), expected, 1e-3) << x;
     }
 }
@@ -36,7 +38,8 @@ TEST_P(DirectLight, PointLightOfTheScenesFile) {
 
 TEST_P(DirectLight, LightsBelowTheFloorDoNotShineThroughIt) {
     Scene scene = floor_scene(lambertian(glm::vec3(albedo)));
-    scene.lights = {point_light({0, -1, 0}, glm::vec3(1)), directional_light({0.1f, 1, 0}, glm::vec3(1))};
+    scene.lights = {point_light({0, -1, 0}, glm::vec3(1)),
+                    directional_light({0.1f, 1, 0}, glm::vec3(1))};
     EXPECT_EQ(floor_radiance(scene, 0.2f, 0), 0);
 }
 
@@ -90,9 +93,11 @@ TEST_P(DirectLight, AreaLightIsTheIntegralOverItsArea) {
     for (const double height : {0.1, 1.0}) {
         Scene scene = floor_scene(lambertian(glm::vec3(albedo)));
         const auto y = static_cast<float>(height);
-        add_quad(scene, {-0.5f, y, -0.5f}, {1, 0, 0}, {0, 0, 1}, add_material(scene, emitter(glm::vec3(4))));
+        add_quad(scene, {-0.5f, y, -0.5f}, {1, 0, 0}, {0, 0, 1},
+                 add_material(scene, emitter(glm::vec3(4))));
         for (const float x : {0.8f, 2.0f}) {
-            EXPECT_RELATIVE(floor_radiance(scene, x, 0, 8192), albedo / pi * irradiance(x, 0.5, height, 4), 0.02)
+            EXPECT_RELATIVE(floor_radiance(scene, x, 0, 8192),
+                            albedo / pi * irradiance(x, 0.5, height, 4), 0.02)
                 << height << ", " << x;
         }
     }

@@ -34,8 +34,9 @@ void expect_sum_of_layers(const RenderResult& result) {
 }
 
 TEST_P(Edge, LayersSumUpToTheWholeAndAllAreFinite) {
-    for (const char* name : {"cornell_glass.glb", "cornell_mirror.glb", "glossy.glb", "courtyard.glb", "ring.glb",
-                             "smooth_sphere.glb", "inside_glass.glb", "sky_room.glb", "spot.glb", "veil.glb"}) {
+    for (const char* name :
+         {"cornell_glass.glb", "cornell_mirror.glb", "glossy.glb", "courtyard.glb", "ring.glb",
+          "smooth_sphere.glb", "inside_glass.glb", "sky_room.glb", "spot.glb", "veil.glb"}) {
         const RenderResult result = render(load_asset(name), settings());
         expect_sum_of_layers(result);
         EXPECT_GT(mean(layer(result, "")).g, 0) << name;
@@ -44,7 +45,8 @@ TEST_P(Edge, LayersSumUpToTheWholeAndAllAreFinite) {
 
 TEST_P(Edge, OddSizes) {
     const Scene scene = room_scene();
-    for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 7), std::pair(65, 1), std::pair(17, 31)}) {
+    for (const auto& [width, height] :
+         {std::pair(1, 1), std::pair(1, 7), std::pair(65, 1), std::pair(17, 31)}) {
         RenderSettings odd = settings();
         odd.width = width;
         odd.height = height;
@@ -123,7 +125,8 @@ TEST_P(Edge, ScaleOfTheSceneDoesNotMatter) {
         // By powers of two nothing is rounded: all but the offsets of rays is the same.
         const glm::dvec3 expected = mean(layer(render(scene, settings(32, 16)), ""));
         for (const float factor : {1.0f / 1024, 1024.0f, 1e-3f, 1e3f}) {
-            const glm::dvec3 actual = mean(layer(render(scaled(scene, factor), settings(32, 16)), ""));
+            const glm::dvec3 actual =
+                mean(layer(render(scaled(scene, factor), settings(32, 16)), ""));
             EXPECT_RELATIVE(actual.g, expected.g, 0.03) << name << ", " << factor;
         }
     }
@@ -156,7 +159,8 @@ TEST_P(Edge, InterruptKeepsWhatIsFinished) {
     EXPECT_TRUE(result.statistics.interrupted);
     EXPECT_GT(result.statistics.samples, 0u);
     EXPECT_LT(result.statistics.samples, 4096u);
-    // Every sample sees a wall that emits 1, so that a picture which counts other samples than it holds is not 1.
+    // Every sample sees a wall that emits 1, so that a picture which counts other samples than it
+    // holds is not 1.
     for (const glm::vec3& pixel : layer(result, "").pixels) {
         EXPECT_EQ(pixel, glm::vec3(1));
     }
@@ -167,11 +171,12 @@ TEST_P(Edge, BudgetIsFilledWithPasses) {
     RenderSettings budgeted = settings(16, 2);
     budgeted.photons = 2000;
     budgeted.bounces = 2;
-    render(scene, budgeted);    // so that kernels are compiled
+    render(scene, budgeted); // so that kernels are compiled
     budgeted.budget = 2;
     const auto start = std::chrono::steady_clock::now();
     const RenderResult result = render(scene, budgeted);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_GT(result.statistics.passes, 1u);
     EXPECT_EQ(result.statistics.samples, 2 * result.statistics.passes);
     EXPECT_FALSE(result.statistics.interrupted);
@@ -273,7 +278,8 @@ TEST_F(PhotonEdge, EveryPassHasASampleSoThatMemoryDoesNotGrowWithPhotons) {
 }
 
 TEST_F(PhotonEdge, SlowPassesGrowSmallerWhereEveryPhotonIsStoredOften) {
-    // Walls that reflect almost everything: a photon is stored far more often than room is made for.
+    // Walls that reflect almost everything: a photon is stored far more often than room is made
+    // for.
     Scene scene = load_asset("closed_box.gltf");
     for (Material& material : scene.materials) {
         material.base_color = glm::vec3(0.97f);

@@ -1,4 +1,5 @@
-// Scenes in which light is the same everywhere: what is reflected, summed over all bounces, is known.
+// Scenes in which light is the same everywhere: what is reflected, summed over all bounces, is
+// known.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -50,7 +51,8 @@ TEST_P(Energy, ClosedBoxIsAGeometricSeries) {
     const glm::dvec3 direct = mean(layer(result, "direct"));
     for (int channel = 0; channel < 3; ++channel) {
         EXPECT_RELATIVE(all[channel], emitted[channel] / (1 - reflected[channel]), 0.03) << channel;
-        EXPECT_RELATIVE(direct[channel], emitted[channel] * (1 + reflected[channel]), 0.02) << channel;
+        EXPECT_RELATIVE(direct[channel], emitted[channel] * (1 + reflected[channel]), 0.02)
+            << channel;
     }
     EXPECT_EQ(mean(layer(result, "caustic")), glm::dvec3(0));
 }

@@ -19,7 +19,8 @@ Scene lit_room() {
 /// Most of the room's far wall is of this material instead.
 Scene room_with_wall_of(const Material& material) {
     Scene scene = lit_room();
-    add_quad(scene, {-0.8f, -0.8f, -0.95f}, {1.6f, 0, 0}, {0, 1.6f, 0}, add_material(scene, material));
+    add_quad(scene, {-0.8f, -0.8f, -0.95f}, {1.6f, 0, 0}, {0, 1.6f, 0},
+             add_material(scene, material));
     return scene;
 }
 
@@ -32,7 +33,8 @@ Scene mirror_room() {
 Scene glass_room() {
     Scene scene = lit_room();
     scene.name = "room with glass";
-    add_box(scene, {-0.6f, -0.9f, -0.6f}, {0.3f, -0.3f, 0.2f}, add_material(scene, glass(1.5f, true)), false);
+    add_box(scene, {-0.6f, -0.9f, -0.6f}, {0.3f, -0.3f, 0.2f},
+            add_material(scene, glass(1.5f, true)), false);
     return scene;
 }
 
@@ -46,7 +48,8 @@ Scene glossy_room() {
     return scene;
 }
 
-/// Rougher than what is followed, and yet so narrow that a point sampled on the light is seldom in its lobe.
+/// Rougher than what is followed, and yet so narrow that a point sampled on the light is seldom in
+/// its lobe.
 Material narrow_gloss() {
     Material metal = mirror(glm::vec3(0.9f));
     metal.roughness = 0.3f;
@@ -59,8 +62,8 @@ Scene room_with_narrow_gloss() {
     return scene;
 }
 
-/// Diffuse and glossy, and half of it is not there: a path that arrives is scattered by one lobe or follows
-/// another.
+/// Diffuse and glossy, and half of it is not there: a path that arrives is scattered by one lobe or
+/// follows another.
 Scene room_with_half_a_plastic_wall() {
     Material plastic = lambertian(glm::vec3(0.5f));
     plastic.specular = 1;
@@ -84,9 +87,10 @@ Scene yard(const Material& material) {
 
 class FinalGather : public RenderTest {
 protected:
-    /// Mean radiance of each layer is that of the path tracer within `tolerance` of the whole picture's.
-    void expect_as_path(const Scene& scene, const std::string& method = "photons", double tolerance = 0.01,
-                        std::uint32_t bounces = RenderSettings().bounces) {
+    /// Mean radiance of each layer is that of the path tracer within `tolerance` of the whole
+    /// picture's.
+    void expect_as_path(const Scene& scene, const std::string& method = "photons",
+                        double tolerance = 0.01, std::uint32_t bounces = RenderSettings().bounces) {
         RenderSettings settings = settings_of("path", 16, 768);
         settings.bounces = bounces;
         const RenderResult expected = render(scene, settings);
@@ -97,7 +101,8 @@ protected:
         const RenderResult actual = render(scene, settings);
         const double of_all = mean(layer(expected, "")).g;
         for (const char* name : {"direct", "indirect", "caustic"}) {
-            EXPECT_NEAR(mean(layer(actual, name)).g, mean(layer(expected, name)).g, tolerance * of_all)
+            EXPECT_NEAR(mean(layer(actual, name)).g, mean(layer(expected, name)).g,
+                        tolerance * of_all)
                 << scene.name << ", " << method << ", " << name << ", bounces " << bounces;
         }
     }
@@ -109,22 +114,16 @@ TEST_F(FinalGather, EveryMethodWithAPhotonMap) {
     }
 }
 
-TEST_F(FinalGather, EmittersAreMetOnce) {
-    expect_as_path(lit_room());
-}
+TEST_F(FinalGather, EmittersAreMetOnce) { expect_as_path(lit_room()); }
 
 TEST_F(FinalGather, Sky) {
     expect_as_path(yard(mirror(glm::vec3(0.9f))));
     expect_as_path(yard(narrow_gloss()));
 }
 
-TEST_F(FinalGather, CausticsOfAMirror) {
-    expect_as_path(mirror_room(), "photons", 0.015);
-}
+TEST_F(FinalGather, CausticsOfAMirror) { expect_as_path(mirror_room(), "photons", 0.015); }
 
-TEST_F(FinalGather, CausticsOfGlass) {
-    expect_as_path(glass_room(), "photons", 0.015);
-}
+TEST_F(FinalGather, CausticsOfGlass) { expect_as_path(glass_room(), "photons", 0.015); }
 
 TEST_F(FinalGather, CausticsOfGlossFromALightWithoutExtent) {
     expect_as_path(glossy_room(), "photons", 0.015);
@@ -160,14 +159,16 @@ TEST_F(FinalGather, FirstBounceNeedsNoPhotons) {
     settings.final_gather = true;
     settings.bounces = 1;
     settings.photons = 0;
-    const double expected = mean(layer(render(room_scene(), settings_of("path", 16, 64)), "direct")).g;
+    const double expected =
+        mean(layer(render(room_scene(), settings_of("path", 16, 64)), "direct")).g;
     const RenderResult result = render(room_scene(), settings);
     EXPECT_RELATIVE(mean(layer(result, "direct")).g, expected, 0.02);
     EXPECT_GT(mean(layer(result, "indirect")).g, 0.05 * expected);
 }
 
 TEST_F(FinalGather, BlotchesOfFewPhotonsVanish) {
-    // So few photons that the map alone shows them one by one; a gather sees them all from everywhere.
+    // So few photons that the map alone shows them one by one; a gather sees them all from
+    // everywhere.
     const Scene scene = room_scene();
     const Image reference = layer(render(scene, settings_of("path", 16, 1024)), "indirect");
     RenderSettings settings = settings_of("footprints", 16, 128);

@@ -13,11 +13,11 @@ namespace {
 constexpr std::uint32_t unlimited = 0xffff;
 
 struct Traced {
-    std::array<std::int64_t, 12> sums{};       // emitted, absorbed, escaped, cut of three channels
+    std::array<std::int64_t, 12> sums{}; // emitted, absorbed, escaped, cut of three channels
     double unit = 0;
     glm::dvec3 power{0};
     std::uint64_t count = 0;
-    std::vector<PhotonRecord> photons;          // without empty slots
+    std::vector<PhotonRecord> photons; // without empty slots
 
     glm::dvec3 flux(std::size_t kind) const {
         return glm::dvec3(sums[3 * kind], sums[3 * kind + 1], sums[3 * kind + 2]) * unit;
@@ -36,7 +36,8 @@ struct Traced {
     bool balances() const {
         bool balanced = true;
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            balanced = balanced && sums[channel] == sums[3 + channel] + sums[6 + channel] + sums[9 + channel];
+            balanced = balanced &&
+                       sums[channel] == sums[3 + channel] + sums[6 + channel] + sums[9 + channel];
         }
         return balanced;
     }
@@ -44,21 +45,25 @@ struct Traced {
 
 class Flux : public RenderTest {
 protected:
-    Traced trace(const Scene& scene, std::uint32_t bounces, std::uint64_t count = 20'000, float follow_roughness = 0.25f) {
-        const DeviceScene on_device = 
+    Traced trace(const Scene& scene, std::uint32_t bounces, std::uint64_t count = 20'000,
+                 float follow_roughness = 0.25f) {
+        const DeviceScene on_device =
             upload_scene(device(), scene, make_plan(scene, {.follow_roughness = follow_roughness}));
         PhotonWorkspace workspace = make_photon_workspace(device(), count);
         Traced traced;
         traced.power = on_device.power;
         traced.count = count;
-        traced.unit = std::max({traced.power.r, traced.power.g, traced.power.b}) / static_cast<double>(count) / (1 << 18);
+        traced.unit = std::max({traced.power.r, traced.power.g, traced.power.b}) /
+                      static_cast<double>(count) / (1 << 18);
         const auto unit = static_cast<float>(traced.unit);
         traced.unit = unit;
-        const auto stored = trace_photons(device(), on_device, workspace, {.seed = 3, .count = count, .bounces = bounces}, unit);
+        const auto stored = trace_photons(device(), on_device, workspace,
+                                          {.seed = 3, .count = count, .bounces = bounces}, unit);
         EXPECT_TRUE(stored.has_value());
         const auto sums = download<std::int64_t>(device(), workspace.flux_sums, 12);
         std::copy(sums.begin(), sums.end(), traced.sums.begin());
-        for (const PhotonRecord& p : download<PhotonRecord>(device(), workspace.photons, stored ? stored->slots : 0)) {
+        for (const PhotonRecord& p :
+             download<PhotonRecord>(device(), workspace.photons, stored ? stored->slots : 0)) {
             if (p.normal != no_photon) {
                 traced.photons.push_back(p);
             }
@@ -74,9 +79,14 @@ void expect_near(const glm::dvec3& actual, const glm::dvec3& expected, double re
 }
 
 TEST_F(Flux, EmittedIsAbsorbedEscapedOrCutToTheUnit) {
-    const Scene scenes[] = {room_scene(), load_asset("cornell_glass.glb"), load_asset("cornell_mirror.glb"),
-                            load_asset("courtyard.glb"), load_asset("sky_room.glb"), load_asset("closed_box.gltf"),
-                            load_asset("glossy.glb"), load_asset("veil.glb")};
+    const Scene scenes[] = {room_scene(),
+                            load_asset("cornell_glass.glb"),
+                            load_asset("cornell_mirror.glb"),
+                            load_asset("courtyard.glb"),
+                            load_asset("sky_room.glb"),
+                            load_asset("closed_box.gltf"),
+                            load_asset("glossy.glb"),
+                            load_asset("veil.glb")};
     for (const Scene& scene : scenes) {
         for (const std::uint32_t bounces : {0u, 1u, 2u, unlimited}) {
             SCOPED_TRACE(scene.name + ", " + std::to_string(bounces));
@@ -129,31 +139,37 @@ TEST_F(Flux, EmittedIsTheLightsPower) {
 
     scene.lights.clear();
     scene.sky = color;
-    expect_near(trace(scene, 0).emitted(), glm::dvec3(color) * 4.0 * double(pi) * double(pi) * radius * radius, 1e-3);
+    expect_near(trace(scene, 0).emitted(),
+                glm::dvec3(color) * 4.0 * double(pi) * double(pi) * radius * radius, 1e-3);
     scene.sky.reset();
     for (const bool double_sided : {false, true}) {
         scene.materials[0] = emitter(color);
         scene.materials[0].double_sided = double_sided;
-        expect_near(trace(scene, 0).emitted(), emitted_power(scene, 0) + emitted_power(scene, 1), 1e-5);
+        expect_near(trace(scene, 0).emitted(), emitted_power(scene, 0) + emitted_power(scene, 1),
+                    1e-5);
     }
 }
 
 TEST_F(Flux, PowerIsSharedAmongLights) {
     Scene scene = floor_scene(emitter({1, 1, 1}), 1);
-    scene.lights = {point_light({0, 1, 0}, glm::vec3(3)), spot_light({0, 2, 0}, {0, -1, 0}, glm::vec3(9), 0.3f, 0.6f)};
-    const glm::dvec3 power = emitted_power(scene, 0) + emitted_power(scene, 1) + emitted_power(scene.lights[0]) +
-                             emitted_power(scene.lights[1]);
+    scene.lights = {point_light({0, 1, 0}, glm::vec3(3)),
+                    spot_light({0, 2, 0}, {0, -1, 0}, glm::vec3(9), 0.3f, 0.6f)};
+    const glm::dvec3 power = emitted_power(scene, 0) + emitted_power(scene, 1) +
+                             emitted_power(scene.lights[0]) + emitted_power(scene.lights[1]);
     expect_near(trace(scene, 0).emitted(), power, 1e-5);
 }
 
 TEST_F(Flux, PhotonsOfPointSkyAndSunArriveWhereTheyShould) {
-    // The share of a point light's photons that falls on a square of known solid angle: a cube's face has 4 pi / 6.
+    // The share of a point light's photons that falls on a square of known solid angle: a cube's
+    // face has 4 pi / 6.
     Scene scene;
-    add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian(glm::vec3(0))));
+    add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0},
+             add_material(scene, lambertian(glm::vec3(0))));
     scene.lights = {point_light({0, 0, 0}, glm::vec3(1))};
     const auto share = [&](double expected) {
         const Traced traced = trace(scene, unlimited);
-        const double sigma = std::sqrt(expected * (1 - expected) / static_cast<double>(traced.count));
+        const double sigma =
+            std::sqrt(expected * (1 - expected) / static_cast<double>(traced.count));
         EXPECT_NEAR(traced.absorbed().g / traced.emitted().g, expected, 5 * sigma);
     };
     share(1.0 / 6);
@@ -167,8 +183,9 @@ TEST_F(Flux, PhotonsOfPointSkyAndSunArriveWhereTheyShould) {
 }
 
 TEST_F(Flux, StoredAtADepthIsWhatArrivesAtThatDepth) {
-    // All surfaces are flat and Lambertian, so that every arrival is stored, unweighted. The same photons take the same
-    // ways whatever the limit: what a larger limit adds is stored at the last depth, where photons are cut.
+    // All surfaces are flat and Lambertian, so that every arrival is stored, unweighted. The same
+    // photons take the same ways whatever the limit: what a larger limit adds is stored at the last
+    // depth, where photons are cut.
     const Scene scene = room_scene();
     glm::dvec3 stored_before(0);
     for (std::uint32_t depth = 1; depth <= 4; ++depth) {
@@ -189,7 +206,8 @@ TEST_F(Flux, StoredFluxIsAGeometricSeriesInAClosedBox) {
         const Traced traced = trace(scene, depth);
         const double arriving = std::pow(albedo, depth);
         // Roulette leaves a photon alive or not.
-        const double sigma = std::sqrt(arriving * (1 - arriving) / static_cast<double>(traced.count));
+        const double sigma =
+            std::sqrt(arriving * (1 - arriving) / static_cast<double>(traced.count));
         EXPECT_NEAR(traced.cut().g / traced.emitted().g, arriving, 5 * sigma) << depth;
     }
 }
@@ -239,8 +257,10 @@ TEST_F(Flux, RendersReportTheLightsPower) {
         EXPECT_EQ(statistics.photons_emitted, settings.photons);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const FluxSums& flux = statistics.flux;
-            EXPECT_EQ(flux.emitted[channel], flux.absorbed[channel] + flux.escaped[channel] + flux.cut[channel]);
-            EXPECT_RELATIVE(static_cast<double>(flux.emitted[channel]) * flux.unit, power[static_cast<int>(channel)], 1e-4);
+            EXPECT_EQ(flux.emitted[channel],
+                      flux.absorbed[channel] + flux.escaped[channel] + flux.cut[channel]);
+            EXPECT_RELATIVE(static_cast<double>(flux.emitted[channel]) * flux.unit,
+                            power[static_cast<int>(channel)], 1e-4);
         }
     }
 }

@@ -15,24 +15,32 @@ class GatherPhotons : public RenderTest {
 protected:
     GatherPhotons() : random_(5) {}
 
-    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
-
-    PhotonRecord photon(glm::vec3 position, bool caustic = false, glm::vec3 normal = {0, 1, 0}) {
-        return {position.x, position.y, position.z, pack_photon_normal(normal, caustic),
-                uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
+    float uniform(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random_);
     }
 
-    std::vector<Gathered> gather(const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, float radius,
-                                 std::uint32_t budget, bool careful = true, std::uint64_t area_samples = 0,
-                                 std::uint32_t part = map_whole) {
-        const DeviceScene scene = upload_scene(device(), floor_scene(lambertian(glm::vec3(albedo)), 1),
-                                               make_plan({}, {.everything = true}));
+    PhotonRecord photon(glm::vec3 position, bool caustic = false, glm::vec3 normal = {0, 1, 0}) {
+        return {position.x,       position.y,
+                position.z,       pack_photon_normal(normal, caustic),
+                uniform(0.1f, 1), uniform(0.1f, 1),
+                uniform(0.1f, 1), pack_unit({0, 1, 0})};
+    }
+
+    std::vector<Gathered> gather(const std::vector<PhotonRecord>& photons,
+                                 const std::vector<Query>& queries, float radius,
+                                 std::uint32_t budget, bool careful = true,
+                                 std::uint64_t area_samples = 0, std::uint32_t part = map_whole) {
+        const DeviceScene scene =
+            upload_scene(device(), floor_scene(lambertian(glm::vec3(albedo)), 1),
+                         make_plan({}, {.everything = true}));
         PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
-        const PhotonMap map = build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
-                                               {.area_samples = area_samples});
+        const PhotonMap map =
+            build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
+                             {.area_samples = area_samples});
         return answers(device(), queries, careful, part, finished_,
                        [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                           gather_photons(device(), scene, map, target, traversal, {radius, radius}, asking, budget);
+                           gather_photons(device(), scene, map, target, traversal, {radius, radius},
+                                          asking, budget);
                        });
     }
 
@@ -50,10 +58,13 @@ Gathered expected_sum(const std::vector<PhotonRecord>& photons, const Query& que
         const double height = glm::dot(d, glm::dvec3(query.normal));
         const double d2 = glm::dot(d, d) - height * height;
         const bool same_surface = std::abs(height) <= disc_half_height * radius &&
-                                  glm::dot(glm::dvec3(unpack_photon_normal(p.normal)), glm::dvec3(query.normal)) >= same_surface_cosine;
+                                  glm::dot(glm::dvec3(unpack_photon_normal(p.normal)),
+                                           glm::dvec3(query.normal)) >= same_surface_cosine;
         if (d2 < radius * radius && same_surface) {
-            const double weight = 2 / (double(pi) * radius * radius) * (1 - d2 / (radius * radius)) * albedo / double(pi);
-            (photon_is_caustic(p.normal) ? sum.caustic : sum.indirect) += glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * weight;
+            const double weight = 2 / (double(pi) * radius * radius) *
+                                  (1 - d2 / (radius * radius)) * albedo / double(pi);
+            (photon_is_caustic(p.normal) ? sum.caustic : sum.indirect) +=
+                glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * weight;
         }
     }
     return sum;
@@ -85,13 +96,14 @@ TEST_F(GatherPhotons, IsTheKernelsSumOverThoseWithinTheRadius) {
 }
 
 TEST_F(GatherPhotons, PartsOfTheMap) {
-    for (const int every : {0, 1, 2, 100}) {    // of how many photons one is caustic; 0: none
+    for (const int every : {0, 1, 2, 100}) { // of how many photons one is caustic; 0: none
         for (const int n : {0, 1, 2, 15, 16, 17, 1000}) {
             SCOPED_TRACE(std::to_string(every) + ", " + std::to_string(n));
             std::vector<PhotonRecord> photons;
             std::vector<Query> queries{Query{}};
             for (int i = 0; i < n; ++i) {
-                photons.push_back(photon({uniform(-1, 1), 0, uniform(-1, 1)}, every > 0 && i % every == 0));
+                photons.push_back(
+                    photon({uniform(-1, 1), 0, uniform(-1, 1)}, every > 0 && i % every == 0));
                 queries.push_back({{photons.back().x, 0, photons.back().z}});
             }
             const auto whole = gather(photons, queries, 0.3f, gather_budget);
@@ -112,9 +124,13 @@ TEST_F(GatherPhotons, LeavesOutOtherSurfacesAndEmptySlots) {
     PhotonRecord empty = photon({0, 0, 0});
     empty.normal = no_photon;
     const std::vector<PhotonRecord> photons{
-        photon({0.1f, 0, 0}), photon({0.1f, 0.9f * disc_half_height * radius, 0}),
-        photon({0.1f, 1.1f * disc_half_height * radius, 0}), photon({0, 0, 0}, false, {0, -1, 0}),
-        photon({0, 0, 0}, false, glm::normalize(glm::vec3(1, 0.9f, 0))), photon({0.51f, 0, 0}), empty,
+        photon({0.1f, 0, 0}),
+        photon({0.1f, 0.9f * disc_half_height * radius, 0}),
+        photon({0.1f, 1.1f * disc_half_height * radius, 0}),
+        photon({0, 0, 0}, false, {0, -1, 0}),
+        photon({0, 0, 0}, false, glm::normalize(glm::vec3(1, 0.9f, 0))),
+        photon({0.51f, 0, 0}),
+        empty,
         photon({0, 0, 0}, false, {1, 0, 0})};
     const Gathered sum = gather(photons, {Query{}}, radius, gather_budget)[0];
     expect_near(sum, expected_sum(photons, Query{}, radius), 1e-5);
@@ -128,7 +144,8 @@ TEST_F(GatherPhotons, FewPhotons) {
         for (std::size_t i = 0; i < n; ++i) {
             photons.push_back(photon({uniform(-0.1f, 0.1f), 0, uniform(-0.1f, 0.1f)}, i % 2 == 0));
         }
-        expect_near(gather(photons, {Query{}}, 0.3f, gather_budget)[0], expected_sum(photons, Query{}, 0.3), 1e-5);
+        expect_near(gather(photons, {Query{}}, 0.3f, gather_budget)[0],
+                    expected_sum(photons, Query{}, 0.3), 1e-5);
     }
 }
 
@@ -181,17 +198,20 @@ TEST_F(GatherPhotons, RadiusAsLargeAsTheSceneIsTheExactSum) {
 }
 
 TEST_F(GatherPhotons, EdgesOfSurfacesLoseNothing) {
-    // Photons spread evenly: the estimate is the same in the middle, at an edge and in a corner, where half and three
-    // quarters of the disc lie off the surface.
+    // Photons spread evenly: the estimate is the same in the middle, at an edge and in a corner,
+    // where half and three quarters of the disc lie off the surface.
     constexpr int side = 200;
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < side * side; ++i) {
-        const glm::vec3 p((2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1);
+        const glm::vec3 p((2.0f * float(i % side) + 1) / side - 1, 0,
+                          (2.0f * float(i / side) + 1) / side - 1);
         photons.push_back(photon(p));
-        photons.back().flux_r = photons.back().flux_g = photons.back().flux_b = 4.0f / (side * side);
+        photons.back().flux_r = photons.back().flux_g = photons.back().flux_b =
+            4.0f / (side * side);
     }
     const std::vector<Query> queries{{{0, 0, 0}}, {{1, 0, 0.1f}}, {{-0.9f, 0, 0.1f}}, {{1, 0, 1}}};
-    const std::vector<Gathered> corrected = gather(photons, queries, 0.3f, gather_budget, true, 40'000);
+    const std::vector<Gathered> corrected =
+        gather(photons, queries, 0.3f, gather_budget, true, 40'000);
     for (const Gathered& sum : corrected) {
         EXPECT_RELATIVE(sum.indirect.g, albedo / double(pi), 0.03);
     }

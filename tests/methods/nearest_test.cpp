@@ -1,5 +1,5 @@
-// Density estimation over the k nearest photons: which they are, and the sum over them, against nanoflann and double
-// precision.
+// Density estimation over the k nearest photons: which they are, and the sum over them, against
+// nanoflann and double precision.
 #include "rendering.hpp"
 
 #include "photon/map_queries.hpp"
@@ -30,7 +30,7 @@ struct Answer {
 };
 
 struct Answers {
-    std::vector<PhotonRecord> photons;      // in the order of the map
+    std::vector<PhotonRecord> photons; // in the order of the map
     std::vector<Answer> of;
     bool finished = true;
 };
@@ -44,13 +44,16 @@ struct Points {
     template <class Box> bool kdtree_get_bbox(Box&) const { return false; }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
+                                                 Points, 3, std::uint32_t>;
 
-/// nanoflann's result set: the k first by distance in the query's flat ball and place, of photons on its surface. That
-/// distance is no less than the Euclidean one, by which nanoflann leaves out what is too far.
+/// nanoflann's result set: the k first by distance in the query's flat ball and place, of photons
+/// on its surface. That distance is no less than the Euclidean one, by which nanoflann leaves out
+/// what is too far.
 class OnSurface {
 public:
-    OnSurface(const std::vector<PhotonRecord>& photons, const Query& query, std::size_t k, float radius)
+    OnSurface(const std::vector<PhotonRecord>& photons, const Query& query, std::size_t k,
+              float radius)
         : photons_(photons), query_(query), normal_(unpack_unit(pack_unit(query.normal))),
           own_(pack_photon_normal(normal_, false)), k_(k), limit_(float_bits(radius * radius)) {}
 
@@ -73,7 +76,7 @@ public:
     }
     float worstDist() const {
         const std::uint32_t bits = found_.size() == k_ ? found_.front().bits : limit_;
-        return bits_float(bits) * 1.0001f + 1e-37f;     // those as far as the k-th, too
+        return bits_float(bits) * 1.0001f + 1e-37f; // those as far as the k-th, too
     }
     bool full() const { return found_.size() == k_; }
     std::size_t size() const { return found_.size(); }
@@ -96,11 +99,15 @@ class GatherNearest : public RenderTest {
 protected:
     GatherNearest() : random_(7) {}
 
-    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+    float uniform(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random_);
+    }
 
     PhotonRecord photon(glm::vec3 position, bool caustic = false, glm::vec3 normal = {0, 1, 0}) {
-        return {position.x, position.y, position.z, pack_photon_normal(normal, caustic),
-                uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
+        return {position.x,       position.y,
+                position.z,       pack_photon_normal(normal, caustic),
+                uniform(0.1f, 1), uniform(0.1f, 1),
+                uniform(0.1f, 1), pack_unit({0, 1, 0})};
     }
 
     std::vector<PhotonRecord> floor_photons(std::size_t count) {
@@ -119,19 +126,22 @@ protected:
         return queries;
     }
 
-    Answers gather(Device& on, const std::vector<PhotonRecord>& photons, const std::vector<Query>& queries, std::uint32_t k,
-                   float radius, std::uint32_t budget = gather_budget, bool careful = true, std::uint64_t area_samples = 0) {
+    Answers gather(Device& on, const std::vector<PhotonRecord>& photons,
+                   const std::vector<Query>& queries, std::uint32_t k, float radius,
+                   std::uint32_t budget = gather_budget, bool careful = true,
+                   std::uint64_t area_samples = 0) {
         const DeviceScene scene = upload_scene(on, floor_scene(lambertian(glm::vec3(albedo)), 1),
                                                make_plan({}, {.everything = true}));
         PhotonWorkspace workspace = make_photon_workspace(on, photons.size() + area_samples);
-        const PhotonMap map =
-            build_photon_map(on, scene, workspace, store(on, workspace, photons), {.area_samples = area_samples});
+        const PhotonMap map = build_photon_map(on, scene, workspace, store(on, workspace, photons),
+                                               {.area_samples = area_samples});
         Answers answers;
         const std::vector<Gathered> sums = testing::answers(
             on, queries, careful, map_whole, answers.finished,
             [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
                 gather_nearest(on, scene, map, target, traversal,
-                               {.neighbours = k, .radius = radius,
+                               {.neighbours = k,
+                                .radius = radius,
                                 .samples_per_area = map.area_samples / scene.surface_area},
                                asking, budget);
             });
@@ -142,13 +152,15 @@ protected:
         for (std::size_t i = 0; i < queries.size(); ++i) {
             answers.of.push_back({sums[i], states[i]});
         }
-        answers.photons = download<PhotonRecord>(on, map.photons, download<std::uint32_t>(on, map.counters, 1, counter_stored)[0]);
+        answers.photons = download<PhotonRecord>(
+            on, map.photons, download<std::uint32_t>(on, map.counters, 1, counter_stored)[0]);
         return answers;
     }
 
-    /// The k-th neighbour is nanoflann's, to the bit of its distance, and so are all before it; the estimate is the
-    /// kernel's sum over them.
-    void expect_nearest(const Answers& answers, const std::vector<Query>& queries, std::uint32_t k, float radius) {
+    /// The k-th neighbour is nanoflann's, to the bit of its distance, and so are all before it; the
+    /// estimate is the kernel's sum over them.
+    void expect_nearest(const Answers& answers, const std::vector<Query>& queries, std::uint32_t k,
+                        float radius) {
         const Points points{answers.photons};
         const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(10));
         for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -166,20 +178,25 @@ protected:
                 EXPECT_EQ(state.low, float_bits(radius * radius)) << i;
                 EXPECT_EQ(state.last, nearest_none) << i;
             }
-            const double least = std::max(double(nearest_least) * nearest_least * radius * radius, double(nearest_least_square));
+            const double least = std::max(double(nearest_least) * nearest_least * radius * radius,
+                                          double(nearest_least_square));
             const double r2 = std::max<double>(bits_float(state.low), least);
             glm::dvec3 indirect(0);
             glm::dvec3 caustic(0);
             glm::dvec3 without_kernel(0);
             for (const Neighbour& neighbour : expected) {
                 const PhotonRecord& p = answers.photons[neighbour.index];
-                const glm::dvec3 term = 2 / (double(pi) * r2) * albedo / double(pi) * glm::dvec3(p.flux_r, p.flux_g, p.flux_b);
-                (photon_is_caustic(p.normal) ? caustic : indirect) += term * (1 - bits_float(neighbour.bits) / r2);
+                const glm::dvec3 term = 2 / (double(pi) * r2) * albedo / double(pi) *
+                                        glm::dvec3(p.flux_r, p.flux_g, p.flux_b);
+                (photon_is_caustic(p.normal) ? caustic : indirect) +=
+                    term * (1 - bits_float(neighbour.bits) / r2);
                 without_kernel += term;
             }
             for (int c = 0; c < 3; ++c) {
-                EXPECT_NEAR(answers.of[i].sums.indirect[c], indirect[c], 2e-6 * without_kernel[c]) << i;
-                EXPECT_NEAR(answers.of[i].sums.caustic[c], caustic[c], 2e-6 * without_kernel[c]) << i;
+                EXPECT_NEAR(answers.of[i].sums.indirect[c], indirect[c], 2e-6 * without_kernel[c])
+                    << i;
+                EXPECT_NEAR(answers.of[i].sums.caustic[c], caustic[c], 2e-6 * without_kernel[c])
+                    << i;
             }
         }
     }
@@ -204,7 +221,8 @@ TEST_F(GatherNearest, OnCurvedSurfacesAndInCorners) {
     std::vector<PhotonRecord> photons;
     std::vector<Query> queries;
     for (int i = 0; i < 20'000; ++i) {
-        const glm::vec3 n = glm::normalize(glm::vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + 1e-3f);
+        const glm::vec3 n =
+            glm::normalize(glm::vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + 1e-3f);
         photons.push_back(photon(0.5f * n, i % 4 == 0, n));
         photons.push_back(photon({uniform(-1, 1), -0.5f, uniform(-1, 1)}));
         if (i % 100 == 0) {
@@ -222,10 +240,12 @@ TEST_F(GatherNearest, EqualDistancesGoByTheOrderOfTheMap) {
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 64 * 64; ++i) {
         for (int copy = 0; copy < 3; ++copy) {
-            photons.push_back(photon({float(i % 64 - 32) / 32, 0, float(i / 64 - 32) / 32}, copy == 0));
+            photons.push_back(
+                photon({float(i % 64 - 32) / 32, 0, float(i / 64 - 32) / 32}, copy == 0));
         }
     }
-    const std::vector<Query> queries{{{0, 0, 0}}, {{1.0f / 64, 0, 0}}, {{1.0f / 64, 0, 1.0f / 64}}, {{-1, 0, -1}}};
+    const std::vector<Query> queries{
+        {{0, 0, 0}}, {{1.0f / 64, 0, 0}}, {{1.0f / 64, 0, 1.0f / 64}}, {{-1, 0, -1}}};
     for (const std::uint32_t k : {1u, 2u, 3u, 4u, 7u, 12u, 13u, 100u, 500u}) {
         SCOPED_TRACE(k);
         expect_nearest(gather(device(), photons, queries, k, 0.8f), queries, k, 0.8f);
@@ -235,7 +255,8 @@ TEST_F(GatherNearest, EqualDistancesGoByTheOrderOfTheMap) {
 TEST_F(GatherNearest, OneAndTwoInOnePoint) {
     const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
     for (const int n : {1, 2}) {
-        const std::vector<PhotonRecord> photons(static_cast<std::size_t>(n), photon({0.25f, 0, -0.5f}));
+        const std::vector<PhotonRecord> photons(static_cast<std::size_t>(n),
+                                                photon({0.25f, 0, -0.5f}));
         for (const std::uint32_t k : {1u, 2u, 500u}) {
             SCOPED_TRACE(std::to_string(n) + ", " + std::to_string(k));
             const Answers answers = gather(device(), photons, queries, k, 0.1f);
@@ -263,13 +284,15 @@ TEST_F(GatherNearest, SlowMillionInOnePoint) {
         EXPECT_TRUE(std::isfinite(answers.of[0].sums.indirect.g));
     }
     // In one dispatch there is no end to it: that is said, and nothing is added.
-    const Answers hurried = gather(device(), photons, {queries[0]}, 500, 0.1f, gather_budget, false);
+    const Answers hurried =
+        gather(device(), photons, {queries[0]}, 500, 0.1f, gather_budget, false);
     EXPECT_FALSE(hurried.finished);
     EXPECT_EQ(hurried.of[0].sums.indirect, glm::dvec3(0));
 }
 
 TEST_F(GatherNearest, DenseAndSparseTogether) {
-    // From photon to photon and over twelve orders of magnitude in distance: every depth of the histograms.
+    // From photon to photon and over twelve orders of magnitude in distance: every depth of the
+    // histograms.
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 20'000; ++i) {
         const float r = std::pow(10.0f, uniform(-12, 0));
@@ -305,16 +328,19 @@ TEST_F(GatherNearest, InterruptedQueriesAndVariantsGiveTheSameBits) {
 }
 
 TEST_F(GatherNearest, EvenlySpreadPhotonsGiveTheirDensity) {
-    // In the mean whatever k is, and at edges and in corners, where it is the area samples that do it.
+    // In the mean whatever k is, and at edges and in corners, where it is the area samples that do
+    // it.
     const std::size_t count = 40'000;
     std::vector<PhotonRecord> photons = floor_photons(count);
     for (PhotonRecord& p : photons) {
         p.flux_r = p.flux_g = p.flux_b = 4.0f / float(count);
         p.normal &= ~photon_caustic_bit;
     }
-    const auto mean_at = [&](const std::vector<Query>& queries, std::uint32_t k, std::uint64_t area_samples) {
+    const auto mean_at = [&](const std::vector<Query>& queries, std::uint32_t k,
+                             std::uint64_t area_samples) {
         double sum = 0;
-        for (const Answer& answer : gather(device(), photons, queries, k, 1, gather_budget, true, area_samples).of) {
+        for (const Answer& answer :
+             gather(device(), photons, queries, k, 1, gather_budget, true, area_samples).of) {
             sum += answer.sums.indirect.g;
         }
         return sum / static_cast<double>(queries.size()) / (albedo / double(pi));

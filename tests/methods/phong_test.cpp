@@ -21,13 +21,16 @@ TEST_P(PhongSurface, ReflectsASunAsTheFormulaSays) {
             RenderSettings settings = settings_of(GetParam(), 4, 4);
             settings.photons = 1000;
             const glm::dvec3 l =
-                radiance(scene, settings, {-3 * std::sin(angle), 3 * std::cos(angle), 0}, {0, 0, 0}, "direct");
+                radiance(scene, settings, {-3 * std::sin(angle), 3 * std::cos(angle), 0}, {0, 0, 0},
+                         "direct");
             const double lobe = (double(exponent) + 2) / (2 * double(pi)) *
                                 std::pow(std::cos(glm::radians(double(off))), double(exponent));
             const double e = 2 * std::sqrt(0.5);
             // Over the picture's 1e-4 the lobe changes a little.
-            EXPECT_NEAR(l.r, e * (0.25 / pi + 0.5 * lobe), 2e-3 * (1 + lobe)) << exponent << ", " << off;
-            EXPECT_NEAR(l.g, e * (0.5 / pi + 0.25 * lobe), 2e-3 * (1 + lobe)) << exponent << ", " << off;
+            EXPECT_NEAR(l.r, e * (0.25 / pi + 0.5 * lobe), 2e-3 * (1 + lobe))
+                << exponent << ", " << off;
+            EXPECT_NEAR(l.g, e * (0.5 / pi + 0.25 * lobe), 2e-3 * (1 + lobe))
+                << exponent << ", " << off;
             EXPECT_NEAR(l.b, e * 0.75 * lobe, 2e-3 * (1 + lobe)) << exponent << ", " << off;
         }
     }
@@ -36,8 +39,10 @@ TEST_P(PhongSurface, ReflectsASunAsTheFormulaSays) {
 // One lobe that is estimated and one that is followed.
 TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
-    add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1}, add_material(scene, emitter(glm::vec3(2))));
-    add_floor(scene, 0.9f, -0.8f, add_material(scene, phong({0.2f, 0.4f, 0.3f}, {0.7f, 0.5f, 0.3f}, 12)));
+    add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
+             add_material(scene, emitter(glm::vec3(2))));
+    add_floor(scene, 0.9f, -0.8f,
+              add_material(scene, phong({0.2f, 0.4f, 0.3f}, {0.7f, 0.5f, 0.3f}, 12)));
     add_quad(scene, {-0.9f, -0.7f, -0.6f}, {0, 1, 0}, {1, 0, -0.3f},
              add_material(scene, phong(glm::vec3(0.1f), glm::vec3(0.8f), 2000)));
     scene.cameras = {look_at({0.3f, -0.1f, 0.95f}, {0, -0.4f, -1}, 70)};

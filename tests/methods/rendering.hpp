@@ -32,9 +32,7 @@ inline glm::dvec3 mean(const Image& image, int x0, int y0, int x1, int y1) {
     return sum / static_cast<double>((x1 - x0) * (y1 - y0));
 }
 
-inline glm::dvec3 mean(const Image& image) {
-    return mean(image, 0, 0, image.width, image.height);
-}
+inline glm::dvec3 mean(const Image& image) { return mean(image, 0, 0, image.width, image.height); }
 
 inline RenderSettings settings_of(const std::string& method, int size, std::uint32_t samples) {
     RenderSettings settings;
@@ -61,14 +59,16 @@ inline bool same_bits(const RenderResult& a, const RenderResult& b) {
     return same;
 }
 
-#define EXPECT_RELATIVE(actual, expected, tolerance)                                                                   \
-    EXPECT_NEAR(actual, expected, (tolerance) * std::abs(expected))
+#define EXPECT_RELATIVE(actual, expected, tolerance)                                               \
+    EXPECT_NEAR(actual, expected, (tolerance)*std::abs(expected))
 
 /// Mean radiance of each layer and channel is the same within a share of it.
-inline void expect_same_layers(const RenderResult& found, const RenderResult& expected, double tolerance) {
+inline void expect_same_layers(const RenderResult& found, const RenderResult& expected,
+                               double tolerance) {
     for (const char* name : {"direct", "indirect", "caustic"}) {
         for (int channel = 0; channel < 3; ++channel) {
-            EXPECT_RELATIVE(mean(layer(found, name))[channel], mean(layer(expected, name))[channel], tolerance)
+            EXPECT_RELATIVE(mean(layer(found, name))[channel], mean(layer(expected, name))[channel],
+                            tolerance)
                 << name << ", " << channel;
         }
     }
@@ -104,7 +104,9 @@ private:
 /// The same for every method.
 class EveryMethod : public RenderTest, public ::testing::WithParamInterface<std::string> {};
 
-inline bool is_quick(const std::string& method) { return method == "footprints" || method == "path"; }
+inline bool is_quick(const std::string& method) {
+    return method == "footprints" || method == "path";
+}
 
 inline std::vector<std::string> methods_that(bool quick) {
     std::vector<std::string> names = method_names();
@@ -113,10 +115,10 @@ inline std::vector<std::string> methods_that(bool quick) {
 }
 
 // One method with a photon map and the one without are for quick tests, all others for slow ones.
-#define INSTANTIATE_METHODS(suite)                                                                                     \
-    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(methods_that(true)),                                  \
-                             [](const auto& method) { return method.param; });                                         \
-    INSTANTIATE_TEST_SUITE_P(SlowMethods, suite, ::testing::ValuesIn(methods_that(false)),                             \
+#define INSTANTIATE_METHODS(suite)                                                                 \
+    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(methods_that(true)),              \
+                             [](const auto& method) { return method.param; });                     \
+    INSTANTIATE_TEST_SUITE_P(SlowMethods, suite, ::testing::ValuesIn(methods_that(false)),         \
                              [](const auto& method) { return method.param; })
 
 } // namespace argand::testing

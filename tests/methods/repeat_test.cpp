@@ -1,4 +1,5 @@
-// The same bits from run to run, whatever the device does in parallel and whatever fast paths it has.
+// The same bits from run to run, whatever the device does in parallel and whatever fast paths it
+// has.
 #include "rendering.hpp"
 #include "support/scratch_directory.hpp"
 
@@ -36,8 +37,8 @@ TEST_P(Repeat, FallbacksGiveTheSameBits) {
 }
 
 TEST_P(Repeat, BatchesGiveTheSameBits) {
-    // What a path finds does not depend on what it is traced together with, unless they share answers. (Photons' passes
-    // are another matter: they are independent estimates.)
+    // What a path finds does not depend on what it is traced together with, unless they share
+    // answers. (Photons' passes are another matter: they are independent estimates.)
     RenderSettings batched = settings();
     batched.query_cell = 0;
     batched.width = 97;
@@ -57,8 +58,10 @@ TEST_P(Repeat, ThreadsGiveTheSameBits) {
     std::string pictures[2];
     for (int i = 0; i < 2; ++i) {
         const std::string output = (directory / (std::to_string(i) + ".exr")).string();
-        const std::string command = "ARGAND_VALIDATION=1 LP_NUM_THREADS=" + std::to_string(i + 1) + " '" ARGAND_EXECUTABLE "' render '" +
-                                    ARGAND_SOURCE_DIR "/assets/cornell_glass.glb' -q --size 32x24 --spp 4" +
+        const std::string command = "ARGAND_VALIDATION=1 LP_NUM_THREADS=" + std::to_string(i + 1) +
+                                    " '" ARGAND_EXECUTABLE "' render '" +
+                                    ARGAND_SOURCE_DIR
+                                    "/assets/cornell_glass.glb' -q --size 32x24 --spp 4" +
                                     photons + " --method " + GetParam() + " -o '" + output + "'";
         ASSERT_EQ(std::system(command.c_str()), 0) << command;
         pictures[i] = read_text(output);

@@ -6,8 +6,8 @@ namespace {
 
 /// Of some renderings that differ in their seed.
 struct Spread {
-    double mean = 0;        ///< of the indirect layer
-    double variance = 0;    ///< of a pixel of it, over the mean's square
+    double mean = 0;     ///< of the indirect layer
+    double variance = 0; ///< of a pixel of it, over the mean's square
 };
 
 class PhotonSampling : public RenderTest {
@@ -17,7 +17,7 @@ protected:
         RenderSettings settings = settings_of("photons", 12, 16);
         settings.photons = 4096;
         settings.radius = 0.5;
-        settings.bounces = 1;   // the four numbers decide where a photon is stored
+        settings.bounces = 1; // the four numbers decide where a photon is stored
         settings.photon_sampling = sampling;
         std::vector<Image> images;
         Spread result;

@@ -51,7 +51,8 @@ inline std::uint32_t add_material(Scene& scene, const Material& material) {
 }
 
 /// Counter-clockwise seen from the front.
-inline void add_triangle(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, std::uint32_t material) {
+inline void add_triangle(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c,
+                         std::uint32_t material) {
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     scene.positions.insert(scene.positions.end(), {a, b, c});
     scene.normals.insert(scene.normals.end(), 3, glm::vec3(0));
@@ -59,8 +60,10 @@ inline void add_triangle(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, st
     scene.triangle_material.push_back(material);
 }
 
-/// The parallelogram corner + s·across + t·up, s and t in [0, 1]; its front is where across × up points.
-inline void add_quad(Scene& scene, glm::vec3 corner, glm::vec3 across, glm::vec3 up, std::uint32_t material) {
+/// The parallelogram corner + s·across + t·up, s and t in [0, 1]; its front is where across × up
+/// points.
+inline void add_quad(Scene& scene, glm::vec3 corner, glm::vec3 across, glm::vec3 up,
+                     std::uint32_t material) {
     add_triangle(scene, corner, corner + across, corner + across + up, material);
     add_triangle(scene, corner, corner + across + up, corner + up, material);
 }
@@ -71,7 +74,8 @@ inline void add_floor(Scene& scene, float half, float height, std::uint32_t mate
 }
 
 /// A box; `inwards`: its faces' fronts are inside.
-inline void add_box(Scene& scene, glm::vec3 low, glm::vec3 high, std::uint32_t material, bool inwards) {
+inline void add_box(Scene& scene, glm::vec3 low, glm::vec3 high, std::uint32_t material,
+                    bool inwards) {
     const glm::vec3 size = high - low;
     for (int axis = 0; axis < 3; ++axis) {
         glm::vec3 across(0), up(0), depth(0);
@@ -85,14 +89,18 @@ inline void add_box(Scene& scene, glm::vec3 low, glm::vec3 high, std::uint32_t m
 }
 
 /// A sphere of `rings` × 2·`rings` facets, its front outside; `smooth`: with interpolated normals.
-inline void add_sphere(Scene& scene, glm::vec3 center, float radius, int rings, bool smooth, std::uint32_t material) {
+inline void add_sphere(Scene& scene, glm::vec3 center, float radius, int rings, bool smooth,
+                       std::uint32_t material) {
     const auto unit = [rings](int ring, int segment) {
         const float polar = pi * static_cast<float>(ring) / static_cast<float>(rings);
-        const float azimuth = pi * static_cast<float>(segment % (2 * rings)) / static_cast<float>(rings);
-        return glm::vec3(std::sin(polar) * std::sin(azimuth), std::cos(polar), std::sin(polar) * std::cos(azimuth));
+        const float azimuth =
+            pi * static_cast<float>(segment % (2 * rings)) / static_cast<float>(rings);
+        return glm::vec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                         std::sin(polar) * std::cos(azimuth));
     };
     const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-        add_triangle(scene, center + radius * a, center + radius * b, center + radius * c, material);
+        add_triangle(scene, center + radius * a, center + radius * b, center + radius * c,
+                     material);
         if (smooth) {
             const std::size_t n = scene.normals.size();
             scene.normals[n - 3] = a;
@@ -120,7 +128,8 @@ inline Camera look_at(glm::vec3 from, glm::vec3 to, float vertical_degrees = 45)
     Camera camera;
     camera.position = from;
     camera.forward = glm::normalize(to - from);
-    const glm::vec3 up = std::abs(camera.forward.y) > 0.99f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+    const glm::vec3 up =
+        std::abs(camera.forward.y) > 0.99f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
     camera.right = glm::normalize(glm::cross(camera.forward, up));
     camera.up = glm::cross(camera.right, camera.forward);
     camera.vertical_angle = glm::radians(vertical_degrees);
@@ -142,7 +151,8 @@ inline Light point_light(glm::vec3 position, glm::vec3 intensity) {
     return light;
 }
 
-inline Light spot_light(glm::vec3 position, glm::vec3 direction, glm::vec3 intensity, float inner, float outer) {
+inline Light spot_light(glm::vec3 position, glm::vec3 direction, glm::vec3 intensity, float inner,
+                        float outer) {
     Light light = point_light(position, intensity);
     light.kind = LightKind::spot;
     light.direction = glm::normalize(direction);
@@ -176,7 +186,8 @@ inline Scene box_scene(const Material& walls) {
     return scene;
 }
 
-/// A room of Lambertian walls, all different, with a point light and an unlit block: much indirect light in little work.
+/// A room of Lambertian walls, all different, with a point light and an unlit block: much indirect
+/// light in little work.
 inline Scene room_scene() {
     Scene scene;
     scene.name = "room";

@@ -6,7 +6,8 @@ namespace {
 
 class Sharing : public RenderTest {
 protected:
-    RenderResult with_cells(const Scene& scene, const std::string& method, double cell, std::uint32_t samples = 8) {
+    RenderResult with_cells(const Scene& scene, const std::string& method, double cell,
+                            std::uint32_t samples = 8) {
         RenderSettings settings = settings_of(method, 64, samples);
         settings.photons = 50'000;
         settings.query_cell = cell;

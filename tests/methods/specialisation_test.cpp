@@ -15,12 +15,14 @@ using ::testing::Not;
 
 /// Literals by which code is known in a kernel.
 const std::map<std::string, std::vector<float>> marks = {
-    {"eye_vertex", {0.04f,          // transmission: bsdf.h, lobe_probabilities
-                    0.64f,          // Phong: phong.h, phong_albedo
-                    12.566371f}},   // sky: lights.h, light_sample
+    {"eye_vertex",
+     {0.04f,        // transmission: bsdf.h, lobe_probabilities
+      0.64f,        // Phong: phong.h, phong_albedo
+      12.566371f}}, // sky: lights.h, light_sample
     {"photon_scatter", {0.04f, 0.64f}},
-    {"photon_emit", {39.478417f,    // sky: lights.h, light_power
-                     0.001f}},      // spots: lights.h, spot_ramp
+    {"photon_emit",
+     {39.478417f, // sky: lights.h, light_power
+      0.001f}},   // spots: lights.h, spot_ramp
 };
 
 RenderSettings small(const std::string& method, bool everything = false) {
@@ -49,12 +51,15 @@ Scene mixed_scene() {
     veil.coverage = 0.5f;
     veil.phong = Phong{glm::vec3(0.3f), 40};
     add_quad(scene, {0.2f, -0.4f, -0.5f}, {0.5f, 0, 0.1f}, {0, 0.8f, 0}, add_material(scene, veil));
-    add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.4f, 0, 0}, {0, 0, 0.4f}, add_material(scene, emitter(glm::vec3(3))));
+    add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.4f, 0, 0}, {0, 0, 0.4f},
+             add_material(scene, emitter(glm::vec3(3))));
     scene.lights.push_back(spot_light({0, 0.5f, 0.5f}, {0, -1, -0.2f}, glm::vec3(2), 0.2f, 0.6f));
     scene.lights.push_back(directional_light({0.1f, -0.3f, -1}, glm::vec3(0.5f)));
     scene.sky = glm::vec3(0.2f, 0.3f, 0.4f);
-    scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);    // a hole, through which it is seen
-    scene.triangle_material.erase(scene.triangle_material.begin(), scene.triangle_material.begin() + 2);
+    scene.triangles.erase(scene.triangles.begin(),
+                          scene.triangles.begin() + 2); // a hole, through which it is seen
+    scene.triangle_material.erase(scene.triangle_material.begin(),
+                                  scene.triangle_material.begin() + 2);
     return scene;
 }
 
@@ -68,9 +73,12 @@ protected:
         const RenderResult specialised = render(scene, settings);
         settings.everything = true;
         const RenderResult everything = render(scene, settings);
-        EXPECT_TRUE(same_bits(specialised, everything)) << scene.name << (settings.final_gather ? ", final gather" : "");
-        EXPECT_EQ(specialised.statistics.flux.absorbed, everything.statistics.flux.absorbed) << scene.name;
-        EXPECT_EQ(specialised.statistics.photons_stored, everything.statistics.photons_stored) << scene.name;
+        EXPECT_TRUE(same_bits(specialised, everything))
+            << scene.name << (settings.final_gather ? ", final gather" : "");
+        EXPECT_EQ(specialised.statistics.flux.absorbed, everything.statistics.flux.absorbed)
+            << scene.name;
+        EXPECT_EQ(specialised.statistics.photons_stored, everything.statistics.photons_stored)
+            << scene.name;
     }
 
     std::unique_ptr<RecordingDevice> recorded(const Scene& scene, bool everything) {
@@ -80,7 +88,9 @@ protected:
     }
 
     /// Of each kernel that a render dispatches, by its name, one.
-    Variants variants(const Scene& scene, bool everything) { return by_name(*recorded(scene, everything)); }
+    Variants variants(const Scene& scene, bool everything) {
+        return by_name(*recorded(scene, everything));
+    }
 
     static Variants by_name(const RecordingDevice& recording) {
         Variants found;
@@ -91,10 +101,13 @@ protected:
     }
 };
 
-SpecialisedCode code_of(const RecordingDevice::Variant& variant) { return specialised(*variant.first, variant.second); }
+SpecialisedCode code_of(const RecordingDevice::Variant& variant) {
+    return specialised(*variant.first, variant.second);
+}
 
 /// The variant with another value of one constant.
-RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const std::string& name, std::uint32_t value) {
+RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const std::string& name,
+                                       std::uint32_t value) {
     for (std::size_t i = 0; i < variant.second.size(); ++i) {
         if (variant.first->constants[i].name == name) {
             variant.second[i] = value;
@@ -138,8 +151,10 @@ TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {
         const SpecialisedCode code = code_of(found->second);
         const SpecialisedCode all = code_of(everything.at(kernel));
         EXPECT_LT(code.instructions, all.instructions * 2 / 3) << kernel;
-        EXPECT_THAT(code.buffers, AllOf(Not(Contains("normals")), Not(Contains("light_choices")))) << kernel;
-        EXPECT_THAT(all.buffers, Contains(kernel == "photon_scatter" ? "normals" : "light_choices")) << kernel;
+        EXPECT_THAT(code.buffers, AllOf(Not(Contains("normals")), Not(Contains("light_choices"))))
+            << kernel;
+        EXPECT_THAT(all.buffers, Contains(kernel == "photon_scatter" ? "normals" : "light_choices"))
+            << kernel;
         for (const float mark : kernel_marks) {
             EXPECT_THAT(all.numbers, Contains(mark)) << kernel;
             EXPECT_THAT(code.numbers, Not(Contains(mark))) << kernel;
@@ -179,8 +194,10 @@ TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
         Plan plan = make_plan(with_glass_sphere(diffuse_box()), {});
         ASSERT_TRUE(plan.required.contains(Feature::refraction));
         plan.required.erase(Feature::refraction);
-        EXPECT_LT(code_of(with_constant(found->second, "material_features", plan.material_features())).instructions,
-                  code.instructions)
+        EXPECT_LT(
+            code_of(with_constant(found->second, "material_features", plan.material_features()))
+                .instructions,
+            code.instructions)
             << kernel;
     }
     EXPECT_EQ(seen, GetParam() == "path" ? 1u : marks.size());
@@ -197,13 +214,15 @@ TEST_P(Specialisation, RoughMetalAddsCode) {
     metal.materials.front().metallic = 1;
     metal.materials.front().roughness = 0.5f;
     const Variants with = variants(metal, false), without = variants(diffuse_box(), false);
-    EXPECT_GT(code_of(with.at("eye_vertex")).instructions, code_of(without.at("eye_vertex")).instructions + 200);
+    EXPECT_GT(code_of(with.at("eye_vertex")).instructions,
+              code_of(without.at("eye_vertex")).instructions + 200);
 }
 
 TEST_P(Specialisation, TakesNoMorePipelines) {
     for (const bool mixed : {false, true}) {
         const Scene scene = mixed ? mixed_scene() : diffuse_box();
-        EXPECT_LE(recorded(scene, false)->variants().size(), recorded(scene, true)->variants().size());
+        EXPECT_LE(recorded(scene, false)->variants().size(),
+                  recorded(scene, true)->variants().size());
     }
 }
 
@@ -238,7 +257,8 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
     const Plan whole = make_plan({}, {.everything = true});
     std::map<Feature, int> smaller;
     for (const RecordingDevice::Variant& variant : recording.variants()) {
-        if (variant.first->name != std::string("photon_scatter") && variant.first->name != std::string("photon_emit")) {
+        if (variant.first->name != std::string("photon_scatter") &&
+            variant.first->name != std::string("photon_emit")) {
             continue;
         }
         const std::size_t all = code_of(variant).instructions;
@@ -246,8 +266,8 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
             Plan plan = whole;
             plan.required.erase(feature);
             const RecordingDevice::Variant without =
-                with_constant(with_constant(variant, "material_features", plan.material_features()), "light_kinds",
-                              plan.light_kinds());
+                with_constant(with_constant(variant, "material_features", plan.material_features()),
+                              "light_kinds", plan.light_kinds());
             if (without.second != variant.second) {
                 const std::size_t left = code_of(without).instructions;
                 EXPECT_LE(left, all) << variant.first->name << " without " << text_of(feature).name;
@@ -255,7 +275,9 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
             }
         }
     }
-    EXPECT_EQ(smaller.size(), 11u);     // seven kinds of lobes, of which refraction needs transmission, and five of lights
+    EXPECT_EQ(
+        smaller.size(),
+        11u); // seven kinds of lobes, of which refraction needs transmission, and five of lights
     for (const auto& [feature, kernels] : smaller) {
         EXPECT_GT(kernels, 0) << text_of(feature).name;
     }

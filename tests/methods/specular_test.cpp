@@ -6,8 +6,8 @@ namespace {
 
 constexpr float ior = 1.5f;
 
-/// Share of unpolarised light that a smooth border reflects (Fresnel); 1 where all is reflected. n: index of the far
-/// side over that of the near side.
+/// Share of unpolarised light that a smooth border reflects (Fresnel); 1 where all is reflected. n:
+/// index of the far side over that of the near side.
 double fresnel(double cosine, double n) {
     const double sine = std::sqrt(1 - cosine * cosine) / n;
     if (sine >= 1) {
@@ -19,9 +19,7 @@ double fresnel(double cosine, double n) {
     return (s * s + p * p) / 2;
 }
 
-double schlick(double f0, double cosine) {
-    return f0 + (1 - f0) * std::pow(1 - cosine, 5);
-}
+double schlick(double f0, double cosine) { return f0 + (1 - f0) * std::pow(1 - cosine, 5); }
 
 class Specular : public EveryMethod {
 protected:
@@ -35,8 +33,10 @@ protected:
 TEST_P(Specular, SlabOfGlassLetsThroughWhatFresnelSays) {
     for (const float degrees : {0.0f, 30.0f, 60.0f, 80.0f}) {
         Scene scene;
-        add_box(scene, {-50, -50, -0.1f}, {50, 50, 0.1f}, add_material(scene, glass(ior, true)), false);
-        add_quad(scene, {-100, -100, -0.5f}, {200, 0, 0}, {0, 200, 0}, add_material(scene, emitter({1, 2, 3})));
+        add_box(scene, {-50, -50, -0.1f}, {50, 50, 0.1f}, add_material(scene, glass(ior, true)),
+                false);
+        add_quad(scene, {-100, -100, -0.5f}, {200, 0, 0}, {0, 200, 0},
+                 add_material(scene, emitter({1, 2, 3})));
         const double cosine = std::cos(glm::radians(degrees));
         const double r = fresnel(cosine, ior);
         // One way through, and all the ways that are reflected inside an even number of times.
@@ -63,7 +63,8 @@ TEST_P(Specular, BorderSeenFromInsideReflectsAllBeyondTheCriticalAngle) {
     for (const float degrees : {20.0f, 35.0f, 45.0f, 70.0f}) {
         Scene scene;
         add_box(scene, {-50, -50, -1}, {50, 50, 1}, add_material(scene, glass(ior, true)), false);
-        add_quad(scene, {-50, -50, -0.5f}, {100, 0, 0}, {0, 100, 0}, add_material(scene, emitter(glm::vec3(1))));
+        add_quad(scene, {-50, -50, -0.5f}, {100, 0, 0}, {0, 100, 0},
+                 add_material(scene, emitter(glm::vec3(1))));
         const float angle = glm::radians(degrees);
         const glm::vec3 to(1.0f * std::tan(angle), 0, 1);
         const double expected = fresnel(std::cos(angle), 1 / ior);
@@ -80,8 +81,10 @@ TEST_P(Specular, ThinWallsSplitLightAndTintWhatGoesThrough) {
         Material wall = glass(ior, false);
         wall.base_color = {1, 0.5f, 0};
         add_quad(scene, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0}, add_material(scene, wall));
-        add_quad(scene, {-50, -50, -1}, {100, 0, 0}, {0, 100, 0}, add_material(scene, emitter(glm::vec3(1))));
-        add_quad(scene, {-50, -50, 9}, {0, 100, 0}, {100, 0, 0}, add_material(scene, emitter({0, 0, 5})));
+        add_quad(scene, {-50, -50, -1}, {100, 0, 0}, {0, 100, 0},
+                 add_material(scene, emitter(glm::vec3(1))));
+        add_quad(scene, {-50, -50, 9}, {0, 100, 0}, {100, 0, 0},
+                 add_material(scene, emitter({0, 0, 5})));
         const glm::vec3 from(3 * std::tan(glm::radians(degrees)), 0, 3);
         const double f = schlick(0.04, std::cos(glm::radians(degrees)));
         const glm::dvec3 l = seen(scene, from, {0, 0, 0});
@@ -94,8 +97,10 @@ TEST_P(Specular, ThinWallsSplitLightAndTintWhatGoesThrough) {
 TEST_P(Specular, MirrorShowsWhatIsOppositeInItsColor) {
     for (const float degrees : {0.0f, 60.0f}) {
         Scene scene;
-        add_quad(scene, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0}, add_material(scene, mirror({0.9f, 0.5f, 0.1f})));
-        add_quad(scene, {-50, -50, 9}, {0, 100, 0}, {100, 0, 0}, add_material(scene, emitter(glm::vec3(2))));
+        add_quad(scene, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0},
+                 add_material(scene, mirror({0.9f, 0.5f, 0.1f})));
+        add_quad(scene, {-50, -50, 9}, {0, 100, 0}, {100, 0, 0},
+                 add_material(scene, emitter(glm::vec3(2))));
         const double cosine = std::cos(glm::radians(degrees));
         const glm::dvec3 l = seen(scene, {3 * std::tan(glm::radians(degrees)), 0, 3}, {0, 0, 0});
         EXPECT_RELATIVE(l.r, 2 * schlick(0.9, cosine), 1e-3) << degrees;

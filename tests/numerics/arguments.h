@@ -1,4 +1,5 @@
-// What the functions under test are given and what they return, as the host and the device both have it.
+// What the functions under test are given and what they return, as the host and the device both
+// have it.
 #ifndef ARGAND_TEST_ARGUMENTS_H
 #define ARGAND_TEST_ARGUMENTS_H
 

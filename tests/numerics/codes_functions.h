@@ -1,4 +1,5 @@
-// Bits: Morton codes, packed photons, slots, parts, which random numbers are taken; and compensated sums.
+// Bits: Morton codes, packed photons, slots, parts, which random numbers are taken; and compensated
+// sums.
 #ifndef ARGAND_TEST_CODES_FUNCTIONS_H
 #define ARGAND_TEST_CODES_FUNCTIONS_H
 
@@ -111,9 +112,12 @@ FN Values evaluate_codes(uint function, IN(Arguments) a) {
         vec3 high = vec3_at(a, 6);
         bool fine = function == of_morton63;
         uvec2 code = fine ? morton63(p, low, high) : uvec2(morton30(p, low, high), 0u);
-        r.y[0] = real(must_be(coordinate_of_code(code, 2u), cell_of_code(p.x, low.x, high.x, fine)));
-        r.y[1] = real(must_be(coordinate_of_code(code, 1u), cell_of_code(p.y, low.y, high.y, fine)));
-        r.y[2] = real(must_be(coordinate_of_code(code, 0u), cell_of_code(p.z, low.z, high.z, fine)));
+        r.y[0] =
+            real(must_be(coordinate_of_code(code, 2u), cell_of_code(p.x, low.x, high.x, fine)));
+        r.y[1] =
+            real(must_be(coordinate_of_code(code, 1u), cell_of_code(p.y, low.y, high.y, fine)));
+        r.y[2] =
+            real(must_be(coordinate_of_code(code, 0u), cell_of_code(p.z, low.z, high.z, fine)));
         r.y[3] = real(must_be(fine ? code.y >> 31u : code.x >> 30u, 0u));
     } else if (function == of_pack_photon_direction) {
         uint n = small_at(a, 3);
@@ -122,7 +126,9 @@ FN Values evaluate_codes(uint function, IN(Arguments) a) {
         r.y[1] = real(packed >> 19u);
         r.y[2] = real(must_be(photon_scatterings(packed), n > 63u ? 63u : n));
     } else if (function == of_photon_direction_read) {
-        put3(r, 0, must_be(unpack_unit(pack_photon_direction(vec3_at(a, 0), small_at(a, 3))), vec3_at(a, 0)));
+        put3(r, 0,
+             must_be(unpack_unit(pack_photon_direction(vec3_at(a, 0), small_at(a, 3))),
+                     vec3_at(a, 0)));
     } else if (function == of_photon_is_caustic) {
         uint packed = pack_photon_normal(vec3_at(a, 0), small_at(a, 3) != 0u);
         packed |= small_at(a, 4) != 0u ? area_sample_bit : 0u;
@@ -144,8 +150,9 @@ FN Values evaluate_codes(uint function, IN(Arguments) a) {
         PartsRecord parts;
         parts.parts = small_at(a, 2);
         parts.grain = small_at(a, 3);
-        put_word(r, 0, must_be(part_size(word_at(a, 0), parts),
-                               elements_per_part(real(word_at(a, 0)), number_at(a, 2), number_at(a, 3))));
+        put_word(r, 0,
+                 must_be(part_size(word_at(a, 0), parts),
+                         elements_per_part(real(word_at(a, 0)), number_at(a, 2), number_at(a, 3))));
     }
     return r;
 }

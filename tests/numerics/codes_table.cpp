@@ -12,11 +12,16 @@ constexpr auto ulp = Measure::ulp;
 std::uint32_t any_word(Draw& d) {
     const auto word = static_cast<std::uint32_t>(d.bits());
     switch (d.bits() % 6) {
-    case 0: return 0;
-    case 1: return 0xffffffffu;
-    case 2: return 1u << (word % 32);
-    case 3: return word >> (d.bits() % 32);
-    default: return word;
+    case 0:
+        return 0;
+    case 1:
+        return 0xffffffffu;
+    case 2:
+        return 1u << (word % 32);
+    case 3:
+        return word >> (d.bits() % 32);
+    default:
+        return word;
     }
 }
 
@@ -42,7 +47,8 @@ void put_leaves(Draw& d) {
     d.put_word(second[2]);
 }
 
-/// A point in or near a box, and the box's corners: flat boxes and ones wider than the greatest number among them.
+/// A point in or near a box, and the box's corners: flat boxes and ones wider than the greatest
+/// number among them.
 void put_point_and_box(Draw& d) {
     glm::vec3 low = d.vector(-20, 20);
     glm::vec3 size = glm::abs(d.vector(-10, 20));
@@ -75,54 +81,75 @@ void put_direction_and_scatterings(Draw& d) {
 
 std::vector<Function> codes_table() {
     return {
-        {"add_compensated", of_add_compensated, "8 terms, 128 times over: 2^-20 … 2^20, zeros; numbers and vectors",
+        {"add_compensated", of_add_compensated,
+         "8 terms, 128 times over: 2^-20 … 2^20, zeros; numbers and vectors",
          [](Draw& d) {
              for (int i = 0; i < 32; ++i) {
                  d.put(std::abs(d.component(-20, 20)));
              }
-         }, 0, "1111", ulp, 2},
-        {"spread_bits", of_spread_bits, "any words", [](Draw& d) { d.put_word(any_word(d)); }, 0, "dd", ulp, 0},
-        {"leading_zeros", of_leading_zeros, "any words", [](Draw& d) { d.put_word(any_word(d)); }, 0, "d", ulp, 0},
-        {"code_distance", of_code_distance, "leaves that first differ in any bit of code and place", put_leaves, 0, "d", ulp, 0},
-        {"morton30", of_morton30, "points in boxes and outside, boxes of 2^-20 of their place, flat ones and ones wider than the greatest number",
+         },
+         0, "1111", ulp, 2},
+        {"spread_bits", of_spread_bits, "any words", [](Draw& d) { d.put_word(any_word(d)); }, 0,
+         "dd", ulp, 0},
+        {"leading_zeros", of_leading_zeros, "any words", [](Draw& d) { d.put_word(any_word(d)); },
+         0, "d", ulp, 0},
+        {"code_distance", of_code_distance, "leaves that first differ in any bit of code and place",
+         put_leaves, 0, "d", ulp, 0},
+        {"morton30", of_morton30,
+         "points in boxes and outside, boxes of 2^-20 of their place, flat ones and ones wider "
+         "than the greatest number",
          put_point_and_box, 9, "dddd", ulp, 0, 0.025},
-        {"morton63", of_morton63, "points in boxes and outside, boxes of 2^-20 of their place, flat ones and ones wider than the greatest number",
+        {"morton63", of_morton63,
+         "points in boxes and outside, boxes of 2^-20 of their place, flat ones and ones wider "
+         "than the greatest number",
          put_point_and_box, 9, "dddd", ulp, 0, 0.2},
-        {"pack_photon_direction, photon_scatterings", of_pack_photon_direction, "directions, 0 … 2^24 scatterings",
-         put_direction_and_scatterings, 3, "ccd", ulp, 0},
-        {"unpack_unit of pack_photon_direction: the direction", of_photon_direction_read, "directions, 0 … 2^24 scatterings",
-         put_direction_and_scatterings, 3, "3", ulp, 16'777},    // 1e-3
-        {"photon_is_caustic", of_photon_is_caustic, "directions, caustic or not, area samples or not",
+        {"pack_photon_direction, photon_scatterings", of_pack_photon_direction,
+         "directions, 0 … 2^24 scatterings", put_direction_and_scatterings, 3, "ccd", ulp, 0},
+        {"unpack_unit of pack_photon_direction: the direction", of_photon_direction_read,
+         "directions, 0 … 2^24 scatterings", put_direction_and_scatterings, 3, "3", ulp,
+         16'777}, // 1e-3
+        {"photon_is_caustic", of_photon_is_caustic,
+         "directions, caustic or not, area samples or not",
          [](Draw& d) {
              d.put(d.direction());
              d.put(static_cast<float>(d.bits() % 2));
              d.put(static_cast<float>(d.bits() % 2));
-         }, 3, "d", ulp, 0},
+         },
+         3, "d", ulp, 0},
         {"eye_random4", of_eye_random4, "any words, dimensions 0 … 7",
          [](Draw& d) {
              for (int i = 0; i < 3; ++i) {
                  d.put_word(any_word(d));
              }
              d.put(static_cast<float>(d.bits() % 8));
-         }, 0, "dddd", ulp, 0},
+         },
+         0, "dddd", ulp, 0},
         {"photon_random4", of_photon_random4, "any words, dimensions 0 … 7, quasi-random or not",
          [](Draw& d) {
              d.put_word(any_word(d));
              d.put_word(any_word(d));
              d.put(static_cast<float>(d.bits() % 8));
              d.put(static_cast<float>(d.bits() % 2));
-         }, 0, "dddd", ulp, 0},
-        {"shuffled_slot, slot_of_shuffled", of_shuffled_slot, "any words", [](Draw& d) { d.put_word(any_word(d)); }, 0, "dddd", ulp, 0},
-        {"part_size", of_part_size, "0 … 2^31 elements, whole parts ± 1 among them; 1 … 1,024 parts, grains 1 … 4,096",
+         },
+         0, "dddd", ulp, 0},
+        {"shuffled_slot, slot_of_shuffled", of_shuffled_slot, "any words",
+         [](Draw& d) { d.put_word(any_word(d)); }, 0, "dddd", ulp, 0},
+        {"part_size", of_part_size,
+         "0 … 2^31 elements, whole parts ± 1 among them; 1 … 1,024 parts, grains 1 … 4,096",
          [](Draw& d) {
-             const std::uint32_t parts = d.once_in(2) ? 1u << (d.bits() % 11) : static_cast<std::uint32_t>(1 + d.bits() % 1024);
-             const std::uint32_t grain = d.once_in(2) ? 1u << (d.bits() % 13) : static_cast<std::uint32_t>(1 + d.bits() % 4096);
+             const std::uint32_t parts = d.once_in(2)
+                                             ? 1u << (d.bits() % 11)
+                                             : static_cast<std::uint32_t>(1 + d.bits() % 1024);
+             const std::uint32_t grain = d.once_in(2)
+                                             ? 1u << (d.bits() % 13)
+                                             : static_cast<std::uint32_t>(1 + d.bits() % 4096);
              const auto whole = static_cast<std::uint32_t>(1 + d.bits() % 100) * parts * grain;
              const auto beside = static_cast<std::uint32_t>(d.bits() % 3);
              d.put_word(d.once_in(2) ? whole + beside - 1 : any_word(d) >> 1);
              d.put(static_cast<float>(parts));
              d.put(static_cast<float>(grain));
-         }, 0, "dd", ulp, 0},
+         },
+         0, "dd", ulp, 0},
     };
 }
 

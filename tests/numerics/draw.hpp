@@ -37,7 +37,8 @@ struct Draw {
         put(static_cast<float>(word & 0xffff));
     }
 
-    /// Of the renderer's random numbers: multiples of 2^-24 in [0, 1), its ends and the middle among them.
+    /// Of the renderer's random numbers: multiples of 2^-24 in [0, 1), its ends and the middle
+    /// among them.
     float unit() {
         const float ends[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.5f - 0x1p-24f, 1 - 0x1p-24f};
         return once_in(8) ? ends[bits() % 6] : static_cast<float>(bits() >> 8) * 0x1p-24f;

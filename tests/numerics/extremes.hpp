@@ -7,11 +7,12 @@
 
 namespace argand::testing {
 
-/// Pictures at the ends of what may come. What holds in all of them is tested with each: no value that is not
-/// finite or is negative, every photon emitted, and all of its flux accounted for.
+/// Pictures at the ends of what may come. What holds in all of them is tested with each: no value
+/// that is not finite or is negative, every photon emitted, and all of its flux accounted for.
 class Extremes : public RenderTest {
 protected:
-    static RenderSettings small(const std::string& method, std::uint32_t samples = 4, int size = 16) {
+    static RenderSettings small(const std::string& method, std::uint32_t samples = 4,
+                                int size = 16) {
         RenderSettings settings = settings_of(method, size, samples);
         settings.photons = 5000;
         return settings;
@@ -29,7 +30,8 @@ protected:
         }
         if (settings.method != "path") {
             const FluxSums& flux = result.statistics.flux;
-            EXPECT_EQ(result.statistics.photons_emitted, settings.bounces > 0 ? settings.photons : 0);
+            EXPECT_EQ(result.statistics.photons_emitted,
+                      settings.bounces > 0 ? settings.photons : 0);
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 EXPECT_EQ(flux.emitted[channel],
                           flux.absorbed[channel] + flux.escaped[channel] + flux.cut[channel]);
@@ -50,8 +52,8 @@ protected:
         const glm::dvec3 y = mean(layer(b, name));
         double largest = 0;
         for (int channel = 0; channel < 3; ++channel) {
-            largest =
-                std::max(largest, std::abs(x[channel] - y[channel]) / std::max(std::abs(y[channel]), 1e-300));
+            largest = std::max(largest, std::abs(x[channel] - y[channel]) /
+                                            std::max(std::abs(y[channel]), 1e-300));
         }
         return largest;
     }

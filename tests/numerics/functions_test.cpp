@@ -1,5 +1,5 @@
-// The shared maths in single precision, on the host and on the device, against the same text in double
-// precision.
+// The shared maths in single precision, on the host and on the device, against the same text in
+// double precision.
 #include "device_fixture.hpp"
 #include "functions.h"
 #include "kernels/evaluate_codes.hpp"
@@ -49,8 +49,7 @@ std::vector<Part> parts_of(const Function& f) {
     return parts;
 }
 
-template <class A, class B>
-double distance(const A& a, const B& b, const Part& part) {
+template <class A, class B> double distance(const A& a, const B& b, const Part& part) {
     double sum = 0;
     for (int k = part.first; k < part.first + part.size; ++k) {
         const double difference = double(a[k]) - double(b[k]);
@@ -80,8 +79,8 @@ bool same_decisions(const A& a, const truth::Outputs& b, const std::vector<Part>
 template <class A>
 bool are_neighbours(const A& a, const truth::Outputs& b, const std::vector<Part>& parts) {
     return std::all_of(parts.begin(), parts.end(), [&](const Part& p) {
-        return !p.decision ||
-               std::abs(double(a[p.first]) - b[static_cast<std::size_t>(p.first)]) <= (p.cell ? 1 : 0);
+        return !p.decision || std::abs(double(a[p.first]) - b[static_cast<std::size_t>(p.first)]) <=
+                                  (p.cell ? 1 : 0);
     });
 }
 
@@ -89,15 +88,16 @@ truth::Inputs nudged(const Function& f, truth::Inputs x, std::mt19937& bits, int
     for (int k = 0; k < f.rounded; ++k) {
         float& value = x[static_cast<std::size_t>(k)];
         const float towards = bits() % 2 == 0 ? HUGE_VALF : -HUGE_VALF;
-        for (int step = static_cast<int>(bits() % static_cast<unsigned>(most + 1)); step > 0; --step) {
+        for (int step = static_cast<int>(bits() % static_cast<unsigned>(most + 1)); step > 0;
+             --step) {
             value = std::nextafter(value, towards);
         }
     }
     return x;
 }
 
-/// Whether inputs some units in the last place away lead to these decisions in double precision, or to lower
-/// and to higher ones.
+/// Whether inputs some units in the last place away lead to these decisions in double precision, or
+/// to lower and to higher ones.
 template <class A>
 bool is_borderline(const Function& f, const truth::Inputs& x, const A& decided,
                    const std::vector<Part>& parts) {
@@ -123,7 +123,8 @@ bool is_borderline(const Function& f, const truth::Inputs& x, const A& decided,
     return false;
 }
 
-/// How much each part changes where every input is half a unit in the last place off, to first order.
+/// How much each part changes where every input is half a unit in the last place off, to first
+/// order.
 std::vector<double> conditions(const Function& f, const truth::Inputs& x, const truth::Outputs& y,
                                const std::vector<Part>& parts, bool& stable) {
     int same = 0;
@@ -171,10 +172,11 @@ struct Case {
     bool stable = true; ///< most of the inputs around it lead to the same decisions
 };
 
-void take(Worst& worst, const Function& f, const std::vector<Part>& parts, const Case& c, const Values& found,
-          std::size_t index) {
+void take(Worst& worst, const Function& f, const std::vector<Part>& parts, const Case& c,
+          const Values& found, std::size_t index) {
     if (!same_decisions(found.y, c.y, parts)) {
-        const bool excused = are_neighbours(found.y, c.y, parts) || is_borderline(f, c.x, found.y, parts);
+        const bool excused =
+            are_neighbours(found.y, c.y, parts) || is_borderline(f, c.x, found.y, parts);
         worst.borderline += excused;
         worst.wrong_decisions += !excused;
         worst.wrong_at = excused ? worst.wrong_at : index;
@@ -224,7 +226,8 @@ std::string in_full(const Function& f, const Case& c, const Values& found) {
 
 class NumericsTable : public DeviceTest {
 protected:
-    std::vector<Values> on_device(Device& device, const Function& f, const std::vector<Arguments>& inputs) {
+    std::vector<Values> on_device(Device& device, const Function& f,
+                                  const std::vector<Arguments>& inputs) {
         const Buffer in = upload(device, "inputs", inputs);
         const Buffer out = device.allocate("outputs", inputs.size() * sizeof(Values));
         const Buffer which = upload(device, "which", std::vector<std::uint32_t>{f.id});
@@ -232,7 +235,8 @@ protected:
             dispatch(device, kernels::evaluate_maths{.inputs = in, .outputs = out, .which = which},
                      inputs.size());
         } else if (f.id < end_of_scatter) {
-            dispatch(device, kernels::evaluate_scatter{.inputs = in, .outputs = out, .which = which},
+            dispatch(device,
+                     kernels::evaluate_scatter{.inputs = in, .outputs = out, .which = which},
                      inputs.size());
         } else if (f.id < end_of_lights) {
             dispatch(device, kernels::evaluate_lights{.inputs = in, .outputs = out, .which = which},
@@ -271,7 +275,8 @@ protected:
             take(host, f, parts, cases[i], mine, i);
             take(other, f, parts, cases[i], values[i], i);
             // By value: which zero it is may differ.
-            const bool same = std::equal(std::begin(mine.y), std::end(mine.y), std::begin(values[i].y));
+            const bool same =
+                std::equal(std::begin(mine.y), std::end(mine.y), std::begin(values[i].y));
             unequal += !same;
             first_unequal = same ? first_unequal : std::min(first_unequal, i);
         }
@@ -281,32 +286,36 @@ protected:
             };
             EXPECT_LE(worst.bounded, f.bound) << where << "\n" << show(worst.at);
             EXPECT_EQ(worst.wrong_decisions, 0) << where << "\n" << show(worst.wrong_at);
-            EXPECT_LE(worst.borderline, static_cast<int>(f.borderline * static_cast<double>(count))) << where;
+            EXPECT_LE(worst.borderline, static_cast<int>(f.borderline * static_cast<double>(count)))
+                << where;
         }
         // Of what rounds every division and square root correctly, as the host does.
         const bool exact = device.info().driver.find("llvmpipe") != std::string::npos;
         if (exact) {
             EXPECT_EQ(unequal, 0u)
-                << in_full(f, cases[first_unequal % count], values[first_unequal % count]) << "\non the host "
-                << fmt::format("{}", fmt::join(evaluate(f.id, inputs[first_unequal % count]).y, " "));
+                << in_full(f, cases[first_unequal % count], values[first_unequal % count])
+                << "\non the host "
+                << fmt::format("{}",
+                               fmt::join(evaluate(f.id, inputs[first_unequal % count]).y, " "));
         }
-        record_result("functions",
-                      {{"name", f.name},
-                       {"inputs", f.inputs},
-                       {"measure", f.measure == Measure::ulp ? "ulp" : "conditioned"},
-                       {"cases", count},
-                       {"host_ulp", host.ulp},
-                       {"device_ulp", other.ulp},
-                       {"relative", std::max(host.relative, other.relative)},
-                       {"conditioned", f.measure == Measure::ulp
-                                           ? nlohmann::json()
-                                           : nlohmann::json(std::max(host.conditioned, other.conditioned))},
-                       {"bound", f.bound},
-                       {"borderline", std::max(host.borderline, other.borderline)},
-                       {"most_borderline", f.borderline},
-                       {"unequal", unequal},
-                       {"decides_only", std::string(f.parts).find_first_not_of("cd") == std::string::npos},
-                       {"at", inputs_in_words(f, cases[host.at], host.at)}});
+        record_result(
+            "functions",
+            {{"name", f.name},
+             {"inputs", f.inputs},
+             {"measure", f.measure == Measure::ulp ? "ulp" : "conditioned"},
+             {"cases", count},
+             {"host_ulp", host.ulp},
+             {"device_ulp", other.ulp},
+             {"relative", std::max(host.relative, other.relative)},
+             {"conditioned", f.measure == Measure::ulp
+                                 ? nlohmann::json()
+                                 : nlohmann::json(std::max(host.conditioned, other.conditioned))},
+             {"bound", f.bound},
+             {"borderline", std::max(host.borderline, other.borderline)},
+             {"most_borderline", f.borderline},
+             {"unequal", unequal},
+             {"decides_only", std::string(f.parts).find_first_not_of("cd") == std::string::npos},
+             {"at", inputs_in_words(f, cases[host.at], host.at)}});
     }
 
     void check_all(std::size_t count) {
@@ -322,13 +331,9 @@ protected:
     }
 };
 
-TEST_F(NumericsTable, FunctionsStayWithinTheirBounds) {
-    check_all(4'000);
-}
+TEST_F(NumericsTable, FunctionsStayWithinTheirBounds) { check_all(4'000); }
 
-TEST_F(NumericsTable, SlowFunctionsStayWithinTheirBoundsOverManyInputs) {
-    check_all(40'000);
-}
+TEST_F(NumericsTable, SlowFunctionsStayWithinTheirBoundsOverManyInputs) { check_all(40'000); }
 
 } // namespace
 } // namespace argand::testing

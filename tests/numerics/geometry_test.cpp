@@ -19,8 +19,8 @@ Scene room_with_floor(int strips) {
 
 class Slivers : public Extremes {
 protected:
-    /// Of the picture of the floor that is nothing but slivers of this aspect, the relMSE against that of the
-    /// plain one.
+    /// Of the picture of the floor that is nothing but slivers of this aspect, the relMSE against
+    /// that of the plain one.
     void expect_plain_floor(int aspect, double bound) {
         const Scene plain = room_with_floor(1);
         const Scene cut = room_with_floor(aspect);
@@ -31,7 +31,8 @@ protected:
             EXPECT_LT(error, bound) << method;
             worst.take(error, method);
             // The other colour would be seen where slivers are missing.
-            EXPECT_GT(difference(sound(room_scene(), small(method, 8)), expected), 3 * bound) << method;
+            EXPECT_GT(difference(sound(room_scene(), small(method, 8)), expected), 3 * bound)
+                << method;
         }
         record_extreme(fmt::format("a floor of slivers only, of aspect {}", aspect),
                        fmt::format("the plain floor's picture; relMSE below {}", shown(bound)),
@@ -39,13 +40,9 @@ protected:
     }
 };
 
-TEST_F(Slivers, OfAspectTenThousand) {
-    expect_plain_floor(10'000, 0.01);
-}
+TEST_F(Slivers, OfAspectTenThousand) { expect_plain_floor(10'000, 0.01); }
 
-TEST_F(Slivers, SlowOfAspectAMillion) {
-    expect_plain_floor(1'000'000, 0.01);
-}
+TEST_F(Slivers, SlowOfAspectAMillion) { expect_plain_floor(1'000'000, 0.01); }
 
 /// A floor in a slanting plane, and one that lies in the same plane but is turned within it.
 Scene two_floors_in_one_plane(bool first, bool second) {
@@ -75,7 +72,8 @@ TEST_F(Extremes, CoplanarTrianglesOfTwoMaterials) {
     double least = 1;
     for (const std::string& method : method_names()) {
         const RenderResult dark = sound(two_floors_in_one_plane(true, false), small(method, 8, 32));
-        const RenderResult light = sound(two_floors_in_one_plane(false, true), small(method, 8, 32));
+        const RenderResult light =
+            sound(two_floors_in_one_plane(false, true), small(method, 8, 32));
         const RenderResult both = sound(two_floors_in_one_plane(true, true), small(method, 8, 32));
         for (std::size_t i = 0; i < layer(both, "").pixels.size(); ++i) {
             const double low = layer(dark, "").pixels[i].g;
@@ -91,7 +89,8 @@ TEST_F(Extremes, CoplanarTrianglesOfTwoMaterials) {
         }
     }
     record_extreme("two floors in one plane, of albedo 0.2 and 0.8",
-                   "each pixel is a mix of the two's own pictures, within 10^-4: none in the shadow of the other",
+                   "each pixel is a mix of the two's own pictures, within 10^-4: none in the "
+                   "shadow of the other",
                    fmt::format("outside by {}; the lighter one's shares are {} … {}", worst.text(),
                                shown(least), shown(most)));
 }
@@ -101,14 +100,16 @@ TEST_F(Extremes, EveryTriangleTwiceOrThrice) {
     for (const int times : {2, 3}) {
         Scene many = once;
         for (int i = 1; i < times; ++i) {
-            many.triangles.insert(many.triangles.end(), once.triangles.begin(), once.triangles.end());
-            many.triangle_material.insert(many.triangle_material.end(), once.triangle_material.begin(),
+            many.triangles.insert(many.triangles.end(), once.triangles.begin(),
+                                  once.triangles.end());
+            many.triangle_material.insert(many.triangle_material.end(),
+                                          once.triangle_material.begin(),
                                           once.triangle_material.end());
         }
         Largest worst;
         for (const std::string& method : method_names()) {
-            const double error =
-                difference_of_means(sound(many, small(method, 8)), sound(once, small(method, 8)), "indirect");
+            const double error = difference_of_means(sound(many, small(method, 8)),
+                                                     sound(once, small(method, 8)), "indirect");
             EXPECT_LT(error, 0.02) << method;
             worst.take(error, method);
         }
@@ -137,7 +138,8 @@ TEST_F(Extremes, SunsThatGraze) {
             const double found =
                 radiance(scene, direct(method), {0.3f, height + 1, 0.1f}, {0.1f, height, 0}).g;
             EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", " << sine;
-            worst.take(std::abs(found / (0.5 / double(pi)) - 1), fmt::format("{}, {:.0e}", method, sine));
+            worst.take(std::abs(found / (0.5 / double(pi)) - 1),
+                       fmt::format("{}, {:.0e}", method, sine));
         }
     }
     record_extreme("light that grazes by 10^-3 and 10^-7", "cosine law within 10^-4", worst.text());
@@ -153,14 +155,16 @@ TEST_F(Extremes, EyesThatGraze) {
             scene.cameras = {parallel_rays({0.5f, 0.5f * sine, 0}, {0, 0, 0}, 1e-4f * sine)};
             const double found = mean(layer(sound(scene, direct(method)), "")).g;
             EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", " << sine;
-            worst.take(std::abs(found / (0.5 / double(pi)) - 1), fmt::format("{}, {:.0e}", method, sine));
+            worst.take(std::abs(found / (0.5 / double(pi)) - 1),
+                       fmt::format("{}, {:.0e}", method, sine));
         }
     }
     record_extreme("eye rays that graze by 10^-3 … 10^-7", "radiance within 10^-4", worst.text());
 }
 
 TEST_F(Extremes, EyeInsideAWall) {
-    // Between the faces of the room's block, which no light enters; and exactly in the plane of a wall.
+    // Between the faces of the room's block, which no light enters; and exactly in the plane of a
+    // wall.
     Scene inside = room_scene();
     inside.cameras = {look_at({-0.2f, -0.5f, -0.4f}, {0.1f, 0.2f, 0.95f})};
     Scene within = room_scene();
@@ -169,7 +173,8 @@ TEST_F(Extremes, EyeInsideAWall) {
         EXPECT_EQ(mean(layer(sound(inside, small(method)), "")), glm::dvec3(0)) << method;
         sound(within, small(method));
     }
-    record_extreme("eye inside a solid block; in the plane of a wall", "black; finite", "black; finite");
+    record_extreme("eye inside a solid block; in the plane of a wall", "black; finite",
+                   "black; finite");
 }
 
 } // namespace

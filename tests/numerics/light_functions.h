@@ -89,8 +89,8 @@ FN Values differential_values(IN(PhotonDifferential) d) {
 
 // smoothing, exponent and the like are what the engine uses.
 FN FootprintScale some_footprint_scale(real photons, real length, uint principal_axes) {
-    FootprintScale s = make_footprint_scale(photons, real(1e4), length, real(3.0), real(5.0), real(0.1), real(0.4),
-                                            real(0.16666666666666666667));
+    FootprintScale s = make_footprint_scale(photons, real(1e4), length, real(3.0), real(5.0),
+                                            real(0.1), real(0.4), real(0.16666666666666666667));
     s.principal_axes = principal_axes;
     return s;
 }
@@ -111,7 +111,9 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
     } else if (function == of_spot_ramp) {
         r.y[0] = spot_ramp(number_at(a, 0), number_at(a, 1));
     } else if (function == of_sample_spot) {
-        put3(r, 0, sample_spot(light_at(a, 6, light_spot, 0u), vec4(a.x[0], a.x[1], a.x[2], a.x[3]), vec2_at(a, 4)));
+        put3(r, 0,
+             sample_spot(light_at(a, 6, light_spot, 0u), vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                         vec2_at(a, 4)));
     } else if (function == of_light_weight) {
         r.y[0] = light_weight_of_emitter(vec3_at(a, 0));
     } else if (function == of_transfer_differential) {
@@ -124,7 +126,8 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         r = differential_values(d);
     } else if (function == of_refract_differential) {
         PhotonDifferential d = differential_at(a, 13);
-        refract_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9), number_at(a, 12));
+        refract_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9),
+                             number_at(a, 12));
         r = differential_values(d);
     } else if (function == of_spot_solid_angles) {
         r.y[0] = spot_solid_angles(number_at(a, 0), number_at(a, 1), s, t);
@@ -133,23 +136,29 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         put3(r, 0, light_normal(light_at(a, 0, light_triangle, 0u), s));
         r.y[3] = s;
     } else if (function == of_light_power) {
-        put3(r, 0, light_power(light_at(a, 1, small_at(a, 15), small_at(a, 16)), all_light_kinds, number_at(a, 0)));
+        put3(r, 0,
+             light_power(light_at(a, 1, small_at(a, 15), small_at(a, 16)), all_light_kinds,
+                         number_at(a, 0)));
     } else if (function == of_emitter_density) {
-        r.y[0] = emitter_density(vec3_at(a, 0), real(1.0), number_at(a, 3), number_at(a, 4), number_at(a, 5));
+        r.y[0] = emitter_density(vec3_at(a, 0), real(1.0), number_at(a, 3), number_at(a, 4),
+                                 number_at(a, 5));
     } else if (function == of_light_sample) {
         LightSample l;
-        bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), all_light_kinds, vec3_at(a, 0), vec2_at(a, 3), l);
+        bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), all_light_kinds,
+                                vec3_at(a, 0), vec2_at(a, 3), l);
         r.y[0] = lit ? real(1.0) : real(0.0);
         put3(r, 1, lit ? l.wi : vec3(real(0.0)));
         put3(r, 4, lit ? l.radiance : vec3(real(0.0)));
         r.y[7] = lit ? l.pdf : real(0.0);
     } else if (function == of_light_emit) {
         vec3 origin, direction, normal, flux;
-        bool emitted = light_emit(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
-                                  vec4(a.x[4], a.x[5], real(0.0), real(0.0)), vec3(real(0.0)), number_at(a, 6), origin,
-                                  direction, normal, flux);
+        bool emitted = light_emit(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
+                                  vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                                  vec4(a.x[4], a.x[5], real(0.0), real(0.0)), vec3(real(0.0)),
+                                  number_at(a, 6), origin, direction, normal, flux);
         r.y[0] = emitted ? real(1.0) : real(0.0);
-        // Off triangles by a bound of the rounding errors of this very precision: offset_ray_origin's.
+        // Off triangles by a bound of the rounding errors of this very precision:
+        // offset_ray_origin's.
         put3(r, 1, small_at(a, 22) != light_triangle ? origin : vec3(real(0.0)));
         put3(r, 4, direction);
         put3(r, 7, flux);
@@ -163,11 +172,15 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
     } else if (function == of_parallelogram_side) {
         r.y[0] = parallelogram_side(vec3_at(a, 0), vec3_at(a, 3));
     } else if (function == of_transferred_offset) {
-        put3(r, 0, transferred_offset(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), number_at(a, 9), vec3_at(a, 10)));
+        put3(r, 0,
+             transferred_offset(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), number_at(a, 9),
+                                vec3_at(a, 10)));
     } else if (function == of_reflected_spread) {
         put3(r, 0, reflected_spread(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9)));
     } else if (function == of_refracted_spread) {
-        put3(r, 0, refracted_spread(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9), number_at(a, 12)));
+        put3(r, 0,
+             refracted_spread(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9),
+                              number_at(a, 12)));
     } else if (function == of_roulette_differential) {
         PhotonDifferential d = differential_at(a, 1);
         roulette_differential(d, number_at(a, 0));
@@ -177,25 +190,29 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         add_independent_spread(d, vec3_at(a, 0), number_at(a, 3));
         r = differential_values(d);
     } else if (function == of_reemitted_differential) {
-        r = differential_values(reemitted_differential(differential_at(a, 7), make_frame(vec3_at(a, 0)), vec3_at(a, 3),
+        r = differential_values(reemitted_differential(differential_at(a, 7),
+                                                       make_frame(vec3_at(a, 0)), vec3_at(a, 3),
                                                        number_at(a, 6), small_at(a, 19)));
     } else if (function == of_gloss_differential) {
         PhotonDifferential d = differential_at(a, 14);
-        gloss_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9), vec3(real(0.0)),
-                           number_at(a, 12), number_at(a, 13));
+        gloss_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9),
+                           vec3(real(0.0)), number_at(a, 12), number_at(a, 13));
         r = differential_values(d);
     } else if (function == of_shading_normal_change) {
         vec3 n1 = vec3_at(a, 12);
         vec3 n2 = vec3_at(a, 15);
         vec3 n0 = vec3_at(a, 9);
         real size;
-        vec3 shading = unit_and_length(n0 * (real(1.0) - number_at(a, 18) - number_at(a, 19)) + n1 * number_at(a, 18) +
-                                       n2 * number_at(a, 19), size);
-        put3(r, 0, shading_normal_change(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), n0, n1, n2, vec2_at(a, 18), shading,
-                                         vec3_at(a, 20)));
+        vec3 shading = unit_and_length(n0 * (real(1.0) - number_at(a, 18) - number_at(a, 19)) +
+                                           n1 * number_at(a, 18) + n2 * number_at(a, 19),
+                                       size);
+        put3(r, 0,
+             shading_normal_change(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), n0, n1, n2,
+                                   vec2_at(a, 18), shading, vec3_at(a, 20)));
     } else if (function == of_light_differential) {
-        r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds, vec3_at(a, 0),
-                                                   vec3_at(a, 3), number_at(a, 6), number_at(a, 7), number_at(a, 7)));
+        r = differential_values(light_differential(
+            light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds, vec3_at(a, 0),
+            vec3_at(a, 3), number_at(a, 6), number_at(a, 7), number_at(a, 7)));
     } else if (function == of_footprint_scale) {
         FootprintScale scale = some_footprint_scale(number_at(a, 0), number_at(a, 1), 0u);
         r.y[0] = real(scale.spacing);
@@ -212,8 +229,9 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         PhotonDifferential d = no_differential();
         d.dp_du = vec3_at(a, 0);
         d.dp_dv = vec3_at(a, 3);
-        Footprint f = make_footprint(d, vec3_at(a, 6), small_at(a, 11) != 0u,
-                                     some_footprint_scale(number_at(a, 9), number_at(a, 10), small_at(a, 12)));
+        Footprint f = make_footprint(
+            d, vec3_at(a, 6), small_at(a, 11) != 0u,
+            some_footprint_scale(number_at(a, 9), number_at(a, 10), small_at(a, 12)));
         // Where both axes are clamped, either may be the first: the ellipsoid is the same.
         put3(r, 0, footprint_extent(f));
         r.y[3] = footprint_area(f);
@@ -237,7 +255,8 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         FootprintDuals duals;
         duals.a = vec3_at(a, 0);
         duals.b = vec3_at(a, 3);
-        r.y[0] = footprint_weight(duals, vec3_at(a, 6), vec3_at(a, 9), vec3_at(a, 12), number_at(a, 15), false);
+        r.y[0] = footprint_weight(duals, vec3_at(a, 6), vec3_at(a, 9), vec3_at(a, 12),
+                                  number_at(a, 15), false);
     } else if (function == of_pack_dual) {
         uvec2 packed = pack_dual(vec3_at(a, 0));
         put_word(r, 0, packed.x);

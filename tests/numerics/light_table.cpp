@@ -22,7 +22,8 @@ glm::vec2 spot_cosines(Draw& d) {
 void put_light(Draw& d, float kind) {
     const glm::vec3 place = d.vector(-10, 10);
     const glm::vec2 cosines = spot_cosines(d);
-    const glm::vec3 second = kind == triangle ? place + d.direction() * d.magnitude(-10, 10) : d.direction();
+    const glm::vec3 second =
+        kind == triangle ? place + d.direction() * d.magnitude(-10, 10) : d.direction();
     const glm::vec3 third = place + d.direction() * d.magnitude(-10, 10);
     d.put(place);
     d.put(glm::abs(d.vector(-60, 60)));
@@ -34,7 +35,9 @@ void put_light(Draw& d, float kind) {
 
 float any_kind(Draw& d) { return static_cast<float>(d.bits() % 5); }
 
-glm::vec3 position_of_light(const Draw& d, std::size_t first) { return {d.x[first], d.x[first + 1], d.x[first + 2]}; }
+glm::vec3 position_of_light(const Draw& d, std::size_t first) {
+    return {d.x[first], d.x[first + 1], d.x[first + 2]};
+}
 
 /// Nearly parallel ones among them, of any size.
 void put_pair(Draw& d, int low, int high) {
@@ -46,7 +49,8 @@ void put_pair(Draw& d, int low, int high) {
 
 /// Of a unit normal, at right angles to it.
 void put_normal_change(Draw& d, glm::vec3 n) {
-    d.put(d.once_in(4) ? glm::vec3(0) : rounded(d.across(glm::dvec3(n)) * double(d.magnitude(-12, 10))));
+    d.put(d.once_in(4) ? glm::vec3(0)
+                       : rounded(d.across(glm::dvec3(n)) * double(d.magnitude(-12, 10))));
 }
 
 /// A direction that comes in, the normal there, and its changes with both parameters.
@@ -94,20 +98,24 @@ std::vector<Function> light_table() {
              d.put(static_cast<float>(d.once_in(4) ? d.between(-1, 1) : d.between(c.y, c.x)));
              d.put(c.x);
              d.put(c.y);
-         }, 3, "1", conditioned, 2},
+         },
+         3, "1", conditioned, 2},
         {"spot_ramp", of_spot_ramp, "cones 10^-3 … 1.57 rad",
          [](Draw& d) {
              const glm::vec2 c = spot_cosines(d);
              d.put(c.x);
              d.put(c.y);
-         }, 2, "1", ulp, 1},
-        {"sample_spot", of_sample_spot, "cones 10^-3 … 1.57 rad around any axis, corners of [0, 1)^6",
+         },
+         2, "1", ulp, 1},
+        {"sample_spot", of_sample_spot,
+         "cones 10^-3 … 1.57 rad around any axis, corners of [0, 1)^6",
          [](Draw& d) {
              for (int i = 0; i < 6; ++i) {
                  d.put(d.unit());
              }
              put_light(d, spot);
-         }, 20, "3", conditioned, 4},
+         },
+         20, "3", conditioned, 4},
         {"light_weight_of_emitter", of_light_weight, "radiances 2^-60 … 2^60, zeros",
          [](Draw& d) { d.put(glm::abs(d.vector(-60, 60))); }, 3, "1", ulp, 4},
         {"spot_solid_angles", of_spot_solid_angles, "cones 10^-3 … 1.57 rad",
@@ -115,7 +123,8 @@ std::vector<Function> light_table() {
              const glm::vec2 c = spot_cosines(d);
              d.put(c.x);
              d.put(c.y);
-         }, 2, "11", conditioned, 6},
+         },
+         2, "11", conditioned, 6},
         {"light_normal (and area)", of_light_normal, "triangles of edges 2^-10 … 2^10 at 0 … 2^10",
          [](Draw& d) { put_light(d, triangle); }, 14, "31", conditioned, 6},
         {"light_power", of_light_power, "all kinds, radii 2^-20 … 2^20, colours 2^-60 … 2^60",
@@ -125,15 +134,20 @@ std::vector<Function> light_table() {
              put_light(d, kind);
              d.put(kind);
              d.put(static_cast<float>(d.bits() % 2));
-         }, 15, "3", conditioned, 4},
-        {"emitter_density", of_emitter_density, "radiances 2^-20 … 2^20, distances 2^-20 … 2^20, cosines 2^-20 … 1",
+         },
+         15, "3", conditioned, 4},
+        {"emitter_density", of_emitter_density,
+         "radiances 2^-20 … 2^20, distances 2^-20 … 2^20, cosines 2^-20 … 1",
          [](Draw& d) {
              d.put(glm::abs(d.nonzero_vector(-20, 20)));
              d.put(d.magnitude(-20, 20));
              d.put(d.magnitude(-20, 20));
              d.put(d.magnitude(-20, 0));
-         }, 6, "1", ulp, 8},
-        {"light_sample", of_light_sample, "all kinds, points 2^-10 … 2^10, corners of [0, 1)²; emitters edge-on down to a cosine of 10^-6 (of absolute error)",
+         },
+         6, "1", ulp, 8},
+        {"light_sample", of_light_sample,
+         "all kinds, points 2^-10 … 2^10, corners of [0, 1)²; emitters edge-on down to a cosine of "
+         "10^-6 (of absolute error)",
          [](Draw& d) {
              const float kind = any_kind(d);
              d.put(d.vector(-10, 10));
@@ -143,11 +157,13 @@ std::vector<Function> light_table() {
              d.put(kind);
              d.put(static_cast<float>(d.bits() % 2));
              if (kind == spot) { // in its cone
-                 const glm::vec3 p = position_of_light(d, 5) + d.magnitude(-5, 5) * glm::vec3(d.x[12], d.x[13], d.x[14]);
+                 const glm::vec3 p = position_of_light(d, 5) +
+                                     d.magnitude(-5, 5) * glm::vec3(d.x[12], d.x[13], d.x[14]);
                  d.next = 0;
                  d.put(p);
              }
-         }, 19, "d331", conditioned, 1500},
+         },
+         19, "d331", conditioned, 1500},
         {"light_emit", of_light_emit, "all kinds, corners of [0, 1)^6, scene radii 2^-10 … 2^10",
          [](Draw& d) {
              const float kind = any_kind(d);
@@ -159,22 +175,28 @@ std::vector<Function> light_table() {
              put_light(d, kind);
              d.put(kind);
              d.put(static_cast<float>(d.bits() % 2));
-         }, 22, "d333", conditioned, 4},
+         },
+         22, "d333", conditioned, 4},
         {"photon_spacing", of_photon_spacing, "photons 0 … 2^30, densities 0 … 2^40",
          [](Draw& d) {
              d.put(d.once_in(8) ? 0 : d.magnitude(-1, 30));
              d.put(d.once_in(8) ? 0 : d.magnitude(-40, 40));
-         }, 2, "1", ulp, 3},
+         },
+         2, "1", ulp, 3},
         {"direction_axes", of_direction_axes, "directions around any axis, near the poles by 2^-26",
          [](Draw& d) {
              const glm::vec3 axis = d.direction();
              d.put(axis);
              const glm::dvec3 z(axis);
-             d.put(d.once_in(2) ? d.direction() : rounded(glm::normalize(z + d.across(z) * double(d.magnitude(-20, 0)))));
-         }, 6, "33", conditioned, 6},
+             d.put(d.once_in(2)
+                       ? d.direction()
+                       : rounded(glm::normalize(z + d.across(z) * double(d.magnitude(-20, 0)))));
+         },
+         6, "33", conditioned, 6},
         {"parallelogram_side", of_parallelogram_side, "vectors 2^-60 … 2^60, nearly parallel ones",
          [](Draw& d) { put_pair(d, -60, 60); }, 6, "1", conditioned, 5},
-        {"transferred_offset", of_transferred_offset, "any differential, distances 2^-10 … 2^10, grazing by 10^-7",
+        {"transferred_offset", of_transferred_offset,
+         "any differential, distances 2^-10 … 2^10, grazing by 10^-7",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              d.put(d.nonzero_vector(-20, 0));
@@ -182,16 +204,20 @@ std::vector<Function> light_table() {
              d.put(d.above(n) * d.sign());
              d.put(d.magnitude(-10, 10));
              d.put(n);
-         }, 13, "3", conditioned, 32},
-        {"reflected_spread", of_reflected_spread, "any differential, curvatures 0 … 2^10, grazing by 10^-7",
+         },
+         13, "3", conditioned, 32},
+        {"reflected_spread", of_reflected_spread,
+         "any differential, curvatures 0 … 2^10, grazing by 10^-7",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              d.put(d.nonzero_vector(-12, 0));
              d.put(-d.above(n));
              d.put(n);
              put_normal_change(d, n);
-         }, 12, "3", conditioned, 5},
-        {"refracted_spread", of_refracted_spread, "as reflected_spread; ratios 0.1 … 10, 1 ± 10^-7, total reflection",
+         },
+         12, "3", conditioned, 5},
+        {"refracted_spread", of_refracted_spread,
+         "as reflected_spread; ratios 0.1 … 10, 1 ± 10^-7, total reflection",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              d.put(d.nonzero_vector(-12, 0));
@@ -199,38 +225,48 @@ std::vector<Function> light_table() {
              d.put(n);
              put_normal_change(d, n);
              d.put(d.index_ratio());
-         }, 13, "3", conditioned, 8},
-        {"transfer_differential", of_transfer_differential, "any differential, distances 2^-10 … 2^10, grazing by 10^-7",
+         },
+         13, "3", conditioned, 8},
+        {"transfer_differential", of_transfer_differential,
+         "any differential, distances 2^-10 … 2^10, grazing by 10^-7",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              d.put(d.above(n) * d.sign());
              d.put(d.magnitude(-10, 10));
              d.put(n);
              put_differential(d);
-         }, 19, "3333", conditioned, 32},
-        {"reflect_differential", of_reflect_differential, "any differential, curvatures 0 … 2^10, grazing by 10^-7",
+         },
+         19, "3333", conditioned, 32},
+        {"reflect_differential", of_reflect_differential,
+         "any differential, curvatures 0 … 2^10, grazing by 10^-7",
          [](Draw& d) {
              put_curved_hit(d);
              put_differential(d);
-         }, 24, "3333", conditioned, 8},
-        {"refract_differential", of_refract_differential, "as reflect_differential; ratios 0.1 … 10, 1 ± 10^-7, total reflection",
+         },
+         24, "3333", conditioned, 8},
+        {"refract_differential", of_refract_differential,
+         "as reflect_differential; ratios 0.1 … 10, 1 ± 10^-7, total reflection",
          [](Draw& d) {
              put_curved_hit(d);
              d.put(d.index_ratio());
              put_differential(d);
-         }, 25, "3333", conditioned, 8},
+         },
+         25, "3333", conditioned, 8},
         {"roulette_differential", of_roulette_differential, "probabilities 0 … 1, any differential",
          [](Draw& d) {
              d.put(d.share());
              put_differential(d);
-         }, 13, "3333", ulp, 5},
+         },
+         13, "3333", ulp, 5},
         {"add_independent_spread", of_independent_spread, "spreads 2^-20 … 2^5, any differential",
          [](Draw& d) {
              d.put(d.direction());
              d.put(d.magnitude(-20, 5));
              put_differential(d);
-         }, 16, "3333", conditioned, 4},
-        {"reemitted_differential", of_reemitted_differential, "all three kinds, photons 1 … 2^30, grazing by 10^-7",
+         },
+         16, "3333", conditioned, 4},
+        {"reemitted_differential", of_reemitted_differential,
+         "all three kinds, photons 1 … 2^30, grazing by 10^-7",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              d.put(n);
@@ -238,8 +274,10 @@ std::vector<Function> light_table() {
              d.put(d.magnitude(0, 30));
              put_differential(d);
              d.put(static_cast<float>(d.bits() % 3));
-         }, 19, "3333", conditioned, 6},
-        {"gloss_differential", of_gloss_differential, "photons 1 … 2^30, densities 2^-40 … 2^40, grazing by 10^-7",
+         },
+         19, "3333", conditioned, 6},
+        {"gloss_differential", of_gloss_differential,
+         "photons 1 … 2^30, densities 2^-40 … 2^40, grazing by 10^-7",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              d.put(-d.above(n));
@@ -249,8 +287,10 @@ std::vector<Function> light_table() {
              d.put(d.magnitude(0, 30));
              d.put(d.magnitude(-40, 40));
              put_differential(d);
-         }, 26, "3333", conditioned, 8},
-        {"shading_normal_change", of_shading_normal_change, "triangles 2^-10 … 2^10, normals up to 30° apart",
+         },
+         26, "3333", conditioned, 8},
+        {"shading_normal_change", of_shading_normal_change,
+         "triangles 2^-10 … 2^10, normals up to 30° apart",
          [](Draw& d) {
              const glm::dvec3 n(d.direction());
              const double size = d.magnitude(-10, 10);
@@ -264,7 +304,8 @@ std::vector<Function> light_table() {
              d.put(static_cast<float>(d.between(0, 0.5)));
              d.put(static_cast<float>(d.between(0, 0.5)));
              d.put(rounded(d.across(n) * size * double(d.magnitude(-10, 0))));
-         }, 23, "3", conditioned, 6},
+         },
+         23, "3", conditioned, 6},
         {"light_differential", of_light_differential, "all kinds, photons 1 … 2^30",
          [](Draw& d) {
              const float kind = any_kind(d);
@@ -276,24 +317,31 @@ std::vector<Function> light_table() {
              put_light(d, kind);
              d.put(kind);
              d.put(static_cast<float>(d.bits() % 2));
-             if (kind == spot) { // the spot's axis near the photon's direction, so that it is in the cone
+             if (kind ==
+                 spot) { // the spot's axis near the photon's direction, so that it is in the cone
                  const glm::dvec3 z(d.x[0], d.x[1], d.x[2]);
-                 const glm::vec3 axis = rounded(glm::normalize(z + d.across(z) * double(d.magnitude(-12, 0))));
+                 const glm::vec3 axis =
+                     rounded(glm::normalize(z + d.across(z) * double(d.magnitude(-12, 0))));
                  d.next = 15;
                  d.put(axis);
              }
-         }, 22, "3333", conditioned, 6},
+         },
+         22, "3333", conditioned, 6},
         {"make_footprint_scale", of_footprint_scale, "photons 1 … 2^30, scene sizes 2^-40 … 2^40",
          [](Draw& d) {
              d.put(d.magnitude(0, 30));
              d.put(d.magnitude(-40, 40));
-         }, 2, "1111", ulp, 16},
+         },
+         2, "1111", ulp, 16},
         {"make_principal", of_make_principal, "axes 2^-20 … 2^20, nearly parallel, nearly circles",
          [](Draw& d) {
              const int size = static_cast<int>(d.bits() % 40) - 20;
              put_pair(d, size - 3, size);
-         }, 6, "6", conditioned, 3},
-        {"make_footprint (extent and area)", of_make_footprint, "differentials 2^-40 … 2^40 of aspect up to 10^6 (the short axis is as exact as the long one), photons 1 … 2^30, "
+         },
+         6, "6", conditioned, 3},
+        {"make_footprint (extent and area)", of_make_footprint,
+         "differentials 2^-40 … 2^40 of aspect up to 10^6 (the short axis is as exact as the long "
+         "one), photons 1 … 2^30, "
          "scene sizes 2^-20 … 2^20",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
@@ -307,7 +355,8 @@ std::vector<Function> light_table() {
              d.put(d.magnitude(-20, 20));
              d.put(static_cast<float>(d.bits() % 2));
              d.put(static_cast<float>(d.bits() % 2));
-         }, 11, "31", conditioned, 8000},
+         },
+         11, "31", conditioned, 8000},
         {"footprint_area", of_footprint_area, "semi-axes 2^-30 … 2^20, skewed to 10^-3",
          [](Draw& d) { put_footprint(d, d.direction()); }, 9, "1", conditioned, 8},
         {"footprint_duals", of_footprint_duals, "semi-axes 2^-30 … 2^20, skewed to 10^-3",
@@ -315,50 +364,60 @@ std::vector<Function> light_table() {
              const glm::vec3 n = d.direction();
              put_footprint(d, n);
              d.put(n);
-         }, 12, "33", conditioned, 6},
+         },
+         12, "33", conditioned, 6},
         {"footprint_of_duals", of_footprint_of_duals, "dual axes 2^-20 … 2^30, skewed to 10^-3",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              put_duals(d, n);
              d.put(n);
              d.put(d.magnitude(-4, 0));
-         }, 10, "333", conditioned, 8},
+         },
+         10, "333", conditioned, 8},
         {"footprint_extent", of_footprint_extent, "semi-axes 2^-30 … 2^20, skewed to 10^-3",
          [](Draw& d) { put_footprint(d, d.direction()); }, 9, "3", ulp, 4},
-        {"footprint_weight", of_footprint_weight, "dual axes 2^-20 … 2^30, queries inside and outside, planes up to 60° off",
+        {"footprint_weight", of_footprint_weight,
+         "dual axes 2^-20 … 2^30, queries inside and outside, planes up to 60° off",
          [](Draw& d) {
              const glm::vec3 n = d.direction();
              put_duals(d, n);
              d.put(n);
              const glm::dvec3 z(n);
              d.put(rounded(glm::normalize(z + d.across(z) * d.between(0, 1.7))));
-             const double reach = 1.5 / std::max({std::abs(d.x[0]), std::abs(d.x[1]), std::abs(d.x[2]), 1e-30f});
-             d.put(rounded(d.across(z) * reach * d.between(0, 1) + z * reach * double(d.magnitude(-10, -3))));
+             const double reach =
+                 1.5 / std::max({std::abs(d.x[0]), std::abs(d.x[1]), std::abs(d.x[2]), 1e-30f});
+             d.put(rounded(d.across(z) * reach * d.between(0, 1) +
+                           z * reach * double(d.magnitude(-10, -3))));
              d.put(d.magnitude(-4, 0));
-         }, 16, "1", conditioned, 3},
+         },
+         16, "1", conditioned, 3},
         {"pack_dual", of_pack_dual, "vectors 2^-90 … 2^90, zeros",
          [](Draw& d) {
              const int size = static_cast<int>(d.bits() % 180) - 90;
              d.put(d.vector(size - 8, size));
-         }, 3, "ccdc", ulp, 0},
+         },
+         3, "ccdc", ulp, 0},
         {"unpack_dual", of_unpack_dual, "codes 1 … 65,535 thrice, exponents -99 … 100",
          [](Draw& d) {
              const auto code = [&] {
                  const std::uint32_t ends[] = {1, 32768, 65535};
-                 return d.once_in(6) ? ends[d.bits() % 3] : static_cast<std::uint32_t>(1 + d.bits() % 65535);
+                 return d.once_in(6) ? ends[d.bits() % 3]
+                                     : static_cast<std::uint32_t>(1 + d.bits() % 65535);
              };
              const std::uint32_t x = code();
              const std::uint32_t y = code();
              d.put_word(x | (y << 16));
              d.put_word(code() | (static_cast<std::uint32_t>(28 + d.bits() % 200) << 23));
-         }, 0, "3", ulp, 1.5},
+         },
+         0, "3", ulp, 1.5},
         {"unpack_dual of pack_dual: the vector", of_dual_read, "vectors 2^-90 … 2^90, zeros",
          [](Draw& d) {
              const int size = static_cast<int>(d.bits() % 180) - 90;
              d.put(d.vector(size - 8, size));
-         }, 3, "3", ulp, 900},    // 2^-15 of the largest component in each
-        {"load_differential of differential_record: the differential", of_differential_record, "any differential",
-         put_differential, 12, "dddddddddddd", ulp, 0},
+         },
+         3, "3", ulp, 900}, // 2^-15 of the largest component in each
+        {"load_differential of differential_record: the differential", of_differential_record,
+         "any differential", put_differential, 12, "dddddddddddd", ulp, 0},
     };
 }
 

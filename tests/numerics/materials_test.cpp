@@ -8,8 +8,8 @@
 namespace argand::testing {
 namespace {
 
-/// Through its parallel faces whatever has entered it leaves; between facets light of high index is trapped
-/// for long.
+/// Through its parallel faces whatever has entered it leaves; between facets light of high index is
+/// trapped for long.
 Scene block_in_a_furnace(const Material& material) {
     Scene scene;
     scene.name = "block in a furnace";
@@ -49,7 +49,8 @@ TEST_F(Extremes, GlassOfAnyIndexLosesNothing) {
 /// A file of a cubic border between glass of this index and nothing.
 Scene load_cube_of_glass(const char* ior, bool solid) {
     const ScratchDirectory directory;
-    nlohmann::json file = nlohmann::json::parse(read_text(ARGAND_SOURCE_DIR "/assets/closed_box.gltf"));
+    nlohmann::json file =
+        nlohmann::json::parse(read_text(ARGAND_SOURCE_DIR "/assets/closed_box.gltf"));
     for (nlohmann::json& material : file.at("materials")) {
         material = nlohmann::json::parse(fmt::format(
             R"({{"pbrMetallicRoughness": {{"metallicFactor": 0, "roughnessFactor": 0}}, "extensions": {{
@@ -85,7 +86,8 @@ TEST_F(Extremes, GlassOfAnyIndexFromAFile) {
         }
     }
     record_extreme("files with an index of refraction of 0, 1, 1 + 10^-7 and 10",
-                   "read to the bit, pictures finite; path, footprints: a cube of it under a white sky is white, mean "
+                   "read to the bit, pictures finite; path, footprints: a cube of it under a white "
+                   "sky is white, mean "
                    "within 5 %",
                    worst.text());
 }
@@ -96,14 +98,15 @@ TEST_F(Extremes, GlassOfIndexOneIsNotThere) {
     RenderSettings settings = small("path", 32);
     const double error =
         mean(layer(sound(with, settings), "")).g / mean(layer(sound(room_scene(), settings), "")).g;
-    // Shadow rays stop at glass, and what comes through it from a light without extent is left to photons.
+    // Shadow rays stop at glass, and what comes through it from a light without extent is left to
+    // photons.
     settings.method = "photons";
     const double all =
         mean(layer(sound(with, settings), "")).g / mean(layer(sound(room_scene(), settings), "")).g;
     EXPECT_LT(error, 1);
     EXPECT_NEAR(all, 1, 0.05);
-    record_extreme("a sphere of index 1 in a room", "photons: as if it were not there; mean within 5 %",
-                   shown(std::abs(all - 1)));
+    record_extreme("a sphere of index 1 in a room",
+                   "photons: as if it were not there; mean within 5 %", shown(std::abs(all - 1)));
 }
 
 TEST_F(Extremes, MetalFromMirrorToRough) {
@@ -114,8 +117,10 @@ TEST_F(Extremes, MetalFromMirrorToRough) {
         Largest spread;
         double lowest = 1;
         for (const std::string& method : method_names()) {
-            const double found = mean(layer(sound(sphere_in_a_furnace(metal), small(method, 16)), "")).g;
-            // Smooth: nothing is lost; rough: what a second scattering would bring back, up to a third.
+            const double found =
+                mean(layer(sound(sphere_in_a_furnace(metal), small(method, 16)), "")).g;
+            // Smooth: nothing is lost; rough: what a second scattering would bring back, up to a
+            // third.
             EXPECT_LT(found, 1.01) << roughness << ", " << method;
             EXPECT_GT(found, roughness < 0.5f ? 0.99 : 0.6) << roughness << ", " << method;
             lowest = std::min(lowest, found);
@@ -123,7 +128,8 @@ TEST_F(Extremes, MetalFromMirrorToRough) {
         figures += fmt::format("{}{:.2g}: {:.4f}", figures.empty() ? "" : "; ", roughness, lowest);
     }
     record_extreme("roughness 0, 10^-4, 0.0317 (the least that is not a mirror), 1",
-                   "a white metal under a white sky: at least 0.99, rough 0.6, at most 1.01", figures);
+                   "a white metal under a white sky: at least 0.99, rough 0.6, at most 1.01",
+                   figures);
 }
 
 TEST_F(Extremes, AThousandBouncesBetweenBlackWalls) {

@@ -102,7 +102,8 @@ FN Values evaluate_maths(uint function, IN(Arguments) a) {
     } else if (function == of_morton_cell) {
         r.y[0] = real(morton_cell(number_at(a, 0), number_at(a, 3), number_at(a, 6), real(1024.0)));
     } else if (function == of_fine_morton_cell) {
-        r.y[0] = real(morton_cell(number_at(a, 0), number_at(a, 3), number_at(a, 6), real(2097152.0)));
+        r.y[0] =
+            real(morton_cell(number_at(a, 0), number_at(a, 3), number_at(a, 6), real(2097152.0)));
     } else if (function == of_random4) {
         vec4 u = random4(word_at(a, 0), word_at(a, 2), word_at(a, 4), small_at(a, 6));
         put3(r, 0, vec3(u.x, u.y, u.z));
@@ -112,7 +113,8 @@ FN Values evaluate_maths(uint function, IN(Arguments) a) {
         put3(r, 0, vec3(u.x, u.y, u.z));
         r.y[3] = u.w;
     } else if (function == of_fixed_add) {
-        uvec2 sum = fixed_add(uvec2(word_at(a, 0), word_at(a, 2)), uvec2(word_at(a, 4), word_at(a, 6)));
+        uvec2 sum =
+            fixed_add(uvec2(word_at(a, 0), word_at(a, 2)), uvec2(word_at(a, 4), word_at(a, 6)));
         put_word(r, 0, sum.y);
         put_word(r, 2, sum.x);
     } else if (function == of_query_cell) {

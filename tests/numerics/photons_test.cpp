@@ -30,7 +30,8 @@ TEST_F(Extremes, NoPhotonOneAndTwo) {
         }
     }
     record_extreme("0, 1 and 2 photons, all methods",
-                   "0: no indirect light; 1 and 2: what is emitted is the light's power within 10^-5 (the picture is "
+                   "0: no indirect light; 1 and 2: what is emitted is the light's power within "
+                   "10^-5 (the picture is "
                    "noise: the map's sum is tested by itself, below); direct light the same bits",
                    "the same bits; power off by " + worst.text());
 }
@@ -65,17 +66,20 @@ TEST_F(Extremes, RadiusOfNothing) {
             EXPECT_TRUE(same_bits(layer(found, "direct"), layer(usual, "direct")));
             // At 10^-3 of them some discs hold one of the 5,000 photons.
             if (radius < 1e-4) {
-                EXPECT_EQ(mean(layer(found, "indirect")), glm::dvec3(0)) << method << ", " << radius;
+                EXPECT_EQ(mean(layer(found, "indirect")), glm::dvec3(0))
+                    << method << ", " << radius;
             }
         }
     }
     record_extreme("radius → 0 (10^-20, 10^-6, 10^-3)",
-                   "finite; direct light the same bits; no photon is met at 10^-20 and 10^-6, a few at 10^-3 (noise)",
+                   "finite; direct light the same bits; no photon is met at 10^-20 and 10^-6, a "
+                   "few at 10^-3 (noise)",
                    "as expected");
 }
 
-/// Of an evenly lit wall of half width 1 seen in its middle, the share that the kernel of this radius leaves of its
-/// radiance: it is divided by the part of the disc that the wall covers, but by no less than least_coverage.
+/// Of an evenly lit wall of half width 1 seen in its middle, the share that the kernel of this
+/// radius leaves of its radiance: it is divided by the part of the disc that the wall covers, but
+/// by no less than least_coverage.
 double share_left(double radius) {
     constexpr int n = 1000;
     double covered = 0;
@@ -91,7 +95,8 @@ double share_left(double radius) {
 }
 
 TEST_F(Extremes, RadiusAsLargeAsTheScene) {
-    // Every wall is lit evenly: blurring changes nothing, and the disc's share that lies off the wall is known.
+    // Every wall is lit evenly: blurring changes nothing, and the disc's share that lies off the
+    // wall is known.
     const double reflected = 0.5;
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(reflected)));
     scene.cameras = {parallel_rays({0, 0, 0}, {0, 0, -1}, 0.01f)};
@@ -104,10 +109,12 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
         const double expected = reflected * reflected / (1 - reflected) * share_left(radius);
         const double found = mean(layer(sound(scene, settings), "indirect")).g;
         EXPECT_RELATIVE(found, expected, 0.03) << radius;
-        figures += fmt::format("{}{} of {}", figures.empty() ? "" : "; ", shown(found), shown(expected));
+        figures +=
+            fmt::format("{}{} of {}", figures.empty() ? "" : "; ", shown(found), shown(expected));
     }
     record_extreme("radius → scene (1, 5 scene sizes), photons",
-                   "evenly lit walls: indirect light within 3 % of what the part of the disc that the wall covers leaves "
+                   "evenly lit walls: indirect light within 3 % of what the part of the disc that "
+                   "the wall covers leaves "
                    "(darker where it covers less than a tenth)",
                    figures);
     for (const double radius : {2.0, 10.0}) {
@@ -115,7 +122,8 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
         nearest.radius = radius;
         sound(room_scene(), nearest);
     }
-    record_extreme("radius → scene (1, 5 scene sizes), knn", "finite (the k nearest end the disc long before)", "finite");
+    record_extreme("radius → scene (1, 5 scene sizes), knn",
+                   "finite (the k nearest end the disc long before)", "finite");
 }
 
 TEST_F(Extremes, FootprintsFromNothingToTheScene) {
@@ -126,7 +134,8 @@ TEST_F(Extremes, FootprintsFromNothingToTheScene) {
         settings.footprints.smoothing = smoothing;
         EXPECT_TRUE(same_bits(layer(sound(scene, settings), "direct"), layer(usual, "direct")));
     }
-    record_extreme("smoothing of footprints 10^-12 … 10^12", "finite; direct light the same bits", "holds");
+    record_extreme("smoothing of footprints 10^-12 … 10^12", "finite; direct light the same bits",
+                   "holds");
 }
 
 TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
@@ -138,8 +147,8 @@ TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
         settings.photons = 500;
         settings.bounces = 1000;
         const RenderResult result = sound(scene, settings);
-        // 1002 in the mean of all pictures, but no picture shows that: roulette leaves the later bounces to few paths,
-        // as bright as they are rare. Photons are spared it for 64 of them.
+        // 1002 in the mean of all pictures, but no picture shows that: roulette leaves the later
+        // bounces to few paths, as bright as they are rare. Photons are spared it for 64 of them.
         const double found = mean(layer(result, "")).g;
         EXPECT_GT(found, method == "path" ? 40 : 65) << method;
         EXPECT_LT(found, 2 * 1002) << method;
@@ -153,9 +162,11 @@ TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
         }
     }
     record_extreme("albedo 1, 1,000 bounces",
-                   "ends, finite; nothing escapes; of the emitted radiance between 40 (path) or 65 and 2,004: the mean "
+                   "ends, finite; nothing escapes; of the emitted radiance between 40 (path) or 65 "
+                   "and 2,004: the mean "
                    "of 1,002 takes more paths than these, see 30 bounces",
-                   fmt::format("at least {}; absorbed by roulette, over what is emitted: {}", shown(least), cut.text()));
+                   fmt::format("at least {}; absorbed by roulette, over what is emitted: {}",
+                               shown(least), cut.text()));
 }
 
 TEST_F(Extremes, ThirtyBouncesBetweenWhiteWalls) {
@@ -169,7 +180,8 @@ TEST_F(Extremes, ThirtyBouncesBetweenWhiteWalls) {
         EXPECT_RELATIVE(found, 32.0, 0.06) << method;
         worst.take(std::abs(found / 32 - 1), method);
     }
-    record_extreme("albedo 1, 30 bounces", "32 of the emitted radiance within 6 % (8,192 paths, 5,000 photons)",
+    record_extreme("albedo 1, 30 bounces",
+                   "32 of the emitted radiance within 6 % (8,192 paths, 5,000 photons)",
                    worst.text());
 }
 

@@ -4,7 +4,8 @@
 namespace argand::testing {
 namespace {
 
-/// Of a floor of albedo 1/2 under a light of intensity 2 at height 1, at this distance from below the light.
+/// Of a floor of albedo 1/2 under a light of intensity 2 at height 1, at this distance from below
+/// the light.
 double floor_radiance(double r) {
     const double d2 = r * r + 1;
     return 0.5 / double(pi) * 2 / (d2 * std::sqrt(d2));
@@ -33,15 +34,16 @@ TEST_F(Extremes, EveryPixelIsTheFormulas) {
                 // Whatever points of the pixel the samples are.
                 const double high = floor_radiance(std::hypot(across[0], down[0]));
                 const double low = floor_radiance(std::hypot(across[1], down[1]));
-                const double found = layer(result, "").pixels[static_cast<std::size_t>(y * size + x)].g;
+                const double found =
+                    layer(result, "").pixels[static_cast<std::size_t>(y * size + x)].g;
                 const double outside = std::max({low - found, found - high, 0.0}) / high;
                 EXPECT_LT(outside, 1e-6) << method << ", " << x << ", " << y;
                 worst.take(outside, method);
                 constexpr int n = 4;
                 for (int i = 0; i < n * n; ++i) {
-                    expected += floor_radiance(
-                        std::hypot(half * (2 * (x + (i % n + 0.5) / n) / size - 1),
-                                   half * (2 * (y + (i / n + 0.5) / n) / size - 1)));
+                    expected +=
+                        floor_radiance(std::hypot(half * (2 * (x + (i % n + 0.5) / n) / size - 1),
+                                                  half * (2 * (y + (i / n + 0.5) / n) / size - 1)));
                 }
             }
         }
@@ -51,7 +53,8 @@ TEST_F(Extremes, EveryPixelIsTheFormulas) {
         worst_mean.take(error, method);
     }
     record_extreme("a floor under a point light, against the formula in double precision",
-                   "each pixel between the least and the greatest radiance within it, to 10^-6; mean within 10^-4",
+                   "each pixel between the least and the greatest radiance within it, to 10^-6; "
+                   "mean within 10^-4",
                    fmt::format("outside by {}; mean off by {}", worst.text(), worst_mean.text()));
 }
 

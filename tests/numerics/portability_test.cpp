@@ -1,5 +1,5 @@
-// The same seed gives the same bits, however the tool is run. (Threads of lavapipe and each fallback:
-// test_methods, Repeat.)
+// The same seed gives the same bits, however the tool is run. (Threads of lavapipe and each
+// fallback: test_methods, Repeat.)
 #include "results.hpp"
 #include "support/scratch_directory.hpp"
 
@@ -19,11 +19,11 @@ struct Way {
 std::string picture(const Way& way, const std::string& method) {
     const ScratchDirectory directory;
     const std::string output = (directory / "picture.exr").string();
-    const std::string command =
-        fmt::format("env {} '{}' render '{}/assets/cornell_glass.glb' -q --backend {} --size 24x16 --spp 2 "
-                    "--method {}{} -o '{}'",
-                    way.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, way.backend, method,
-                    method == "path" ? "" : " --photons 5000", output);
+    const std::string command = fmt::format(
+        "env {} '{}' render '{}/assets/cornell_glass.glb' -q --backend {} --size 24x16 --spp 2 "
+        "--method {}{} -o '{}'",
+        way.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, way.backend, method,
+        method == "path" ? "" : " --photons 5000", output);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return read_text(output);
 }
@@ -39,8 +39,9 @@ void expect_same_bits(std::initializer_list<Way> ways) {
         }
     }
     for (const Way& way : ways) {
-        record_result("portability",
-                      {{"backend", way.backend}, {"run", way.name}, {"environment", way.environment}});
+        record_result(
+            "portability",
+            {{"backend", way.backend}, {"run", way.name}, {"environment", way.environment}});
     }
 }
 
@@ -54,7 +55,8 @@ TEST(Portability, ValidationAndSubgroups) {
 }
 
 TEST(Portability, ThreadsOfTheHost) {
-    expect_same_bits({{"1 thread", "OMP_NUM_THREADS=1", "cpu"}, {"2 threads", "OMP_NUM_THREADS=2", "cpu"}});
+    expect_same_bits(
+        {{"1 thread", "OMP_NUM_THREADS=1", "cpu"}, {"2 threads", "OMP_NUM_THREADS=2", "cpu"}});
 }
 
 } // namespace

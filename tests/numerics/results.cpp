@@ -28,7 +28,8 @@ public:
             for (int i = 0; i < tests.total_test_count(); ++i) {
                 const ::testing::TestInfo& test = *tests.GetTestInfo(i);
                 if (test.should_run()) {
-                    record_result("tests", {{"name", fmt::format("{}.{}", test.test_suite_name(), test.name())},
+                    record_result("tests", {{"name", fmt::format("{}.{}", test.test_suite_name(),
+                                                                 test.name())},
                                             {"result", test.result()->Failed()    ? "failed"
                                                        : test.result()->Skipped() ? "skipped"
                                                                                   : "passed"}});
@@ -41,7 +42,8 @@ public:
     }
 };
 
-const ::testing::Environment* const writes_results = ::testing::AddGlobalTestEnvironment(new WriteResults);
+const ::testing::Environment* const writes_results =
+    ::testing::AddGlobalTestEnvironment(new WriteResults);
 
 } // namespace
 
@@ -49,17 +51,16 @@ void record_result(const std::string& section, const nlohmann::json& row) {
     results()[section].push_back(row);
 }
 
-void record_extreme(const std::string& extreme, const std::string& expectation, const std::string& measured) {
+void record_extreme(const std::string& extreme, const std::string& expectation,
+                    const std::string& measured) {
     const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
-    record_result("extremes",
-                  {{"extreme", extreme},
-                   {"expectation", expectation},
-                   {"measured", measured},
-                   {"test", fmt::format("test_numerics: {}.{}", test.test_suite_name(), test.name())}});
+    record_result("extremes", {{"extreme", extreme},
+                               {"expectation", expectation},
+                               {"measured", measured},
+                               {"test", fmt::format("test_numerics: {}.{}", test.test_suite_name(),
+                                                    test.name())}});
 }
 
-std::string shown(double number) {
-    return fmt::format("{:.2g}", number);
-}
+std::string shown(double number) { return fmt::format("{:.2g}", number); }
 
 } // namespace argand::testing

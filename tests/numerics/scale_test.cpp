@@ -61,7 +61,8 @@ TEST_F(Extremes, ScenesAMillionTimesAsLargeOrSmall) {
         }
     }
     record_extreme("scene scaled by 10^±6",
-                   "same picture: mean within 2 %, relMSE below 0.002 (rounding sends single paths other ways)",
+                   "same picture: mean within 2 %, relMSE below 0.002 (rounding sends single paths "
+                   "other ways)",
                    fmt::format("{}; relMSE {}", worst.text(), worst_pixels.text()));
 }
 
@@ -86,8 +87,8 @@ TEST_F(Extremes, ScenesFarFromTheOrigin) {
             worst_pixels.take(pixels, method);
         }
         record_extreme(fmt::format("scene moved {:.0e} of its sizes from the origin", sizes[i]),
-                       fmt::format("mean within {:.0f} %, relMSE below {}", 100 * bounds_of_means[i],
-                                   shown(bounds_of_pixels[i])),
+                       fmt::format("mean within {:.0f} %, relMSE below {}",
+                                   100 * bounds_of_means[i], shown(bounds_of_pixels[i])),
                        fmt::format("{}; relMSE {}", worst.text(), worst_pixels.text()));
     }
 }
@@ -134,11 +135,12 @@ TEST_F(Extremes, OneLightABillionTimesAsBrightAsAnother) {
         EXPECT_RELATIVE(below, 0.5e9 / double(pi), 0.01) << method;
         EXPECT_TRUE(std::isfinite(at(10)) && at(10) >= 0);
     }
-    record_extreme("a light of 10^9 beside one of 1",
-                   "what the bright one lights is exact within 1 %; what only the dim one lights is finite "
-                   "(it is chosen "
-                   "once in 10^9 times: below the noise of the rest)",
-                   bright.text());
+    record_extreme(
+        "a light of 10^9 beside one of 1",
+        "what the bright one lights is exact within 1 %; what only the dim one lights is finite "
+        "(it is chosen "
+        "once in 10^9 times: below the noise of the rest)",
+        bright.text());
 }
 
 TEST_F(Extremes, TenThousandLights) {
@@ -159,7 +161,8 @@ TEST_F(Extremes, TenThousandLights) {
         EXPECT_RELATIVE(found, expected, 0.03) << method;
         worst.take(std::abs(found / expected - 1), method);
     }
-    record_extreme("10,000 lights", "direct light within 3 % of the sum over the lights (16,384 samples)",
+    record_extreme("10,000 lights",
+                   "direct light within 3 % of the sum over the lights (16,384 samples)",
                    worst.text());
 }
 

@@ -66,7 +66,7 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
 #ifdef ARGAND_REAL_DOUBLE
 // State and layer of a path, told from all of its vertices at once.
 FN uvec2 path_by_vertices(uint vertices, uint followed) {
-    uint first = 0u;    // that is estimated
+    uint first = 0u; // that is estimated
     while (first < vertices && ((followed >> first) & 1u) != 0u) {
         ++first;
     }
@@ -77,7 +77,9 @@ FN uvec2 path_by_vertices(uint vertices, uint followed) {
     uint all = (1u << behind) - 1u;
     bool caustic = ((followed >> (first + 1u)) & all) == all;
     return uvec2(path_estimated | (caustic ? path_followed : 0u) | behind,
-                 behind == 0u ? layer_direct : caustic ? layer_caustic : layer_indirect);
+                 behind == 0u ? layer_direct
+                 : caustic    ? layer_caustic
+                              : layer_indirect);
 }
 #endif
 
@@ -128,8 +130,9 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
     } else if (function == of_bsdf_eval_and_pdf) {
         MaterialRecord m = material_at(a, 6);
         real pdf;
-        put3(r, 0, bsdf_eval_and_pdf(m, vec3_at(a, 0), vec3_at(a, 3), LOBES_ALL,
-                                     lobe_probabilities(m, number_at(a, 2), LOBES_ALL), pdf));
+        put3(r, 0,
+             bsdf_eval_and_pdf(m, vec3_at(a, 0), vec3_at(a, 3), LOBES_ALL,
+                               lobe_probabilities(m, number_at(a, 2), LOBES_ALL), pdf));
         r.y[3] = pdf;
     } else if (function == of_bsdf_eval || function == of_bsdf_pdf) {
         MaterialRecord m = material_at(a, 6);
@@ -138,7 +141,8 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         uint lobes = small_at(a, 20);
         real pdf;
         vec3 f = bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
-        // The glossy lobe by itself may scale powers that are subnormal, or 0 where devices flush those.
+        // The glossy lobe by itself may scale powers that are subnormal, or 0 where devices flush
+        // those.
         const real negligible = real(1e-30);
         if (function == of_bsdf_eval) {
             vec3 alone = bsdf_eval(m, wo, wi, lobes);
@@ -161,11 +165,12 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
             state = state_after(state, ((small_at(a, 1) >> i) & 1u) != 0u);
         }
         put_word(r, 0, must_be(state, path_by_vertices(small_at(a, 0), small_at(a, 1)).x));
-        r.y[2] = real(must_be(layer_of_emission(state), path_by_vertices(small_at(a, 0), small_at(a, 1)).y));
+        r.y[2] = real(
+            must_be(layer_of_emission(state), path_by_vertices(small_at(a, 0), small_at(a, 1)).y));
     } else if (function == of_bsdf_sample) {
         BsdfSample sample_;
-        bool scattered = bsdf_sample(material_at(a, 6), vec3_at(a, 0), small_at(a, 20) != 0u, LOBES_ALL,
-                                     vec4(a.x[3], a.x[4], a.x[5], real(0.0)), sample_);
+        bool scattered = bsdf_sample(material_at(a, 6), vec3_at(a, 0), small_at(a, 20) != 0u,
+                                     LOBES_ALL, vec4(a.x[3], a.x[4], a.x[5], real(0.0)), sample_);
         r.y[0] = scattered ? real(sample_.lobe) : real(0.0);
         put3(r, 1, scattered ? sample_.wi : vec3(real(0.0)));
         put3(r, 4, sample_.weight);
@@ -179,8 +184,9 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         r.y[3] = shear.z;
     } else if (function == of_intersect_triangle || function == of_intersect_sliver) {
         real t, u, v;
-        bool hit = intersect_triangle(ray_shear(vec3_at(a, 3)), vec3_at(a, 0), vec3_at(a, 6), vec3_at(a, 9),
-                                      vec3_at(a, 12), real(0.0), real(1e30), t, u, v);
+        bool hit =
+            intersect_triangle(ray_shear(vec3_at(a, 3)), vec3_at(a, 0), vec3_at(a, 6),
+                               vec3_at(a, 9), vec3_at(a, 12), real(0.0), real(1e30), t, u, v);
         r.y[0] = hit ? real(1.0) : real(0.0);
         r.y[1] = hit ? t : real(0.0);
         r.y[2] = hit ? u : real(0.0);
@@ -196,12 +202,15 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         r.y[0] = box_reach(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6));
     } else if (function == of_hit_point) {
         vec3 error;
-        put3(r, 0, hit_point(vec3_at(a, 2), vec3_at(a, 5), vec3_at(a, 8), number_at(a, 0), number_at(a, 1), error));
+        put3(r, 0,
+             hit_point(vec3_at(a, 2), vec3_at(a, 5), vec3_at(a, 8), number_at(a, 0),
+                       number_at(a, 1), error));
     } else if (function == of_offset_ray_origin) {
         put3(r, 0, offset_ray_origin(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9)));
     } else if (function == of_make_surface) {
-        Surface surface = make_surface(vec3_at(a, 5), vec3_at(a, 8), vec3_at(a, 11), vec3_at(a, 14), vec3_at(a, 17),
-                                       vec3_at(a, 20), number_at(a, 0), number_at(a, 1), vec3_at(a, 2));
+        Surface surface = make_surface(vec3_at(a, 5), vec3_at(a, 8), vec3_at(a, 11), vec3_at(a, 14),
+                                       vec3_at(a, 17), vec3_at(a, 20), number_at(a, 0),
+                                       number_at(a, 1), vec3_at(a, 2));
         r.y[0] = surface.front ? real(1.0) : real(0.0);
         put3(r, 1, surface.position);
         put3(r, 4, surface.geometric_normal);

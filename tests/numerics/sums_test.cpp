@@ -1,5 +1,5 @@
-// Ways to add up ten million photons' fluxes: how far they are off, what they cost, and that the engine's
-// hold.
+// Ways to add up ten million photons' fluxes: how far they are off, what they cost, and that the
+// engine's hold.
 #include "results.hpp"
 #include "shared/compensated.h"
 #include "shared/fixed_point.h"
@@ -15,7 +15,8 @@
 namespace argand::testing {
 namespace {
 
-/// Fluxes over twelve orders of magnitude, as lights of very different power and many scatterings make them.
+/// Fluxes over twelve orders of magnitude, as lights of very different power and many scatterings
+/// make them.
 std::vector<float> any_fluxes(std::size_t count) {
     std::mt19937 bits(5);
     std::lognormal_distribution<float> flux(0.0f, 3.0f);
@@ -35,7 +36,8 @@ float naive(const std::vector<float>& terms) {
 }
 
 float halves(const float* terms, std::size_t count) {
-    return count == 1 ? terms[0] : halves(terms, count / 2) + halves(terms + count / 2, count - count / 2);
+    return count == 1 ? terms[0]
+                      : halves(terms, count / 2) + halves(terms + count / 2, count - count / 2);
 }
 
 /// In 1024 chunks, as a device's invocations would, and then those.
@@ -124,7 +126,8 @@ void check_sums(std::size_t count) {
          [](const auto& x) { return double(halves(x.data(), x.size())); }},
         {"compensated (Kahan), ordered", "density estimates, film", false, 2e-7,
          [](const auto& x) { return double(kahan(x)); }},
-        {"compensated (Neumaier), ordered", "", false, 0, [](const auto& x) { return double(neumaier(x)); }},
+        {"compensated (Neumaier), ordered", "", false, 0,
+         [](const auto& x) { return double(neumaier(x)); }},
         {"fixed point, mean / 2^18, 64 bits", "flux of a pass", true, 1e-7,
          [mean](const auto& x) { return fixed_point(x, mean, 0x1p-18); }},
         {"double", "", false, 1e-12, [](const auto& x) { return in_double(x); }},
@@ -136,8 +139,9 @@ void check_sums(std::size_t count) {
         for (int i = 0; i < 3; ++i) {
             const auto start = std::chrono::steady_clock::now();
             value = sum.add(fluxes);
-            best = std::min(best,
-                            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            best = std::min(
+                best,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         }
         const double error = std::abs(value - truth) / truth;
         const double other_way = sum.add(reversed);
@@ -159,9 +163,7 @@ void check_sums(std::size_t count) {
     EXPECT_GT(std::abs(double(naive(fluxes)) - truth) / truth, 1e-6);
 }
 
-TEST(Sums, OfTenMillionPhotons) {
-    check_sums(10'000'000);
-}
+TEST(Sums, OfTenMillionPhotons) { check_sums(10'000'000); }
 
 } // namespace
 } // namespace argand::testing

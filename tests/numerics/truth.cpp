@@ -8,7 +8,8 @@
 namespace argand::truth {
 
 Outputs evaluate(unsigned function, const Inputs& inputs) {
-    return std::bit_cast<Outputs>(oracle::evaluate(function, std::bit_cast<oracle::Arguments>(inputs)));
+    return std::bit_cast<Outputs>(
+        oracle::evaluate(function, std::bit_cast<oracle::Arguments>(inputs)));
 }
 
 } // namespace argand::truth

@@ -29,11 +29,12 @@ Kept expected_kept(const Elements& flags, const Elements& values, std::size_t co
 
 class Compact : public VariantTest {
 protected:
-    static Kept compacted(Device& device, const Elements& flags, const Elements& values, const Count& count) {
+    static Kept compacted(Device& device, const Elements& flags, const Elements& values,
+                          const Count& count) {
         const Buffer out = upload(device, "out", Elements(values.size(), untouched));
         const Buffer counts = upload(device, "counts", Elements{untouched, untouched});
-        compact(device, upload(device, "flags", flags), upload(device, "values", values), out, counts, 1,
-                count);
+        compact(device, upload(device, "flags", flags), upload(device, "values", values), out,
+                counts, 1, count);
         const Elements totals = download<std::uint32_t>(device, counts, 2);
         EXPECT_EQ(totals[0], untouched);
         return {download<std::uint32_t>(device, out, values.size()), totals[1]};
@@ -80,7 +81,8 @@ TEST_P(Compact, CountFromTheDevice) {
 TEST_P(Compact, SlowTenMillion) {
     const Elements values = random_elements(large_size, 0, 2);
     const Elements flags = random_elements(large_size, 2);
-    EXPECT_EQ(compacted(open_variant(), flags, values, large_size), expected_kept(flags, values, large_size));
+    EXPECT_EQ(compacted(open_variant(), flags, values, large_size),
+              expected_kept(flags, values, large_size));
 }
 
 INSTANTIATE_VARIANTS(Compact);

@@ -6,12 +6,13 @@
 
 namespace argand {
 
-/// Sizes at which divisions into fours, lanes, tiles and parts have their edges: 0, 1, around powers of two,
-/// primes.
+/// Sizes at which divisions into fours, lanes, tiles and parts have their edges: 0, 1, around
+/// powers of two, primes.
 inline std::vector<std::uint32_t> sizes() {
-    return {0,    1,    2,    3,     4,     5,     7,     8,      9,      31,     63,     64,      65,
-            127,  128,  129,  511,   512,   513,   1009,  2047,   2048,   2049,   4095,   4096,    4097,
-            8191, 8192, 8193, 16385, 65535, 65536, 65537, 104729, 131073, 262143, 262145, 1000003, 1048576};
+    return {0,     1,     2,     3,      4,      5,      7,      8,       9,      31,
+            63,    64,    65,    127,    128,    129,    511,    512,     513,    1009,
+            2047,  2048,  2049,  4095,   4096,   4097,   8191,   8192,    8193,   16385,
+            65535, 65536, 65537, 104729, 131073, 262143, 262145, 1000003, 1048576};
 }
 
 inline constexpr std::uint32_t large_size = 10'000'000;

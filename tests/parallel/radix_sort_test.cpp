@@ -49,20 +49,22 @@ Elements counted(std::size_t n) {
     return values;
 }
 
-/// Where the elements of a stable sort by the keys' lowest bits come from; the first `count` are sorted.
+/// Where the elements of a stable sort by the keys' lowest bits come from; the first `count` are
+/// sorted.
 template <class Key>
 Elements sorted_order(const std::vector<Key>& keys, std::size_t count, std::uint32_t bits) {
     const Key mask = bits < 8 * sizeof(Key) ? (Key(1) << bits) - 1 : ~Key(0);
     Elements order = counted(keys.size());
-    std::stable_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
-                     [&](std::uint32_t a, std::uint32_t b) { return (keys[a] & mask) < (keys[b] & mask); });
+    std::stable_sort(
+        order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
+        [&](std::uint32_t a, std::uint32_t b) { return (keys[a] & mask) < (keys[b] & mask); });
     return order;
 }
 
-template <class T>
-std::vector<T> gathered(const std::vector<T>& elements, const Elements& order) {
+template <class T> std::vector<T> gathered(const std::vector<T>& elements, const Elements& order) {
     std::vector<T> result(order.size());
-    std::transform(order.begin(), order.end(), result.begin(), [&](std::uint32_t i) { return elements[i]; });
+    std::transform(order.begin(), order.end(), result.begin(),
+                   [&](std::uint32_t i) { return elements[i]; });
     return result;
 }
 
@@ -74,7 +76,8 @@ void expect_sorts(Device& device, const Elements& keys, std::size_t n, const Cou
     const Elements order = sorted_order(keys, n, bits);
     const Buffer alone = upload(device, "keys", keys);
     radix_sort(device, alone, count, bits);
-    EXPECT_TRUE(download<std::uint32_t>(device, alone, keys.size()) == gathered(keys, order)) << "keys alone";
+    EXPECT_TRUE(download<std::uint32_t>(device, alone, keys.size()) == gathered(keys, order))
+        << "keys alone";
 
     const Buffer paired = upload(device, "paired keys", keys);
     const Buffer values = upload(device, "values", counted(keys.size()));
@@ -90,7 +93,8 @@ void expect_sorts64(Device& device, const Keys64& keys, std::size_t n, const Cou
     const Buffer sorted_keys = upload(device, "keys", keys);
     const Buffer values = upload(device, "values", counted(keys.size()));
     radix_sort_pairs64(device, sorted_keys, values, count, bits);
-    EXPECT_TRUE(download<std::uint64_t>(device, sorted_keys, keys.size()) == gathered(keys, order)) << "keys";
+    EXPECT_TRUE(download<std::uint64_t>(device, sorted_keys, keys.size()) == gathered(keys, order))
+        << "keys";
     EXPECT_TRUE(download<std::uint32_t>(device, values, keys.size()) == order) << "values";
 }
 
@@ -139,7 +143,8 @@ TEST_P(RadixSort, CountFromTheDeviceLeavesTheRestAlone) {
     for (const std::uint32_t bound : {2u, 7u, 40001u}) {
         for (const std::uint32_t n : {0u, 1u, 2u, bound / 3, bound - 1, bound, bound + 1}) {
             for (const std::uint32_t bits : {32u, 24u}) {
-                SCOPED_TRACE(testing::Message() << n << " of at most " << bound << ", " << bits << " bits");
+                SCOPED_TRACE(testing::Message()
+                             << n << " of at most " << bound << ", " << bits << " bits");
                 const Count count(upload(device, "counts", Elements{n}), 0, bound);
                 expect_sorts(device, random_elements(bound), std::min(n, bound), count, bits);
                 expect_sorts64(device, random_keys64(bound), std::min(n, bound), count, bits);

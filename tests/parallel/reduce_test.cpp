@@ -53,7 +53,8 @@ TEST_P(Reduce, CountFromTheDevice) {
     for (const std::uint32_t count : {0u, 1u, 5u, 4096u, bound - 1, bound, bound + 1}) {
         SCOPED_TRACE(count);
         const Buffer counts = upload(device, "counts", Elements{0, count});
-        expect_reductions(device, random_elements(bound), std::min(count, bound), Count(counts, 1, bound));
+        expect_reductions(device, random_elements(bound), std::min(count, bound),
+                          Count(counts, 1, bound));
     }
 }
 

@@ -29,9 +29,11 @@ protected:
         const Buffer from = upload(device, "in", in);
         const Buffer to = upload(device, "out", Elements(in.size(), untouched));
         exclusive_scan(device, from, to, in.size());
-        EXPECT_EQ(download<std::uint32_t>(device, to, in.size()), expected_scan(in, in.size(), false));
+        EXPECT_EQ(download<std::uint32_t>(device, to, in.size()),
+                  expected_scan(in, in.size(), false));
         inclusive_scan(device, from, to, in.size());
-        EXPECT_EQ(download<std::uint32_t>(device, to, in.size()), expected_scan(in, in.size(), true));
+        EXPECT_EQ(download<std::uint32_t>(device, to, in.size()),
+                  expected_scan(in, in.size(), true));
         EXPECT_EQ(download<std::uint32_t>(device, from, in.size()), in);
     }
 };
@@ -44,9 +46,7 @@ TEST_P(Scan, EqualsTheStandardLibraryForAllSizes) {
     }
 }
 
-TEST_P(Scan, SlowTenMillion) {
-    expect_scans(open_variant(), random_elements(large_size));
-}
+TEST_P(Scan, SlowTenMillion) { expect_scans(open_variant(), random_elements(large_size)); }
 
 TEST_P(Scan, InPlace) {
     Device& device = open_variant();

@@ -23,10 +23,11 @@ Elements expected_scan(const Elements& in, const Elements& heads, std::size_t co
 
 class SegmentedScan : public VariantTest {
 protected:
-    static void expect_scan(Device& device, const Elements& in, const Elements& heads, std::size_t n,
-                            const Count& count) {
+    static void expect_scan(Device& device, const Elements& in, const Elements& heads,
+                            std::size_t n, const Count& count) {
         const Buffer out = upload(device, "out", Elements(in.size(), untouched));
-        segmented_scan(device, upload(device, "in", in), upload(device, "heads", heads), out, count);
+        segmented_scan(device, upload(device, "in", in), upload(device, "heads", heads), out,
+                       count);
         EXPECT_TRUE(download<std::uint32_t>(device, out, in.size()) == expected_scan(in, heads, n));
     }
 };
@@ -84,8 +85,8 @@ TEST_P(SegmentedScan, CountFromTheDeviceLeavesTheRestAlone) {
 }
 
 TEST_P(SegmentedScan, SlowTenMillion) {
-    expect_scan(open_variant(), random_elements(large_size), random_elements(large_size, 2, 2), large_size,
-                large_size);
+    expect_scan(open_variant(), random_elements(large_size), random_elements(large_size, 2, 2),
+                large_size, large_size);
 }
 
 INSTANTIATE_VARIANTS(SegmentedScan);

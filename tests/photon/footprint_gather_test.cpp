@@ -1,5 +1,5 @@
-// Density estimation over footprints made by hand, against the sum in double precision over what the map
-// keeps.
+// Density estimation over footprints made by hand, against the sum in double precision over what
+// the map keeps.
 #include "photon/map_queries.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
@@ -33,8 +33,8 @@ struct GatherSettings {
     std::uint64_t area_samples = 0;
 };
 
-/// Semi-axes are the differentials as they are, but for photons that are not caustic, whose lengths are
-/// compressed.
+/// Semi-axes are the differentials as they are, but for photons that are not caustic, whose lengths
+/// are compressed.
 FootprintScale plain_scale() {
     FootprintScale s{};
     s.spacing = s.diffuse = s.caustic = 1;
@@ -59,17 +59,19 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
         offsets.emplace_back(u.x, u.y, v.x, v.y);
         stored += splat.photon.normal != no_photon ? 1 : 0;
     }
-    const PhotonMap map = build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),
-                                           {.area_samples = settings.area_samples,
-                                            .leaf_size = settings.leaf_size,
-                                            .footprints = plain_scale()});
+    const PhotonMap map =
+        build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),
+                         {.area_samples = settings.area_samples,
+                          .leaf_size = settings.leaf_size,
+                          .footprints = plain_scale()});
 
     Sums result;
-    result.sums = answers(device, queries, settings.careful, map_whole, result.finished,
-                          [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                              gather_footprints(device, scene, map, target, traversal, settings.uniform_kernel, asking,
-                                                settings.budget);
-                          });
+    result.sums =
+        answers(device, queries, settings.careful, map_whole, result.finished,
+                [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
+                    gather_footprints(device, scene, map, target, traversal,
+                                      settings.uniform_kernel, asking, settings.budget);
+                });
     const std::size_t kept = stored + map.area_samples;
     result.photons = download<PhotonRecord>(device, map.photons, kept);
     result.footprints = download<glm::uvec4>(device, map.footprints, kept);
@@ -83,8 +85,8 @@ struct Weight {
     bool uncertain = false; ///< so near to the rim that rounding decides
 };
 
-/// The ellipsoid |A x| <= 1, its axes the columns of the inverse M; a plane of unit normal m through its
-/// centre cuts out an ellipse of area pi |det M| / |Mᵀ m|.
+/// The ellipsoid |A x| <= 1, its axes the columns of the inverse M; a plane of unit normal m
+/// through its centre cuts out an ellipse of area pi |det M| / |Mᵀ m|.
 Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const Query& query,
                  bool uniform_kernel) {
     const glm::dvec3 a(unpack_dual(footprint.x, footprint.y));
@@ -98,7 +100,8 @@ Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const 
     const glm::dvec3 offset = glm::dvec3(query.position) - glm::dvec3(photon.x, photon.y, photon.z);
     const glm::dvec3 x = inverse_axes * offset;
     const double q = glm::dot(x, x);
-    const double cut = double(pi) * std::abs(glm::determinant(axes)) / glm::length(glm::transpose(axes) * m);
+    const double cut =
+        double(pi) * std::abs(glm::determinant(axes)) / glm::length(glm::transpose(axes) * m);
     const double kernel = uniform_kernel ? 1 : 2 * (1 - q);
     Weight weight;
     weight.center = (uniform_kernel ? 1 : 2) / cut;
@@ -107,7 +110,8 @@ Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const 
     return weight;
 }
 
-void expect_exact_sums(const Sums& gathered, const std::vector<Query>& queries, bool uniform_kernel = false) {
+void expect_exact_sums(const Sums& gathered, const std::vector<Query>& queries,
+                       bool uniform_kernel = false) {
     ASSERT_TRUE(gathered.finished);
     for (std::size_t k = 0; k < queries.size(); ++k) {
         Gathered sum;
@@ -130,7 +134,8 @@ void expect_exact_sums(const Sums& gathered, const std::vector<Query>& queries, 
             EXPECT_NEAR(gathered.sums[k].indirect[channel], sum.indirect[channel],
                         tolerance.indirect[channel])
                 << k;
-            EXPECT_NEAR(gathered.sums[k].caustic[channel], sum.caustic[channel], tolerance.caustic[channel])
+            EXPECT_NEAR(gathered.sums[k].caustic[channel], sum.caustic[channel],
+                        tolerance.caustic[channel])
                 << k;
         }
     }
@@ -140,7 +145,9 @@ class GatherFootprints : public RenderTest {
 protected:
     GatherFootprints() : random_(11) {}
 
-    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+    float uniform(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random_);
+    }
 
     /// A skewed footprint of about this size.
     Splat splat(glm::vec3 position, float size, bool caustic = true, glm::vec3 normal = {0, 1, 0}) {
@@ -148,12 +155,16 @@ protected:
         const float turn = uniform(0, 6.28f);
         const float skew = turn + uniform(0.5f, 2.5f);
         Splat s;
-        s.photon = {position.x,       position.y,       position.z,       pack_photon_normal(normal, caustic),
-                    uniform(0.1f, 1), uniform(0.1f, 1), uniform(0.1f, 1), pack_unit({0, 1, 0})};
+        s.photon = {position.x,       position.y,
+                    position.z,       pack_photon_normal(normal, caustic),
+                    uniform(0.1f, 1), uniform(0.1f, 1),
+                    uniform(0.1f, 1), pack_unit({0, 1, 0})};
         s.u = (f.x * std::cos(turn) + f.y * std::sin(turn)) * (size * uniform(0.3f, 3));
         s.v = (f.x * std::cos(skew) + f.y * std::sin(skew)) * size;
         // What compresses footprints of photons that are not caustic is undone.
-        const auto compressible = [](glm::vec3 x) { return x * float(std::pow(glm::length(x), 3)); };
+        const auto compressible = [](glm::vec3 x) {
+            return x * float(std::pow(glm::length(x), 3));
+        };
         if (!caustic) {
             s.u = compressible(s.u);
             s.v = compressible(s.v);
@@ -161,13 +172,15 @@ protected:
         return s;
     }
 
-    /// On a bumpy floor, so that tangent planes are tilted against one another and offsets leave them.
+    /// On a bumpy floor, so that tangent planes are tilted against one another and offsets leave
+    /// them.
     std::vector<Splat> bumpy(std::size_t count, float size) {
         std::vector<Splat> splats;
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::vec3 normal = glm::normalize(glm::vec3(uniform(-0.4f, 0.4f), 1, uniform(-0.4f, 0.4f)));
-            splats.push_back(
-                splat({uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, size, i % 3 == 0, normal));
+            const glm::vec3 normal =
+                glm::normalize(glm::vec3(uniform(-0.4f, 0.4f), 1, uniform(-0.4f, 0.4f)));
+            splats.push_back(splat({uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, size,
+                                   i % 3 == 0, normal));
         }
         return splats;
     }
@@ -175,7 +188,8 @@ protected:
     std::vector<Query> bumpy_queries(std::size_t count) {
         std::vector<Query> queries;
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::vec3 normal = glm::normalize(glm::vec3(uniform(-0.2f, 0.2f), 1, uniform(-0.2f, 0.2f)));
+            const glm::vec3 normal =
+                glm::normalize(glm::vec3(uniform(-0.2f, 0.2f), 1, uniform(-0.2f, 0.2f)));
             queries.push_back({{uniform(-1, 1), uniform(-0.02f, 0.02f), uniform(-1, 1)}, normal});
         }
         return queries;
@@ -189,7 +203,8 @@ TEST_F(GatherFootprints, IsTheSumOverFootprintsThatReachTheQuery) {
     const std::vector<Query> queries = bumpy_queries(67);
     for (const bool uniform_kernel : {false, true}) {
         for (const std::uint32_t leaf_size : {0u, 1u, 2u, 16u, most_photons_a_leaf}) {
-            SCOPED_TRACE(::testing::Message() << "leaves of " << leaf_size << ", uniform " << uniform_kernel);
+            SCOPED_TRACE(::testing::Message()
+                         << "leaves of " << leaf_size << ", uniform " << uniform_kernel);
             const GatherSettings settings{
                 .leaf_size = leaf_size, .uniform_kernel = uniform_kernel, .careful = false};
             expect_exact_sums(gather(device(), splats, queries, settings), queries, uniform_kernel);
@@ -244,14 +259,17 @@ TEST_F(GatherFootprints, InterruptedQueriesGiveTheSameBits) {
     const std::vector<Splat> splats = bumpy(1000, 0.2f);
     const std::vector<Query> queries = bumpy_queries(30);
     for (const std::uint32_t leaf_size : {1u, 16u, most_photons_a_leaf}) {
-        const Sums whole = gather(device(), splats, queries, {.leaf_size = leaf_size, .budget = 60'000});
+        const Sums whole =
+            gather(device(), splats, queries, {.leaf_size = leaf_size, .budget = 60'000});
         for (const std::uint32_t budget : {3u, 100u, 1001u}) {
-            const Sums parts = gather(device(), splats, queries, {.leaf_size = leaf_size, .budget = budget});
+            const Sums parts =
+                gather(device(), splats, queries, {.leaf_size = leaf_size, .budget = budget});
             EXPECT_EQ(parts.sums, whole.sums) << leaf_size << ", " << budget;
         }
     }
     const std::vector<Splat> few(splats.begin(), splats.begin() + 60);
-    EXPECT_EQ(gather(device(), few, queries, {.budget = 1}).sums, gather(device(), few, queries).sums);
+    EXPECT_EQ(gather(device(), few, queries, {.budget = 1}).sums,
+              gather(device(), few, queries).sums);
 }
 
 TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
@@ -285,13 +303,14 @@ TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
 }
 
 TEST_F(GatherFootprints, EdgesOfSurfacesLoseNothing) {
-    // Photons spread evenly, not one of them caustic: the estimate is the same in the middle, at an edge, in
-    // a corner.
+    // Photons spread evenly, not one of them caustic: the estimate is the same in the middle, at an
+    // edge, in a corner.
     constexpr int side = 200;
     std::vector<Splat> splats;
     for (int i = 0; i < side * side; ++i) {
-        Splat s = splat({(2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1},
-                        1, false);
+        Splat s = splat(
+            {(2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1},
+            1, false);
         s.u = {std::pow(0.3f, 4.0f), 0, 0};
         s.v = {0, 0, std::pow(0.3f, 4.0f)};
         s.photon.flux_r = s.photon.flux_g = s.photon.flux_b = 4.0f / (side * side);

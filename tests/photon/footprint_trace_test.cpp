@@ -1,4 +1,5 @@
-// Footprints of photons that the device has traced: how they cover surfaces, and what is estimated from them.
+// Footprints of photons that the device has traced: how they cover surfaces, and what is estimated
+// from them.
 #include "photon/map_queries.hpp"
 #include "plan/radius.hpp"
 #include "plan/smoothing.hpp"
@@ -23,7 +24,8 @@ class FootprintTrace : public RenderTest {
 protected:
     std::vector<Landed> trace(const Scene& scene, std::uint32_t bounces, std::uint64_t count,
                               std::uint32_t reemission = REEMIT_COSINE) {
-        const DeviceScene on_device = upload_scene(device(), scene, make_plan(scene, {.follow_roughness = 0.25f}));
+        const DeviceScene on_device =
+            upload_scene(device(), scene, make_plan(scene, {.follow_roughness = 0.25f}));
         PhotonWorkspace workspace = make_photon_workspace(device(), count, true);
         workspace.reemission = reemission;
         const auto stored = trace_photons(device(), on_device, workspace,
@@ -48,8 +50,8 @@ protected:
     }
 };
 
-// Photons are stored from their second hit on, so a mirror comes first: where every photon has come by it,
-// footprints are those of the light's image, and the mean of area × density is pi.
+// Photons are stored from their second hit on, so a mirror comes first: where every photon has come
+// by it, footprints are those of the light's image, and the mean of area × density is pi.
 TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
     const std::pair<const char*, Light> lights[] = {
         {"point", point_light({0.1f, 1, 0.2f}, glm::vec3(1))},
@@ -64,8 +66,8 @@ TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
                      add_material(scene, lambertian(glm::vec3(0.5f))));
             scene.lights = {light};
             const std::vector<Landed> landed = trace(scene, 1, 600'000);
-            // The mean over photons is the integral of area × density over the number of photons: so is the
-            // sum of areas over a window's area.
+            // The mean over photons is the integral of area × density over the number of photons:
+            // so is the sum of areas over a window's area.
             double sum = 0;
             int count = 0;
             for (const Landed& photon : landed) {
@@ -126,7 +128,8 @@ Spread spread_in_box(const std::vector<Landed>& landed) {
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const auto place = [](float x) { return std::clamp(static_cast<int>((x + 1) * 4), 0, 7); };
         const int face = 2 * axis + (p[axis] > 0 ? 1 : 0);
-        return static_cast<std::size_t>((face * 8 + place(p[(axis + 1) % 3])) * 8 + place(p[(axis + 2) % 3]));
+        return static_cast<std::size_t>((face * 8 + place(p[(axis + 1) % 3])) * 8 +
+                                        place(p[(axis + 2) % 3]));
     };
     std::vector<int> counts(6 * 64, 0);
     for (const Landed& photon : landed) {
@@ -143,15 +146,16 @@ Spread spread_in_box(const std::vector<Landed>& landed) {
     return {sum, products[n / 4], products[n / 2], products[3 * n / 4]};
 }
 
-// Deeper footprints only approximate pi: they know nothing of photons whose paths have crossed. Independent
-// spreads add 1 with each bounce; virtual origins multiply, and the paper's spacing is too wide for what is
-// sampled by cosine.
+// Deeper footprints only approximate pi: they know nothing of photons whose paths have crossed.
+// Independent spreads add 1 with each bounce; virtual origins multiply, and the paper's spacing is
+// too wide for what is sampled by cosine.
 TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
     Scene box = box_scene(lambertian(glm::vec3(0.6f)));
     box.lights.push_back(point_light({0.2f, 0.4f, -0.1f}, glm::vec3(1)));
     constexpr std::uint64_t photons = 100'000;
     constexpr std::uint32_t depths = 3;
-    // Photons of one batch are stored bounce after bounce, and go the same ways whatever their limit.
+    // Photons of one batch are stored bounce after bounce, and go the same ways whatever their
+    // limit.
     std::vector<std::ptrdiff_t> ends{0};
     for (std::uint32_t depth = 1; depth <= depths; ++depth) {
         ends.push_back(static_cast<std::ptrdiff_t>(trace(box, depth, photons).size()));
@@ -160,11 +164,13 @@ TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
         const std::vector<Landed> all = trace(box, depths, photons, mode);
         std::vector<Spread> result;
         for (std::size_t depth = 1; depth <= depths; ++depth) {
-            result.push_back(spread_in_box({all.begin() + ends[depth - 1], all.begin() + ends[depth]}));
+            result.push_back(
+                spread_in_box({all.begin() + ends[depth - 1], all.begin() + ends[depth]}));
             const Spread& s = result.back();
             RecordProperty(fmt::format("{}_{}", name, depth),
-                           fmt::format("mean {:.2f} pi, quartiles {:.2f} {:.2f} {:.2f}", s.mean / pi,
-                                       s.quartile / pi, s.median / pi, s.upper_quartile / pi));
+                           fmt::format("mean {:.2f} pi, quartiles {:.2f} {:.2f} {:.2f}",
+                                       s.mean / pi, s.quartile / pi, s.median / pi,
+                                       s.upper_quartile / pi));
         }
         return result;
     };
@@ -181,21 +187,23 @@ TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
     }
 }
 
-// The flux that is stored is the integral of the estimate over all surfaces; without samples of the surfaces'
-// area, part of it is lost off their edges.
+// The flux that is stored is the integral of the estimate over all surfaces; without samples of the
+// surfaces' area, part of it is lost off their edges.
 TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     const double albedo = 0.5;
     Scene box = box_scene(lambertian(glm::vec3(float(albedo))));
     box.lights.push_back(point_light({0.2f, 0.4f, -0.1f}, glm::vec3(1)));
-    const DeviceScene scene = upload_scene(device(), box, make_plan(box, {.follow_roughness = 0.25f}));
+    const DeviceScene scene =
+        upload_scene(device(), box, make_plan(box, {.follow_roughness = 0.25f}));
     constexpr std::uint64_t count = 50'000;
     PhotonWorkspace workspace = make_photon_workspace(device(), count, true);
-    const auto stored =
-        trace_photons(device(), scene, workspace, {.seed = 5, .count = count, .bounces = 0xffff}, 1e-9f);
+    const auto stored = trace_photons(device(), scene, workspace,
+                                      {.seed = 5, .count = count, .bounces = 0xffff}, 1e-9f);
     ASSERT_TRUE(stored.has_value());
 
     double flux = 0;
-    for (const PhotonRecord& p : download<PhotonRecord>(device(), workspace.photons, stored->slots)) {
+    for (const PhotonRecord& p :
+         download<PhotonRecord>(device(), workspace.photons, stored->slots)) {
         flux += p.normal != no_photon ? double(p.flux_g) : 0;
     }
     std::mt19937 random(7);
@@ -216,8 +224,8 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
         }
     }
     const auto scale_for = [&](float smoothing, float largest) {
-        return make_footprint_scale(float(count), float(count), scene.record.radius, smoothing, 5, largest,
-                                    0.3f, 1.0f / 6);
+        return make_footprint_scale(float(count), float(count), scene.record.radius, smoothing, 5,
+                                    largest, 0.3f, 1.0f / 6);
     };
     const auto photons = download<PhotonRecord>(device(), workspace.photons, stored->slots);
     const auto offsets = download<glm::uvec4>(device(), workspace.offsets, stored->slots);
@@ -225,9 +233,9 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     ASSERT_GT(smoothing, 0);
 
     const auto integral = [&](std::uint64_t area_samples) {
-        const PhotonMap map =
-            build_photon_map(device(), scene, workspace, *stored,
-                             {.area_samples = area_samples, .footprints = scale_for(float(smoothing), 0.3f)});
+        const PhotonMap map = build_photon_map(
+            device(), scene, workspace, *stored,
+            {.area_samples = area_samples, .footprints = scale_for(float(smoothing), 0.3f)});
         EXPECT_EQ(map.area_samples, area_samples);
         bool finished = false;
         double sum = 0;
@@ -249,29 +257,32 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     RecordProperty("lost_off_edges", std::to_string(1 - plain / flux));
 }
 
-// Lengths of the scene cancel: a millimetre's model is the same picture as a kilometre's, but for photons
-// that rounding sends another way.
+// Lengths of the scene cancel: a millimetre's model is the same picture as a kilometre's, but for
+// photons that rounding sends another way.
 TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
     RenderSettings settings = settings_of("footprints", 32, 4);
-    settings.query_cell = 0;    // cells are entered at random, by the bits of positions
+    settings.query_cell = 0; // cells are entered at random, by the bits of positions
     settings.photons = 20'000;
     const Scene room = room_scene();
     const RenderResult expected = render(room, settings);
     for (const float factor : {1e-3f, 1e3f}) {
         const RenderResult other = render(scaled(room, factor), settings);
         EXPECT_RELATIVE(other.statistics.smoothing, expected.statistics.smoothing, 0.01);
-        EXPECT_RELATIVE(other.statistics.mean_footprints, expected.statistics.mean_footprints, 0.02);
-        EXPECT_LT(compare(layer(other, "indirect"), layer(expected, "indirect")).rel_mse, 1e-4) << factor;
+        EXPECT_RELATIVE(other.statistics.mean_footprints, expected.statistics.mean_footprints,
+                        0.02);
+        EXPECT_LT(compare(layer(other, "indirect"), layer(expected, "indirect")).rel_mse, 1e-4)
+            << factor;
     }
 }
 
-// Figure 4 of Fabianowski and Dingliana 2009: from one map, a caustic that is sharp and other light that is smooth.
+// Figure 4 of Fabianowski and Dingliana 2009: from one map, a caustic that is sharp and other light
+// that is smooth.
 TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
     const Scene ring = load_asset("ring.glb");
     RenderSettings settings = settings_of("photons", 64, 8);
     settings.photons = 4'000'000;
     settings.photons_per_pass = settings.photons;
-    settings.radius = 0.02;     // an eightieth of the ring's
+    settings.radius = 0.02; // an eightieth of the ring's
     const RenderResult truth = render(ring, settings);
     settings.radius.reset();
     settings.photons = 400'000;
@@ -294,7 +305,8 @@ TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
         }
         return sum / static_cast<double>(image.pixels.size()) / mean(image).g;
     };
-    EXPECT_LT(roughness(layer(footprints, "indirect")), 0.7 * roughness(layer(footprints, "caustic")));
+    EXPECT_LT(roughness(layer(footprints, "indirect")),
+              0.7 * roughness(layer(footprints, "caustic")));
 }
 
 // Each is another estimate of the same light.

@@ -22,7 +22,8 @@ struct Gathered {
 };
 
 /// As if these had been traced.
-inline StoredPhotons store(Device& device, PhotonWorkspace& workspace, const std::vector<PhotonRecord>& photons,
+inline StoredPhotons store(Device& device, PhotonWorkspace& workspace,
+                           const std::vector<PhotonRecord>& photons,
                            const std::vector<glm::uvec4>& offsets = {}) {
     device.upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
     device.upload(workspace.offsets, 0, std::as_bytes(std::span(offsets)));
@@ -33,18 +34,20 @@ inline StoredPhotons store(Device& device, PhotonWorkspace& workspace, const std
 }
 
 /// Queries of what the scene's first material scatters.
-inline GatherTarget target_of(Device& device, const std::vector<Query>& queries, std::uint32_t part = map_whole) {
+inline GatherTarget target_of(Device& device, const std::vector<Query>& queries,
+                              std::uint32_t part = map_whole) {
     std::vector<std::uint32_t> slots;
     std::vector<QueryRecord> records;
     for (const Query& q : queries) {
         const std::uint32_t normal = pack_unit(q.normal);
         slots.push_back(static_cast<std::uint32_t>(slots.size()));
-        records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, normal, normal, normal, LOBE_DIFFUSE,
-                           query_front});
+        records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, normal, normal,
+                           normal, LOBE_DIFFUSE, query_front});
     }
     const std::size_t n = queries.size();
     return {.slots = upload(device, "slots", slots),
-            .counts = upload(device, "counts", std::vector<std::uint32_t>{static_cast<std::uint32_t>(n), 0, 0, 0}),
+            .counts = upload(device, "counts",
+                             std::vector<std::uint32_t>{static_cast<std::uint32_t>(n), 0, 0, 0}),
             .queries = upload(device, "queries", records),
             .estimates = upload(device, "estimates", std::vector<EstimateRecord>(n)),
             .partial = device.allocate("partial", n * sizeof(GatherRecord)),
@@ -53,8 +56,8 @@ inline GatherTarget target_of(Device& device, const std::vector<Query>& queries,
 
 /// The answers, after `gather` has written them; finished: whether no query ran out of its budget.
 template <class Gather>
-std::vector<Gathered> answers(Device& device, const std::vector<Query>& queries, bool careful, std::uint32_t part,
-                              bool& finished, const Gather& gather) {
+std::vector<Gathered> answers(Device& device, const std::vector<Query>& queries, bool careful,
+                              std::uint32_t part, bool& finished, const Gather& gather) {
     const std::size_t n = queries.size();
     const GatherTarget target = target_of(device, queries, part);
     Traversal traversal = make_traversal(device, n);
@@ -64,7 +67,8 @@ std::vector<Gathered> answers(Device& device, const std::vector<Query>& queries,
     finished = download<std::uint32_t>(device, traversal.unfinished, 1)[0] == 0;
     std::vector<Gathered> result;
     for (const EstimateRecord& e : download<EstimateRecord>(device, target.estimates, n)) {
-        result.push_back({{e.indirect_r, e.indirect_g, e.indirect_b}, {e.caustic_r, e.caustic_g, e.caustic_b}});
+        result.push_back(
+            {{e.indirect_r, e.indirect_g, e.indirect_b}, {e.caustic_r, e.caustic_g, e.caustic_b}});
     }
     return result;
 }

@@ -16,10 +16,10 @@ struct Leaf {
     bool operator==(const Leaf&) const = default;
 };
 
-/// Leaves of at most leaf_size photons of the tree that splits photons first..last at the highest bit in which their
-/// codes differ, or their places if the codes are equal.
-void split(const std::vector<std::uint64_t>& codes, std::uint32_t first, std::uint32_t last, std::uint32_t leaf_size,
-           std::vector<Leaf>& leaves) {
+/// Leaves of at most leaf_size photons of the tree that splits photons first..last at the highest
+/// bit in which their codes differ, or their places if the codes are equal.
+void split(const std::vector<std::uint64_t>& codes, std::uint32_t first, std::uint32_t last,
+           std::uint32_t leaf_size, std::vector<Leaf>& leaves) {
     if (last - first < leaf_size) {
         leaves.push_back({first, last - first + 1});
         return;
@@ -45,7 +45,8 @@ DeviceScene unit_ball(Device& device) {
 
 using PhotonMapTree = VariantTest;
 
-std::vector<std::uint64_t> codes_of(Device& device, const PhotonWorkspace& workspace, std::size_t count, bool wide) {
+std::vector<std::uint64_t> codes_of(Device& device, const PhotonWorkspace& workspace,
+                                    std::size_t count, bool wide) {
     const auto words = download<std::uint32_t>(device, workspace.codes, wide ? 2 * count : count);
     std::vector<std::uint64_t> codes;
     for (std::size_t i = 0; i < count; ++i) {
@@ -81,13 +82,14 @@ TEST_P(PhotonMapTree, LeavesAreTheLargestSubtreesBelowTheThreshold) {
             std::vector<std::uint32_t> counters(counter_count, 0);
             counters[counter_stored_slots] = static_cast<std::uint32_t>(count);
             device.upload(workspace.counters, 0, std::as_bytes(std::span(counters)));
-            const PhotonMap map =
-                build_photon_map(device, scene, workspace, {count, stored}, {.leaf_size = leaf_size, .wide_codes = wide});
+            const PhotonMap map = build_photon_map(device, scene, workspace, {count, stored},
+                                                   {.leaf_size = leaf_size, .wide_codes = wide});
 
             counters = download<std::uint32_t>(device, map.counters, counter_count);
             ASSERT_EQ(counters[counter_stored], stored);
             std::vector<Leaf> found;
-            for (const std::uint32_t leaf : download<std::uint32_t>(device, map.lbvh.order, counters[counter_leaves])) {
+            for (const std::uint32_t leaf :
+                 download<std::uint32_t>(device, map.lbvh.order, counters[counter_leaves])) {
                 found.push_back({leaf & leaf_first_mask, (leaf >> leaf_first_bits) + 1});
             }
             const std::vector<std::uint64_t> codes = codes_of(device, workspace, stored, wide);

@@ -1,4 +1,5 @@
-// The voxel volume heuristic's trees, and that a map walked through them holds what the linear build's does.
+// The voxel volume heuristic's trees, and that a map walked through them holds what the linear
+// build's does.
 #include "photon/map_queries.hpp"
 #include "photon/vvh.hpp"
 #include "shared/footprint.h"
@@ -18,9 +19,12 @@ std::vector<BoxRecord> random_boxes(std::size_t count, std::uint32_t seed) {
     std::uniform_real_distribution<float> coordinate(-1, 1);
     std::vector<BoxRecord> boxes;
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3 p = i % 5 == 0 ? glm::vec3(0.5f) : glm::vec3(coordinate(random), coordinate(random), coordinate(random));
+        const glm::vec3 p =
+            i % 5 == 0 ? glm::vec3(0.5f)
+                       : glm::vec3(coordinate(random), coordinate(random), coordinate(random));
         const float size = 0.05f + 0.04f * coordinate(random);
-        boxes.push_back({p.x - size, p.y - size, p.z - size, 0, p.x + size, p.y + size, p.z + size, 0});
+        boxes.push_back(
+            {p.x - size, p.y - size, p.z - size, 0, p.x + size, p.y + size, p.z + size, 0});
     }
     return boxes;
 }
@@ -46,8 +50,8 @@ Walked walk(const LaidOutTree& tree) {
 }
 
 bool holds(const LbvhNode& node, const BoxRecord& box) {
-    return node.low_x <= box.low_x && node.low_y <= box.low_y && node.low_z <= box.low_z && node.high_x >= box.high_x &&
-           node.high_y >= box.high_y && node.high_z >= box.high_z;
+    return node.low_x <= box.low_x && node.low_y <= box.low_y && node.low_z <= box.low_z &&
+           node.high_x >= box.high_x && node.high_y >= box.high_y && node.high_z >= box.high_z;
 }
 
 TEST(VolumeTree, LeavesPartTheBoxesAndBoxesHoldTheirs) {
@@ -87,7 +91,9 @@ TEST(VolumeTree, FusedLeavesAreThoseOfATreeBuiltWithThem) {
     const LaidOutTree fused = lay_out(build_volume_tree(boxes, 1), 16);
     const LaidOutTree built = lay_out(build_volume_tree(boxes, 16), 16);
     ASSERT_EQ(fused.leaves, built.leaves);
-    ASSERT_EQ(std::memcmp(fused.nodes.data(), built.nodes.data(), built.nodes.size() * sizeof(LbvhNode)), 0);
+    ASSERT_EQ(
+        std::memcmp(fused.nodes.data(), built.nodes.data(), built.nodes.size() * sizeof(LbvhNode)),
+        0);
 }
 
 TEST(VolumeTree, RootIsSplitWhereTheCostIsLeast) {
@@ -96,7 +102,8 @@ TEST(VolumeTree, RootIsSplitWhereTheCostIsLeast) {
     const auto cost = [](const VolumeNode& a, const VolumeNode& b) {
         const auto term = [](const VolumeNode& n) {
             const BoxRecord& x = n.box;
-            return double(x.high_x - x.low_x) * (x.high_y - x.low_y) * (x.high_z - x.low_z) * n.count;
+            return double(x.high_x - x.low_x) * (x.high_y - x.low_y) * (x.high_z - x.low_z) *
+                   n.count;
         };
         return term(a) + term(b);
     };
@@ -105,18 +112,24 @@ TEST(VolumeTree, RootIsSplitWhereTheCostIsLeast) {
     double least = chosen * 2;
     for (int axis = 0; axis < 3; ++axis) {
         const auto centre = [&](const BoxRecord& b) {
-            return axis == 0 ? b.low_x + b.high_x : axis == 1 ? b.low_y + b.high_y : b.low_z + b.high_z;
+            return axis == 0   ? b.low_x + b.high_x
+                   : axis == 1 ? b.low_y + b.high_y
+                               : b.low_z + b.high_z;
         };
         std::vector<BoxRecord> sorted = boxes;
-        std::stable_sort(sorted.begin(), sorted.end(),
-                         [&](const BoxRecord& a, const BoxRecord& b) { return centre(a) < centre(b); });
+        std::stable_sort(sorted.begin(), sorted.end(), [&](const BoxRecord& a, const BoxRecord& b) {
+            return centre(a) < centre(b);
+        });
         const auto side = [&](std::size_t begin, std::size_t end) {
-            VolumeNode node{.first = 0, .count = static_cast<std::uint32_t>(end - begin), .box = sorted[begin]};
+            VolumeNode node{
+                .first = 0, .count = static_cast<std::uint32_t>(end - begin), .box = sorted[begin]};
             for (std::size_t i = begin; i < end; ++i) {
                 const BoxRecord& b = sorted[i];
-                node.box = {std::min(node.box.low_x, b.low_x), std::min(node.box.low_y, b.low_y),
-                            std::min(node.box.low_z, b.low_z), 0, std::max(node.box.high_x, b.high_x),
-                            std::max(node.box.high_y, b.high_y), std::max(node.box.high_z, b.high_z), 0};
+                node.box = {
+                    std::min(node.box.low_x, b.low_x),   std::min(node.box.low_y, b.low_y),
+                    std::min(node.box.low_z, b.low_z),   0,
+                    std::max(node.box.high_x, b.high_x), std::max(node.box.high_y, b.high_y),
+                    std::max(node.box.high_z, b.high_z), 0};
             }
             return node;
         };
@@ -146,8 +159,9 @@ using VolumeHeuristicMap = VariantTest;
 
 TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     Device& device = open_variant();
-    const DeviceScene scene = upload_scene(device, testing::floor_scene(testing::lambertian(glm::vec3(0.5f)), 1),
-                                           make_plan({}, {.everything = true}));
+    const DeviceScene scene =
+        upload_scene(device, testing::floor_scene(testing::lambertian(glm::vec3(0.5f)), 1),
+                     make_plan({}, {.everything = true}));
     std::mt19937 random(4);
     std::uniform_real_distribution<float> coordinate(-1, 1);
     constexpr std::size_t count = 20'000;
@@ -155,9 +169,11 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     std::vector<glm::uvec4> offsets;
     for (std::size_t i = 0; i < count; ++i) {
         const bool flat = i % 4 != 0;
-        const glm::vec3 normal = flat ? glm::vec3(0, 1, 0) : glm::normalize(glm::vec3(0.3f * coordinate(random), 1, 0));
-        photons.push_back({coordinate(random), 0, coordinate(random), pack_photon_normal(normal, i % 3 == 0),
-                           1 + coordinate(random), 1, 0.5f, pack_unit({0, 1, 0})});
+        const glm::vec3 normal =
+            flat ? glm::vec3(0, 1, 0) : glm::normalize(glm::vec3(0.3f * coordinate(random), 1, 0));
+        photons.push_back({coordinate(random), 0, coordinate(random),
+                           pack_photon_normal(normal, i % 3 == 0), 1 + coordinate(random), 1, 0.5f,
+                           pack_unit({0, 1, 0})});
         const glm::vec3 u(0.04f + 0.03f * coordinate(random), 0, 0.03f * coordinate(random));
         const glm::uvec2 a = pack_dual(u);
         const glm::uvec2 b = pack_dual(glm::vec3(0.3f * u.z, 0, 0.05f));
@@ -166,12 +182,14 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     PhotonWorkspace workspace = make_photon_workspace(device, count, true);
     const FootprintScale scale = make_footprint_scale(count, count, 1, 10, 1, 0.1f, 0.3f, 0.5f);
     const PhotonMap linear =
-        build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets), {.area_samples = 1000, .leaf_size = 8, .footprints = scale});
+        build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),
+                         {.area_samples = 1000, .leaf_size = 8, .footprints = scale});
 
     const std::vector<BoxRecord> boxes = footprint_boxes(device, linear);
     ASSERT_EQ(boxes.size(), count + 1000);
-    const auto leaf_words = download<std::uint32_t>(device, linear.lbvh.order,
-                                                    download<std::uint32_t>(device, linear.counters, 1, counter_leaves)[0]);
+    const auto leaf_words = download<std::uint32_t>(
+        device, linear.lbvh.order,
+        download<std::uint32_t>(device, linear.counters, 1, counter_leaves)[0]);
     const auto nodes = download<LbvhNode>(device, linear.lbvh.nodes, 2 * leaf_words.size());
     for (std::size_t i = 0; i < leaf_words.size(); ++i) {
         const std::uint32_t first = leaf_words[i] & leaf_first_mask;

@@ -40,21 +40,23 @@ Scene with_quad(Scene scene, const Material& material) {
 }
 
 TEST(Plan, DiffuseBoxNeedsNothingElse) {
-    EXPECT_THAT(features(room_scene()), UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
-                                                             Feature::photon_map, Feature::differentials));
-    EXPECT_THAT(features(room_scene(), {.photon_map = false}),
-                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light));
+    EXPECT_THAT(features(room_scene()),
+                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
+                                     Feature::photon_map, Feature::differentials));
+    EXPECT_THAT(
+        features(room_scene(), {.photon_map = false}),
+        UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light));
     EXPECT_THAT(features(room_scene(), {.footprints = false, .final_gather = true}),
-                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light, Feature::photon_map,
-                                     Feature::final_gather));
+                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
+                                     Feature::photon_map, Feature::final_gather));
 }
 
 TEST(Plan, GlassSphereAddsWhatItNeeds) {
     Scene scene = room_scene();
     add_sphere(scene, glm::vec3(0), 0.2f, 4, false, add_material(scene, glass(1.5f, true)));
     EXPECT_THAT(added(room_scene(), scene),
-                UnorderedElementsAre(Feature::mirror, Feature::transmission, Feature::refraction, Feature::followed_paths,
-                                     Feature::caustics));
+                UnorderedElementsAre(Feature::mirror, Feature::transmission, Feature::refraction,
+                                     Feature::followed_paths, Feature::caustics));
     Scene smooth = room_scene();
     add_sphere(smooth, glm::vec3(0), 0.2f, 4, true, add_material(smooth, glass(1.5f, true)));
     EXPECT_THAT(added(scene, smooth), UnorderedElementsAre(Feature::smooth_normals));
@@ -66,7 +68,8 @@ TEST(Plan, EachMaterialAddsWhatItNeeds) {
     EXPECT_THAT(added(room, with_quad(room, mirror())),
                 UnorderedElementsAre(Feature::mirror, Feature::followed_paths, Feature::caustics));
     EXPECT_THAT(added(room, with_quad(room, glass(1.5f, false))),
-                UnorderedElementsAre(Feature::mirror, Feature::transmission, Feature::followed_paths, Feature::caustics));
+                UnorderedElementsAre(Feature::mirror, Feature::transmission,
+                                     Feature::followed_paths, Feature::caustics));
     Material metal;
     metal.roughness = 0.2f;
     EXPECT_THAT(added(room, with_quad(room, metal)),
@@ -74,10 +77,12 @@ TEST(Plan, EachMaterialAddsWhatItNeeds) {
     EXPECT_THAT(features(with_quad(room, metal), {.follow_roughness = 0.1f}),
                 ::testing::Contains(Feature::glossy_estimates));
     metal.roughness = 0.5f;
-    EXPECT_THAT(added(room, with_quad(room, metal)), UnorderedElementsAre(Feature::ggx, Feature::glossy_estimates));
+    EXPECT_THAT(added(room, with_quad(room, metal)),
+                UnorderedElementsAre(Feature::ggx, Feature::glossy_estimates));
     Material plastic = lambertian(glm::vec3(0.5f));
     plastic.phong = Phong{glm::vec3(0.2f), 10};
-    EXPECT_THAT(added(room, with_quad(room, plastic)), UnorderedElementsAre(Feature::phong, Feature::glossy_estimates));
+    EXPECT_THAT(added(room, with_quad(room, plastic)),
+                UnorderedElementsAre(Feature::phong, Feature::glossy_estimates));
     Material pane = lambertian(glm::vec3(0.5f));
     pane.coverage = 0.5f;
     EXPECT_THAT(added(room, with_quad(room, pane)),
@@ -94,18 +99,21 @@ TEST(Plan, EachLightAddsWhatItNeeds) {
                 UnorderedElementsAre(Feature::emissive_triangles, Feature::several_lights));
     Scene scene = room;
     scene.lights.push_back(directional_light({0, -1, 0}, glm::vec3(1)));
-    EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::directional_light, Feature::several_lights));
+    EXPECT_THAT(added(room, scene),
+                UnorderedElementsAre(Feature::directional_light, Feature::several_lights));
     scene = room;
     scene.lights.push_back(spot_light({0, 0, 0}, {0, -1, 0}, glm::vec3(1), 0.1f, 0.2f));
-    EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::spot_light, Feature::several_lights));
+    EXPECT_THAT(added(room, scene),
+                UnorderedElementsAre(Feature::spot_light, Feature::several_lights));
     scene = room;
     scene.sky = glm::vec3(0);
     EXPECT_THAT(added(room, scene), IsEmpty());
     scene.sky = glm::vec3(1);
     EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::sky, Feature::several_lights));
     scene.lights.clear();
-    EXPECT_THAT(features(scene), UnorderedElementsAre(Feature::diffuse, Feature::sky, Feature::direct_light,
-                                                      Feature::photon_map, Feature::differentials));
+    EXPECT_THAT(features(scene),
+                UnorderedElementsAre(Feature::diffuse, Feature::sky, Feature::direct_light,
+                                     Feature::photon_map, Feature::differentials));
     scene.sky.reset();
     EXPECT_FALSE(make_plan(scene, {}).needs(Feature::direct_light));
     EXPECT_EQ(make_plan(scene, {}).light_kinds(), 0u);
@@ -132,7 +140,8 @@ TEST(Plan, NamesWhatRequiresIt) {
 TEST(Plan, EverythingIsAll) {
     const Plan plan = make_plan({}, {.final_gather = true, .everything = true});
     EXPECT_EQ(plan.required.size(), all_features().size());
-    EXPECT_FALSE(make_plan({}, {.photon_map = false, .everything = true}).needs(Feature::differentials));
+    EXPECT_FALSE(
+        make_plan({}, {.photon_map = false, .everything = true}).needs(Feature::differentials));
 }
 
 } // namespace

@@ -58,7 +58,8 @@ std::vector<glm::vec3> points_in_the_middle() {
 }
 
 double smoothing_of(const Stored& stored, double on_point) {
-    return median_smoothing(stored.photons, stored.offsets, points_in_the_middle(), unit_scale(), on_point);
+    return median_smoothing(stored.photons, stored.offsets, points_in_the_middle(), unit_scale(),
+                            on_point);
 }
 
 TEST(Smoothing, AsManyFootprintsOnAPointAsAreAskedFor) {

@@ -12,7 +12,8 @@ namespace {
 using namespace testing_gltf;
 using ::testing::HasSubstr;
 
-/// A square of two indexed triangles with normals: mesh 0, accessors 0 (positions), 1 (normals), 2 (indices).
+/// A square of two indexed triangles with normals: mesh 0, accessors 0 (positions), 1 (normals), 2
+/// (indices).
 GltfBuilder square() {
     GltfBuilder builder;
     const int positions = builder.add_vectors({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
@@ -36,9 +37,7 @@ std::string problem_with(const std::string& pointer, const json& value) {
     return problem;
 }
 
-TEST(GltfBadInput, TheSquareItselfIsGood) {
-    EXPECT_EQ(square().problem(), "");
-}
+TEST(GltfBadInput, TheSquareItselfIsGood) { EXPECT_EQ(square().problem(), ""); }
 
 TEST(GltfBadInput, IndicesOutOfRange) {
     GltfBuilder builder = square();
@@ -51,7 +50,8 @@ TEST(GltfBadInput, IndicesOutOfRange) {
 }
 
 TEST(GltfBadInput, ReferencesToWhatDoesNotExist) {
-    EXPECT_THAT(problem_with("/nodes/0/mesh", 3), HasSubstr("node 0 refers to mesh 3, which does not exist"));
+    EXPECT_THAT(problem_with("/nodes/0/mesh", 3),
+                HasSubstr("node 0 refers to mesh 3, which does not exist"));
     EXPECT_THAT(problem_with("/meshes/0/primitives/0/material", 0),
                 HasSubstr("material 0, which does not exist"));
     EXPECT_THAT(problem_with("/meshes/0/primitives/0/attributes/POSITION", 9),
@@ -59,29 +59,35 @@ TEST(GltfBadInput, ReferencesToWhatDoesNotExist) {
     EXPECT_THAT(problem_with("/meshes/0/primitives/0/attributes/NORMAL", 9),
                 HasSubstr("accessor 9, which does not exist"));
     EXPECT_THAT(problem_with("/meshes/0/primitives/0/indices", 9), HasSubstr("indices"));
-    EXPECT_THAT(problem_with("/accessors/0/bufferView", 9), HasSubstr("buffer view 9, which does not exist"));
-    EXPECT_THAT(problem_with("/bufferViews/0/buffer", 9), HasSubstr("buffer 9, which does not exist"));
+    EXPECT_THAT(problem_with("/accessors/0/bufferView", 9),
+                HasSubstr("buffer view 9, which does not exist"));
+    EXPECT_THAT(problem_with("/bufferViews/0/buffer", 9),
+                HasSubstr("buffer 9, which does not exist"));
     EXPECT_THAT(problem_with("/scenes/0/nodes/0", 9), HasSubstr("node 9, which does not exist"));
 }
 
 TEST(GltfBadInput, IndicesThatAreNoIndices) {
     for (const char* pointer :
          {"/nodes/0/mesh", "/meshes/0/primitives/0/material", "/meshes/0/primitives/0/indices",
-          "/meshes/0/primitives/0/attributes/POSITION", "/accessors/0/bufferView", "/bufferViews/0/buffer",
-          "/scenes/0/nodes/0", "/scene", "/meshes/0/primitives/0/mode"}) {
+          "/meshes/0/primitives/0/attributes/POSITION", "/accessors/0/bufferView",
+          "/bufferViews/0/buffer", "/scenes/0/nodes/0", "/scene", "/meshes/0/primitives/0/mode"}) {
         for (const json& value :
              {json(-1), json(0.5), json("0"), json(nullptr), json(4294967296), json(true)}) {
-            EXPECT_THAT(problem_with(pointer, value), HasSubstr("must be an integer from 0 to 2147483647"))
+            EXPECT_THAT(problem_with(pointer, value),
+                        HasSubstr("must be an integer from 0 to 2147483647"))
                 << pointer << " = " << value;
         }
     }
-    EXPECT_THAT(problem_with("/nodes/0/children", json{0.5}), HasSubstr("\"children\" must be an integer"));
+    EXPECT_THAT(problem_with("/nodes/0/children", json{0.5}),
+                HasSubstr("\"children\" must be an integer"));
 }
 
 TEST(GltfBadInput, SizesThatAreNoSizes) {
-    for (const char* pointer : {"/accessors/0/count", "/accessors/0/byteOffset", "/bufferViews/0/byteOffset",
-                                "/bufferViews/0/byteLength", "/bufferViews/0/byteStride"}) {
-        for (const json& value : {json(-4), json(0.5), json("8"), json(1e300), json(18446744073709551615u)}) {
+    for (const char* pointer :
+         {"/accessors/0/count", "/accessors/0/byteOffset", "/bufferViews/0/byteOffset",
+          "/bufferViews/0/byteLength", "/bufferViews/0/byteStride"}) {
+        for (const json& value :
+             {json(-4), json(0.5), json("8"), json(1e300), json(18446744073709551615u)}) {
             EXPECT_THAT(problem_with(pointer, value), HasSubstr("must be an integer from 0"))
                 << pointer << " = " << value;
         }
@@ -89,13 +95,16 @@ TEST(GltfBadInput, SizesThatAreNoSizes) {
 }
 
 TEST(GltfBadInput, AccessorsOutOfBounds) {
-    EXPECT_THAT(problem_with("/accessors/0/count", 5),
-                HasSubstr("the positions of mesh 0 (5 elements, 12 bytes apart, at 0) go past the 48 bytes"));
+    EXPECT_THAT(
+        problem_with("/accessors/0/count", 5),
+        HasSubstr(
+            "the positions of mesh 0 (5 elements, 12 bytes apart, at 0) go past the 48 bytes"));
     EXPECT_THAT(problem_with("/accessors/0/byteOffset", 4), HasSubstr("go past"));
     EXPECT_THAT(problem_with("/accessors/0/byteOffset", 1ull << 50), HasSubstr("go past"));
     EXPECT_THAT(problem_with("/accessors/0/count", 1ull << 53), HasSubstr("go past"));
     EXPECT_THAT(problem_with("/accessors/2/count", 7), HasSubstr("go past"));
-    EXPECT_THAT(problem_with("/accessors/2/count", 1ull << 53), HasSubstr("more than 134217728 triangles"));
+    EXPECT_THAT(problem_with("/accessors/2/count", 1ull << 53),
+                HasSubstr("more than 134217728 triangles"));
     EXPECT_THAT(problem_with("/accessors/2/byteOffset", 2), HasSubstr("the indices of mesh 0"));
 }
 
@@ -140,11 +149,13 @@ TEST(GltfBadInput, WrongTypes) {
 }
 
 TEST(GltfBadInput, WrongJsonTypesEverywhere) {
-    // Whatever stands anywhere instead of what should be there: an Error, or it loads; never anything else.
+    // Whatever stands anywhere instead of what should be there: an Error, or it loads; never
+    // anything else.
     GltfBuilder builder = square();
     builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}},
                                   {"extensions", {{"KHR_materials_ior", {{"ior", 1.5}}}}}}};
-    builder.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    builder.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
     builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"}, {"spot", {{"outerConeAngle", 1}}}}};
     builder.root["nodes"][0]["camera"] = 0;
@@ -167,17 +178,20 @@ TEST(GltfBadInput, WrongJsonTypesEverywhere) {
     const json flat = good.flatten();
     for (const auto& [pointer, unused] : flat.items()) {
         for (json::json_pointer at(pointer); !at.empty(); at.pop_back()) {
-            for (const json& value : {json(nullptr), json(-1), json(1), json(4e9), json("text"), json(true),
-                                      json::array(), json::object(), json{json::array()}, json{{"a", 1}}}) {
+            for (const json& value :
+                 {json(nullptr), json(-1), json(1), json(4e9), json("text"), json(true),
+                  json::array(), json::object(), json{json::array()}, json{{"a", 1}}}) {
                 json bad = good;
                 bad[at] = value;
-                const auto file = directory.write("scene.glb", make_glb(bad.dump(), builder.binary));
+                const auto file =
+                    directory.write("scene.glb", make_glb(bad.dump(), builder.binary));
                 try {
                     load_gltf(file);
                     ++loaded;
                 } catch (const Error& error) {
                     ++refused;
-                    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+                    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos)
+                        << error.what();
                 }
             }
         }
@@ -187,8 +201,9 @@ TEST(GltfBadInput, WrongJsonTypesEverywhere) {
 }
 
 TEST(GltfBadInput, NumbersThatAreNotFinite) {
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                            -std::numeric_limits<float>::infinity()}) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+          -std::numeric_limits<float>::infinity()}) {
         GltfBuilder builder;
         builder.add_triangles({{0, 0, 0}, {1, 0, 0}, {0, bad, 0}});
         builder.root["meshes"][0]["name"] = "dragon";
@@ -199,8 +214,10 @@ TEST(GltfBadInput, NumbersThatAreNotFinite) {
         const int positions = builder.add_vectors(right_triangle());
         const int normals = builder.add_vectors({{0, 0, 1}, {bad, 0, 1}, {0, 0, 1}});
         builder.add_node(
-            {{"mesh", builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
-        EXPECT_THAT(builder.problem(), HasSubstr("vertex 1 of mesh 0 has a normal that is not finite"));
+            {{"mesh",
+              builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
+        EXPECT_THAT(builder.problem(),
+                    HasSubstr("vertex 1 of mesh 0 has a normal that is not finite"));
     }
 }
 
@@ -223,7 +240,8 @@ TEST(GltfBadInput, SparseAccessors) {
     EXPECT_THAT(problem({0, 3}, {{"count", 5}}), HasSubstr("replace 5 of 4 elements"));
     EXPECT_THAT(problem({0, 3}, {{"count", 3}}), HasSubstr("go past"));
     EXPECT_THAT(problem({0, 3}, {{"count", -1}}), HasSubstr("\"count\" must be an integer"));
-    EXPECT_THAT(problem({0, 3}, {{"count", 4294967297}}), HasSubstr("\"count\" must be an integer"));
+    EXPECT_THAT(problem({0, 3}, {{"count", 4294967297}}),
+                HasSubstr("\"count\" must be an integer"));
     EXPECT_THAT(problem({0, 3}, {{"indices", {{"byteOffset", 1}}}}), HasSubstr("go past"));
     EXPECT_THAT(problem({0, 3}, {{"indices", {{"byteOffset", -1}}}}),
                 HasSubstr("\"byteOffset\" must be an integer"));
@@ -242,13 +260,15 @@ TEST(GltfBadInput, NothingToRender) {
     builder.add_triangles(std::vector<glm::vec3>(6, {1, 2, 3}));
     EXPECT_THAT(builder.problem(), HasSubstr("nothing to render"));
     EXPECT_THAT(problem_with("/accessors/2/count", 0), HasSubstr("nothing to render"));
-    EXPECT_THAT(problem_with("/meshes/0/primitives", json::array()), HasSubstr("nothing to render"));
+    EXPECT_THAT(problem_with("/meshes/0/primitives", json::array()),
+                HasSubstr("nothing to render"));
 }
 
 TEST(GltfBadInput, SmallFilesDoNotAskForHugeMemory) {
     // An accessor without data is all zeros, as many as it likes.
     GltfBuilder builder;
-    builder.root["accessors"] = {{{"componentType", float_type}, {"type", "VEC3"}, {"count", 1ull << 52}}};
+    builder.root["accessors"] = {
+        {{"componentType", float_type}, {"type", "VEC3"}, {"count", 1ull << 52}}};
     builder.add_node({{"mesh", builder.add_mesh({{"attributes", {{"POSITION", 0}}}})}});
     EXPECT_THAT(builder.problem(), HasSubstr("more than 134217728 triangles"));
     builder.root["accessors"][0]["count"] = 1 << 23;

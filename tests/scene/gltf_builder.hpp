@@ -47,8 +47,8 @@ inline Bytes make_glb(std::string text, Bytes binary) {
     binary.resize((binary.size() + 3) / 4 * 4, 0);
     Bytes glb{'g', 'l', 'T', 'F'};
     put_word(glb, 2);
-    put_word(glb,
-             static_cast<std::uint32_t>(12 + 8 + text.size() + (binary.empty() ? 0 : 8 + binary.size())));
+    put_word(glb, static_cast<std::uint32_t>(12 + 8 + text.size() +
+                                             (binary.empty() ? 0 : 8 + binary.size())));
     put_word(glb, static_cast<std::uint32_t>(text.size()));
     glb.insert(glb.end(), {'J', 'S', 'O', 'N'});
     glb.insert(glb.end(), text.begin(), text.end());
@@ -62,7 +62,8 @@ inline Bytes make_glb(std::string text, Bytes binary) {
 
 /// A glTF file in the making: one buffer, and the JSON, which a test may change as it likes.
 struct GltfBuilder {
-    json root{{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", json::array()}}}}};
+    json root{
+        {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", json::array()}}}}};
     Bytes binary;
 
     static int append(json& list, json element) {
@@ -70,10 +71,11 @@ struct GltfBuilder {
         return static_cast<int>(list.size()) - 1;
     }
 
-    template <class T>
-    int add_view(const std::vector<T>& elements, int stride = 0) {
+    template <class T> int add_view(const std::vector<T>& elements, int stride = 0) {
         binary.resize((binary.size() + 3) / 4 * 4, 0);
-        json view{{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", elements.size() * sizeof(T)}};
+        json view{{"buffer", 0},
+                  {"byteOffset", binary.size()},
+                  {"byteLength", elements.size() * sizeof(T)}};
         if (stride > 0) {
             view["byteStride"] = stride;
         }
@@ -92,8 +94,7 @@ struct GltfBuilder {
     int add_vectors(const std::vector<glm::vec3>& vectors) {
         return add_accessor(add_view(vectors), float_type, "VEC3", vectors.size());
     }
-    template <class T>
-    int add_indices(const std::vector<T>& indices) {
+    template <class T> int add_indices(const std::vector<T>& indices) {
         const int type = sizeof(T) == 1 ? ubyte_type : sizeof(T) == 2 ? ushort_type : uint_type;
         return add_accessor(add_view(indices), type, "SCALAR", indices.size());
     }
@@ -135,9 +136,7 @@ struct GltfBuilder {
 };
 
 /// The unit right triangle in the plane z = 0, counter-clockwise seen from +z.
-inline std::vector<glm::vec3> right_triangle() {
-    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-}
+inline std::vector<glm::vec3> right_triangle() { return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}; }
 
 /// A file with that triangle and nothing else.
 inline GltfBuilder one_triangle() {
@@ -148,7 +147,8 @@ inline GltfBuilder one_triangle() {
 
 inline std::vector<glm::vec3> corners_of(const Scene& scene, std::size_t triangle) {
     const glm::uvec3& corners = scene.triangles.at(triangle);
-    return {scene.positions.at(corners.x), scene.positions.at(corners.y), scene.positions.at(corners.z)};
+    return {scene.positions.at(corners.x), scene.positions.at(corners.y),
+            scene.positions.at(corners.z)};
 }
 
 /// Geometric normal by the winding, with the area as length times two.

@@ -45,7 +45,8 @@ TEST(GltfCamera, ReadsPerspectiveOnes) {
 }
 
 TEST(GltfCamera, ReadsOrthographicOnes) {
-    const Camera camera = with_camera(orthographic(3, -2), {{"name", "carrier"}}).load().cameras.at(0);
+    const Camera camera =
+        with_camera(orthographic(3, -2), {{"name", "carrier"}}).load().cameras.at(0);
     EXPECT_EQ(camera.kind, CameraKind::orthographic);
     EXPECT_EQ(camera.name, "carrier");
     EXPECT_FLOAT_EQ(camera.vertical_extent, 2);
@@ -68,7 +69,8 @@ TEST(GltfCamera, StaysOrthonormalUnderScaleAndShear) {
 TEST(GltfCamera, RefusesBrokenOnes) {
     using ::testing::HasSubstr;
     for (const double angle : {0.0, -1.0, 3.2}) {
-        EXPECT_THAT(with_camera(perspective(angle)).problem(), HasSubstr("camera 0 has an angle of view"));
+        EXPECT_THAT(with_camera(perspective(angle)).problem(),
+                    HasSubstr("camera 0 has an angle of view"));
     }
     EXPECT_THAT(with_camera(orthographic(0, 1)).problem(), HasSubstr("both must be positive"));
     json camera = perspective(1);

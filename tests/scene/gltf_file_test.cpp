@@ -55,20 +55,23 @@ TEST_F(GltfFile, ReadsBase64) {
 }
 
 TEST_F(GltfFile, TellsTextFromBinaryByContent) {
-    EXPECT_EQ(load_gltf(directory.write("misnamed.gltf", one_triangle().glb())).triangles.size(), 1u);
+    EXPECT_EQ(load_gltf(directory.write("misnamed.gltf", one_triangle().glb())).triangles.size(),
+              1u);
     directory.write("a.bin", triangle);
-    EXPECT_EQ(load_gltf(directory.write("misnamed.glb", text_of_triangle("a.bin"))).triangles.size(), 1u);
+    EXPECT_EQ(
+        load_gltf(directory.write("misnamed.glb", text_of_triangle("a.bin"))).triangles.size(), 1u);
 }
 
 TEST_F(GltfFile, ReadsTextWithAByteOrderMark) {
     directory.write("a.bin", triangle);
-    EXPECT_EQ(
-        load_gltf(directory.write("scene.gltf", "\xef\xbb\xbf" + text_of_triangle("a.bin"))).triangles.size(),
-        1u);
+    EXPECT_EQ(load_gltf(directory.write("scene.gltf", "\xef\xbb\xbf" + text_of_triangle("a.bin")))
+                  .triangles.size(),
+              1u);
 }
 
 TEST_F(GltfFile, ReadsPathsWithSpacesAndUnicode) {
-    EXPECT_EQ(load_gltf(directory.write("ein Pfad ❤/scène.glb", one_triangle().glb())).name, "scène.glb");
+    EXPECT_EQ(load_gltf(directory.write("ein Pfad ❤/scène.glb", one_triangle().glb())).name,
+              "scène.glb");
 }
 
 TEST_F(GltfFile, SaysWhatIsWrongWithAPath) {
@@ -90,7 +93,8 @@ TEST_F(GltfFile, SaysWhatIsWrongWithABuffer) {
     EXPECT_THAT(problem("."), HasSubstr("it is a directory"));
     EXPECT_THAT(problem("/../../../../../../../../../dev/zero"), HasSubstr("cannot read"));
     EXPECT_THAT(problem("https://example.org/a.bin"), HasSubstr("neither a file nor base64 data"));
-    EXPECT_THAT(problem("data:application/octet-stream;base64,AAAA"), HasSubstr("Failed to decode"));
+    EXPECT_THAT(problem("data:application/octet-stream;base64,AAAA"),
+                HasSubstr("Failed to decode"));
     EXPECT_THAT(problem(""), HasSubstr("File not found"));
     GltfBuilder builder = one_triangle();
     builder.root["buffers"] = {{{"byteLength", 36}}};
@@ -123,7 +127,8 @@ TEST_F(GltfFile, NeedsNoImages) {
 }
 
 TEST_F(GltfFile, ReadsGlbsThatAreNotPadded) {
-    // JSON and BIN chunks whose lengths are no multiples of four, and a chunk of an unknown type behind.
+    // JSON and BIN chunks whose lengths are no multiples of four, and a chunk of an unknown type
+    // behind.
     GltfBuilder builder = one_triangle();
     builder.root["buffers"] = {{{"byteLength", builder.binary.size()}}};
     Bytes glb = make_glb(builder.root.dump(), builder.binary);
@@ -141,7 +146,9 @@ TEST_F(GltfFile, IgnoresWhatFollowsAGlb) {
 }
 
 TEST_F(GltfFile, SaysWhatIsWrongWithAGlb) {
-    const auto problem = [&](const Bytes& bytes) { return problem_of(directory.write("scene.glb", bytes)); };
+    const auto problem = [&](const Bytes& bytes) {
+        return problem_of(directory.write("scene.glb", bytes));
+    };
     const Bytes good = one_triangle().glb();
     EXPECT_THAT(problem(Bytes(good.begin(), good.begin() + 9)),
                 HasSubstr("cut off within the 12 bytes of its header"));
@@ -177,7 +184,8 @@ TEST_F(GltfFile, SaysWhatIsWrongWithItsJson) {
     EXPECT_THAT(problem("[1, 2]"), HasSubstr("its JSON is not an object"));
     EXPECT_THAT(problem("{}"), HasSubstr("it is not glTF"));
     EXPECT_THAT(problem("{\"asset\": {\"version\": 2}}"), HasSubstr("it is glTF of version 2;"));
-    EXPECT_THAT(problem("{\"asset\": {\"version\": \"1.0\"}}"), HasSubstr("it is glTF of version \"1.0\""));
+    EXPECT_THAT(problem("{\"asset\": {\"version\": \"1.0\"}}"),
+                HasSubstr("it is glTF of version \"1.0\""));
     EXPECT_THAT(problem("{\"asset\": {\"version\": \"2.1\", \"minVersion\": \"2.1\"}}"),
                 HasSubstr("version \"2.1\""));
     EXPECT_THAT(problem("{\"asset\": {\"version\": \"2.0\"}}"), HasSubstr("nothing to render"));
@@ -189,8 +197,9 @@ TEST_F(GltfFile, SaysWhatIsWrongWithItsJson) {
 
 TEST_F(GltfFile, EndsAtDeepNestingInsteadOfOverflowingTheStack) {
     const std::size_t depth = 1000000;
-    const std::string nested = "{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + std::string(depth, '[') +
-                               std::string(depth, ']') + "}";
+    const std::string nested =
+        "{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + std::string(depth, '[') +
+        std::string(depth, ']') + "}";
     EXPECT_THAT(problem_of(directory.write("scene.gltf", nested)), HasSubstr("nested more than"));
 }
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 
-// Damaged files: each must either load or throw an Error of one line. Deterministic, so that a failure can be
-// repeated.
+// Damaged files: each must either load or throw an Error of one line. Deterministic, so that a
+// failure can be repeated.
 
 namespace argand {
 namespace {
@@ -25,10 +25,12 @@ Bytes small_glb() {
         {"values", {{"bufferView", sparse_values}}}};
     builder.root["materials"] = {
         {{"emissiveFactor", {1, 0, 0}}, {"extensions", {{"KHR_materials_ior", {{"ior", 1.25}}}}}}};
-    const int mesh = builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-                                       {"indices", indices},
-                                       {"material", 0}});
-    builder.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    const int mesh =
+        builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                          {"indices", indices},
+                          {"material", 0}});
+    builder.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
     builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"}, {"spot", json::object()}}};
     builder.add_node({{"mesh", mesh},
@@ -79,7 +81,8 @@ TEST(GltfFuzz, EveryByteDamaged) {
 }
 
 TEST(GltfFuzz, DigitsAndBracketsReplaced) {
-    // In JSON a changed digit is another valid number: offsets, counts, types and references go wild.
+    // In JSON a changed digit is another valid number: offsets, counts, types and references go
+    // wild.
     const Bytes glb = small_glb();
     const TempDirectory directory;
     int loaded = 0;
@@ -100,10 +103,11 @@ TEST(GltfFuzz, SeveralBytesDamagedAtRandomSlow) {
     const Bytes glb = small_glb();
     const TempDirectory directory;
     std::uint32_t state = 12345;
-    const auto random = [&](std::uint32_t below) { // linear congruential generator of Numerical Recipes
-        state = state * 1664525u + 1013904223u;
-        return static_cast<std::uint32_t>((std::uint64_t(state) * below) >> 32);
-    };
+    const auto random =
+        [&](std::uint32_t below) { // linear congruential generator of Numerical Recipes
+            state = state * 1664525u + 1013904223u;
+            return static_cast<std::uint32_t>((std::uint64_t(state) * below) >> 32);
+        };
     for (int i = 0; i < 20000; ++i) {
         Bytes damaged = glb;
         const std::uint32_t count = 1 + random(8);

@@ -35,7 +35,9 @@ TEST(GltfLight, ReadsPointLights) {
 
 TEST(GltfLight, HasTheDefaultsOfTheExtension) {
     const Light light =
-        with_light({{"type", "spot"}, {"spot", json::object()}}, {{"name", "carrier"}}).load().lights.at(0);
+        with_light({{"type", "spot"}, {"spot", json::object()}}, {{"name", "carrier"}})
+            .load()
+            .lights.at(0);
     EXPECT_EQ(light.intensity, glm::vec3(1));
     EXPECT_EQ(light.inner_cone_angle, 0);
     EXPECT_FLOAT_EQ(light.outer_cone_angle, float(std::numbers::pi / 4));
@@ -46,10 +48,11 @@ TEST(GltfLight, HasTheDefaultsOfTheExtension) {
 TEST(GltfLight, TurnsDirectionsWithTheNode) {
     const double half_root = std::sqrt(0.5);
     // 90 degrees about x take −z to +y.
-    const Light light = with_light({{"type", "directional"}, {"intensity", 3}},
-                                   {{"rotation", {half_root, 0, 0, half_root}}, {"scale", {1, 2, 0.1}}})
-                            .load()
-                            .lights.at(0);
+    const Light light =
+        with_light({{"type", "directional"}, {"intensity", 3}},
+                   {{"rotation", {half_root, 0, 0, half_root}}, {"scale", {1, 2, 0.1}}})
+            .load()
+            .lights.at(0);
     EXPECT_EQ(light.kind, LightKind::directional);
     expect_near(light.direction, {0, 1, 0});
     EXPECT_EQ(light.intensity, glm::vec3(3));
@@ -57,8 +60,8 @@ TEST(GltfLight, TurnsDirectionsWithTheNode) {
 
 TEST(GltfLight, BringsConesIntoRange) {
     const auto cone = [](double inner, double outer) {
-        return with_light(
-                   {{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}})
+        return with_light({{"type", "spot"},
+                           {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}})
             .load();
     };
     EXPECT_FLOAT_EQ(cone(0.25, 0.5).lights[0].inner_cone_angle, 0.25f);
@@ -71,7 +74,8 @@ TEST(GltfLight, BringsConesIntoRange) {
 }
 
 TEST(GltfLight, NotesThatRangeIsIgnored) {
-    EXPECT_TRUE(has_note(with_light({{"type", "point"}, {"range", 5}}).load(), "range of lights is ignored"));
+    EXPECT_TRUE(has_note(with_light({{"type", "point"}, {"range", 5}}).load(),
+                         "range of lights is ignored"));
     EXPECT_FALSE(has_note(with_light({{"type", "point"}}).load(), "range"));
 }
 
@@ -79,10 +83,12 @@ TEST(GltfLight, RefusesBrokenOnes) {
     using ::testing::HasSubstr;
     EXPECT_THAT(with_light({{"type", "point"}, {"intensity", -1}}).problem(),
                 HasSubstr("light 0 has an intensity"));
-    EXPECT_THAT(with_light({{"type", "point"}, {"intensity", 1e300}}).problem(), HasSubstr("finite"));
+    EXPECT_THAT(with_light({{"type", "point"}, {"intensity", 1e300}}).problem(),
+                HasSubstr("finite"));
     EXPECT_THAT(with_light({{"type", "point"}, {"intensity", "bright"}}).problem(),
                 HasSubstr("not a number"));
-    EXPECT_THAT(with_light({{"type", "point"}, {"color", {1, 1}}}).problem(), HasSubstr("not three numbers"));
+    EXPECT_THAT(with_light({{"type", "point"}, {"color", {1, 1}}}).problem(),
+                HasSubstr("not three numbers"));
     EXPECT_THAT(with_light({{"type", "area"}}).problem(),
                 HasSubstr("neither a point, nor a spot, nor a directional"));
     EXPECT_THAT(with_light({{"type", "spot"}, {"spot", {{"outerConeAngle", 0}}}}).problem(),
@@ -92,7 +98,8 @@ TEST(GltfLight, RefusesBrokenOnes) {
     for (const json& index : {json(1), json(-1), json("0"), json(0.5), json(4294967296)}) {
         GltfBuilder builder = with_light({{"type", "point"}});
         builder.root["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = index;
-        EXPECT_THAT(builder.problem(), HasSubstr("node 1 refers to a light that does not exist")) << index;
+        EXPECT_THAT(builder.problem(), HasSubstr("node 1 refers to a light that does not exist"))
+            << index;
     }
 }
 

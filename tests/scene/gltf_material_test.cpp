@@ -19,9 +19,7 @@ Material load_material(const json& material) {
     return with_material(material).load().materials.at(0);
 }
 
-json extension(const char* name, const json& value) {
-    return {{"extensions", {{name, value}}}};
-}
+json extension(const char* name, const json& value) { return {{"extensions", {{name, value}}}}; }
 
 TEST(GltfMaterial, HasTheDefaultsOfGltf) {
     const Material material = load_material(json::object());
@@ -39,11 +37,12 @@ TEST(GltfMaterial, HasTheDefaultsOfGltf) {
 }
 
 TEST(GltfMaterial, ReadsTheCore) {
-    const Material material = load_material(
-        {{"name", "paint"},
-         {"doubleSided", true},
-         {"pbrMetallicRoughness",
-          {{"baseColorFactor", {0.25, 0.5, 0.75, 1}}, {"metallicFactor", 0.125}, {"roughnessFactor", 0}}}});
+    const Material material = load_material({{"name", "paint"},
+                                             {"doubleSided", true},
+                                             {"pbrMetallicRoughness",
+                                              {{"baseColorFactor", {0.25, 0.5, 0.75, 1}},
+                                               {"metallicFactor", 0.125},
+                                               {"roughnessFactor", 0}}}});
     EXPECT_EQ(material.name, "paint");
     EXPECT_TRUE(material.double_sided);
     EXPECT_EQ(material.base_color, glm::vec3(0.25, 0.5, 0.75));
@@ -52,15 +51,15 @@ TEST(GltfMaterial, ReadsTheCore) {
 }
 
 TEST(GltfMaterial, ReadsSpecular) {
-    const Material material = load_material(
-        extension("KHR_materials_specular", {{"specularFactor", 0}, {"specularColorFactor", {2, 1, 0.5}}}));
+    const Material material = load_material(extension(
+        "KHR_materials_specular", {{"specularFactor", 0}, {"specularColorFactor", {2, 1, 0.5}}}));
     EXPECT_EQ(material.specular, 0);
     EXPECT_EQ(material.specular_color, glm::vec3(2, 1, 0.5)); // may exceed 1
 }
 
 TEST(GltfMaterial, MultipliesEmissionByItsStrength) {
-    json material =
-        extension("KHR_materials_emissive_strength", {{"emissiveStrength", 10000000000}}); // > 32 bits
+    json material = extension("KHR_materials_emissive_strength",
+                              {{"emissiveStrength", 10000000000}}); // > 32 bits
     material["emissiveFactor"] = {1, 0.5, 0};
     const Scene scene = with_material(material).load();
     EXPECT_EQ(scene.materials[0].emission, glm::vec3(1e10f, 5e9f, 0));
@@ -69,10 +68,11 @@ TEST(GltfMaterial, MultipliesEmissionByItsStrength) {
 }
 
 TEST(GltfMaterial, ReadsTransmissionVolumeAndIor) {
-    const Material material = load_material({{"extensions",
-                                              {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
-                                               {"KHR_materials_volume", {{"thicknessFactor", 2}}},
-                                               {"KHR_materials_ior", {{"ior", 1.25}}}}}});
+    const Material material =
+        load_material({{"extensions",
+                        {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                         {"KHR_materials_volume", {{"thicknessFactor", 2}}},
+                         {"KHR_materials_ior", {{"ior", 1.25}}}}}});
     EXPECT_EQ(material.transmission, 0.75f);
     EXPECT_EQ(material.thickness, 2);
     EXPECT_EQ(material.ior, 1.25f);
@@ -100,7 +100,8 @@ TEST(GltfMaterial, MaskedSurfacesAreThereOrNot) {
     EXPECT_EQ(load_material(material).coverage, 1);
 
     GltfBuilder builder = with_material(with_alpha(0.49, "MASK"));
-    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("no triangle that has an area and can be seen"));
+    EXPECT_THAT(builder.problem(),
+                ::testing::HasSubstr("no triangle that has an area and can be seen"));
     builder.add_triangles({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.triangles.size(), 1u);
@@ -119,13 +120,16 @@ TEST(GltfMaterial, BlendedSurfacesOfAlphaZeroAreNotThere) {
 
 TEST(GltfMaterial, RefusesUnknownAlphaModesAndKeepsAlphaInRange) {
     using ::testing::HasSubstr;
-    EXPECT_THAT(with_material(with_alpha(0.5, "blend")).problem(),
-                HasSubstr("material 0 has the alphaMode \"blend\"; it must be OPAQUE, MASK or BLEND"));
+    EXPECT_THAT(
+        with_material(with_alpha(0.5, "blend")).problem(),
+        HasSubstr("material 0 has the alphaMode \"blend\"; it must be OPAQUE, MASK or BLEND"));
     json cutoff = with_alpha(0.5, "MASK");
     cutoff["alphaCutoff"] = "half";
-    EXPECT_THAT(with_material(cutoff).problem(), HasSubstr("\"alphaCutoff\" must be made of numbers"));
+    EXPECT_THAT(with_material(cutoff).problem(),
+                HasSubstr("\"alphaCutoff\" must be made of numbers"));
     cutoff["alphaCutoff"] = -1;
-    EXPECT_TRUE(has_note(with_material(cutoff).load(), "alphaCutoff of -1, which is out of range; 0 is used"));
+    EXPECT_TRUE(has_note(with_material(cutoff).load(),
+                         "alphaCutoff of -1, which is out of range; 0 is used"));
     const Scene over = with_material(with_alpha(1.5, "BLEND")).load();
     EXPECT_EQ(over.materials[0].coverage, 1);
     EXPECT_TRUE(has_note(over, "alpha of 1.5, which is out of range; 1 is used"));
@@ -133,36 +137,42 @@ TEST(GltfMaterial, RefusesUnknownAlphaModesAndKeepsAlphaInRange) {
 }
 
 json with_phong(const json& phong) {
-    return {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0, 1}}}}, {"extras", {{"phong", phong}}}};
+    return {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0, 1}}}},
+            {"extras", {{"phong", phong}}}};
 }
 
 TEST(GltfMaterial, ReadsPhongFromExtras) {
-    const Material material = load_material(with_phong({{"specular", {0.5, 0.25, 1}}, {"exponent", 40}}));
+    const Material material =
+        load_material(with_phong({{"specular", {0.5, 0.25, 1}}, {"exponent", 40}}));
     ASSERT_TRUE(material.phong.has_value());
     EXPECT_EQ(material.base_color, glm::vec3(0.5f, 0.25f, 0));
     EXPECT_EQ(material.phong->specular, glm::vec3(0.5f, 0.25f, 1));
     EXPECT_EQ(material.phong->exponent, 40);
-    EXPECT_TRUE(load_material(with_phong({{"specular", {0, 0, 0}}, {"exponent", 0}})).phong.has_value());
+    EXPECT_TRUE(
+        load_material(with_phong({{"specular", {0, 0, 0}}, {"exponent", 0}})).phong.has_value());
     EXPECT_FALSE(load_material({{"extras", {{"note", "phong"}}}}).phong.has_value());
     EXPECT_FALSE(load_material({{"extras", "phong"}}).phong.has_value());
 }
 
 TEST(GltfMaterial, RefusesBadPhong) {
     const auto problem = [](const json& specular, const json& exponent) {
-        return with_material(with_phong({{"specular", specular}, {"exponent", exponent}})).problem();
+        return with_material(with_phong({{"specular", specular}, {"exponent", exponent}}))
+            .problem();
     };
     using ::testing::HasSubstr;
     const json good = {0.5, 0.25, 1};
-    EXPECT_THAT(problem(good, -1), HasSubstr("material 0's \"phong\" has an exponent of -1; it must be at least 0"));
+    EXPECT_THAT(problem(good, -1),
+                HasSubstr("material 0's \"phong\" has an exponent of -1; it must be at least 0"));
     EXPECT_THAT(problem(good, 1e300), HasSubstr("exponent of 1e+300"));
     EXPECT_THAT(problem(good, "sharp"), HasSubstr("\"exponent\" that is not a number"));
     EXPECT_THAT(problem(good, nullptr), HasSubstr("\"exponent\" that is not a number"));
-    EXPECT_THAT(problem({0.5, 0.875, 1}, 1), HasSubstr("a specular colour of 0.875 beside a base colour of 0.25; it must"));
+    EXPECT_THAT(problem({0.5, 0.875, 1}, 1),
+                HasSubstr("a specular colour of 0.875 beside a base colour of 0.25; it must"));
     EXPECT_THAT(problem({-0.5, 0, 0}, 1), HasSubstr("a specular colour of -0.5 beside"));
     EXPECT_THAT(problem({0.1, 0.1}, 1), HasSubstr("\"specular\" that is not three numbers"));
     EXPECT_THAT(problem(0.5, 1), HasSubstr("\"specular\" that is not three numbers"));
-    for (const json& phong : {json(5), json::array({1, 2}), json("shiny"), json(nullptr), json::object(),
-                              json{{"specular", good}}, json{{"exponent", 5}}}) {
+    for (const json& phong : {json(5), json::array({1, 2}), json("shiny"), json(nullptr),
+                              json::object(), json{{"specular", good}}, json{{"exponent", 5}}}) {
         EXPECT_THAT(with_material(with_phong(phong)).problem(),
                     HasSubstr("is no object with a \"specular\" and an \"exponent\""));
     }
@@ -180,20 +190,20 @@ TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
 }
 
 TEST(GltfMaterial, BringsFactorsIntoRangeWithANote) {
-    const Scene scene =
-        with_material(
-            {{"name", "odd"},
-             {"pbrMetallicRoughness",
-              {{"baseColorFactor", {2, -1, 0.5, 1}}, {"metallicFactor", -0.5}, {"roughnessFactor", 7}}},
-             {"emissiveFactor", {-1, 0, 0}}})
-            .load();
+    const Scene scene = with_material({{"name", "odd"},
+                                       {"pbrMetallicRoughness",
+                                        {{"baseColorFactor", {2, -1, 0.5, 1}},
+                                         {"metallicFactor", -0.5},
+                                         {"roughnessFactor", 7}}},
+                                       {"emissiveFactor", {-1, 0, 0}}})
+                            .load();
     const Material& material = scene.materials[0];
     EXPECT_EQ(material.base_color, glm::vec3(1, 0, 0.5));
     EXPECT_EQ(material.metallic, 0);
     EXPECT_EQ(material.roughness, 1);
     EXPECT_EQ(material.emission, glm::vec3(0));
-    EXPECT_TRUE(
-        has_note(scene, "material 0 \"odd\" has a baseColorFactor of 2, which is out of range; 1 is used"));
+    EXPECT_TRUE(has_note(
+        scene, "material 0 \"odd\" has a baseColorFactor of 2, which is out of range; 1 is used"));
     EXPECT_TRUE(has_note(scene, "metallicFactor of -0.5"));
     EXPECT_TRUE(has_note(scene, "roughnessFactor of 7"));
     EXPECT_TRUE(has_note(scene, "emissiveFactor of -1"));
@@ -204,15 +214,18 @@ TEST(GltfMaterial, RefusesFactorsThatAreNoNumbers) {
     EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"metallicFactor", "one"}}}}).problem(),
                 HasSubstr("\"metallicFactor\" must be made of numbers"));
     EXPECT_THAT(
-        with_material(extension("KHR_materials_volume", {{"thicknessFactor", json::array()}})).problem(),
+        with_material(extension("KHR_materials_volume", {{"thicknessFactor", json::array()}}))
+            .problem(),
         HasSubstr("\"thicknessFactor\" that is not a number"));
     EXPECT_THAT(
-        with_material(extension("KHR_materials_specular", {{"specularColorFactor", {1, 2}}})).problem(),
+        with_material(extension("KHR_materials_specular", {{"specularColorFactor", {1, 2}}}))
+            .problem(),
         HasSubstr("\"specularColorFactor\" that is not three numbers"));
 }
 
 TEST(GltfMaterial, NotesAColourOfWrongLength) {
-    const Scene scene = with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0}}}}}).load();
+    const Scene scene =
+        with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0}}}}}).load();
     EXPECT_TRUE(has_note(scene, "not quite valid glTF: Array length of `baseColorFactor`"));
 }
 
@@ -226,11 +239,13 @@ TEST(GltfMaterial, NamesWhatItDoesNotUnderstand) {
 }
 
 TEST(GltfMaterial, UsesFactorsInsteadOfTexturesWithANote) {
-    const json material{{"pbrMetallicRoughness",
-                         {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"baseColorTexture", {{"index", 0}}}}}};
+    const json material{
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"baseColorTexture", {{"index", 0}}}}}};
     const Scene scene = with_material(material).load();
     EXPECT_EQ(scene.materials[0].base_color, glm::vec3(0.5));
-    EXPECT_TRUE(has_note(scene, "textures are not read yet: the factors of the materials are used"));
+    EXPECT_TRUE(
+        has_note(scene, "textures are not read yet: the factors of the materials are used"));
     const json sheen = extension("KHR_materials_specular", {{"specularTexture", {{"index", 0}}}});
     EXPECT_TRUE(has_note(with_material(sheen).load(), "textures are not read yet"));
 }
@@ -245,10 +260,13 @@ TEST(GltfMaterial, DoesNotLetEmissiveTexturesGlowAllOver) {
 
 TEST(GltfExtensions, AreListedAndNamedWhereNotUnderstood) {
     GltfBuilder builder = one_triangle();
-    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_unlit", "KHR_materials_unlit"};
+    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_unlit",
+                                      "KHR_materials_unlit"};
     const Scene scene = builder.load();
-    EXPECT_THAT(scene.extensions_used, ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
-    EXPECT_TRUE(has_note(scene, "the extension KHR_materials_unlit is not understood and is ignored"));
+    EXPECT_THAT(scene.extensions_used,
+                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
+    EXPECT_TRUE(
+        has_note(scene, "the extension KHR_materials_unlit is not understood and is ignored"));
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
 
@@ -256,7 +274,8 @@ TEST(GltfExtensions, RefusesRequiredOnesThatAreNotUnderstood) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
     builder.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    EXPECT_THAT(builder.problem(), ::testing::HasSubstr("requires the extension KHR_draco_mesh_compression"));
+    EXPECT_THAT(builder.problem(),
+                ::testing::HasSubstr("requires the extension KHR_draco_mesh_compression"));
 }
 
 } // namespace

@@ -18,14 +18,13 @@ TEST(GltfMesh, ReadsUnindexedTriangles) {
     EXPECT_EQ(scene.name, "scene.glb");
 }
 
-template <class Index>
-void expect_indexed_square() {
+template <class Index> void expect_indexed_square() {
     GltfBuilder builder;
     const std::vector<glm::vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const int positions = builder.add_vectors(square);
     const int indices = builder.add_indices<Index>({0, 1, 2, 0, 2, 3});
-    builder.add_node(
-        {{"mesh", builder.add_mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}})}});
+    builder.add_node({{"mesh", builder.add_mesh({{"attributes", {{"POSITION", positions}}},
+                                                 {"indices", indices}})}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.positions, square);
     EXPECT_THAT(scene.triangles, ::testing::ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)));
@@ -57,7 +56,8 @@ TEST(GltfMesh, ReadsStripsWithAlternatingWinding) {
 }
 
 TEST(GltfMesh, ReadsFans) {
-    const Scene scene = with_mode(fan, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}}).load();
+    const Scene scene =
+        with_mode(fan, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}}).load();
     ASSERT_EQ(scene.triangles.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
         expect_near(winding_normal(scene, i), {0, 0, 1});
@@ -90,7 +90,8 @@ TEST(GltfMesh, ReadsNormalsAndMakesThemUnit) {
     const int positions = builder.add_vectors(right_triangle());
     const int normals = builder.add_vectors({{0, 0, 3}, {0, 0, 0}, {1e-30f, 0, 1e-30f}});
     builder.add_node(
-        {{"mesh", builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
+        {{"mesh",
+          builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
     const Scene scene = builder.load();
     expect_near(scene.normals[0], {0, 0, 1});
     EXPECT_EQ(scene.normals[1], glm::vec3(0)); // without direction: as if absent
@@ -108,7 +109,8 @@ TEST(GltfMesh, ReadsInterleavedVertices) {
     const int positions = builder.add_accessor(view, float_type, "VEC3", 3, 0);
     const int normals = builder.add_accessor(view, float_type, "VEC3", 3, 12);
     builder.add_node(
-        {{"mesh", builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
+        {{"mesh",
+          builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
     const Scene scene = builder.load();
     EXPECT_EQ(corners_of(scene, 0), right_triangle());
     EXPECT_EQ(scene.normals, std::vector<glm::vec3>(3, {0, 1, 0}));
@@ -130,32 +132,38 @@ Scene load_quantized(int component_type, bool normalized, const std::vector<T>& 
 TEST(GltfMesh, ReadsIntegerPositionsOfEveryType) {
     const auto signed_byte =
         load_quantized<std::int8_t>(byte_type, false, {-128, 0, 0, 0, 127, 0, 0, 0, 0, 5, 0, 0});
-    EXPECT_EQ(corners_of(signed_byte, 0), (std::vector<glm::vec3>{{-128, 0, 0}, {127, 0, 0}, {0, 5, 0}}));
+    EXPECT_EQ(corners_of(signed_byte, 0),
+              (std::vector<glm::vec3>{{-128, 0, 0}, {127, 0, 0}, {0, 5, 0}}));
     const auto byte =
         load_quantized<std::uint8_t>(ubyte_type, false, {0, 0, 0, 0, 255, 0, 0, 0, 0, 200, 0, 0});
     EXPECT_EQ(corners_of(byte, 0), (std::vector<glm::vec3>{{0, 0, 0}, {255, 0, 0}, {0, 200, 0}}));
-    const auto signed_short =
-        load_quantized<std::int16_t>(short_type, false, {-32768, 0, 0, 0, 32767, 0, 0, 0, 0, 5, 0, 0});
+    const auto signed_short = load_quantized<std::int16_t>(
+        short_type, false, {-32768, 0, 0, 0, 32767, 0, 0, 0, 0, 5, 0, 0});
     EXPECT_EQ(corners_of(signed_short, 0),
               (std::vector<glm::vec3>{{-32768, 0, 0}, {32767, 0, 0}, {0, 5, 0}}));
     const auto unsigned_short =
         load_quantized<std::uint16_t>(ushort_type, false, {0, 0, 0, 0, 65535, 0, 0, 0, 0, 5, 0, 0});
-    EXPECT_EQ(corners_of(unsigned_short, 0), (std::vector<glm::vec3>{{0, 0, 0}, {65535, 0, 0}, {0, 5, 0}}));
+    EXPECT_EQ(corners_of(unsigned_short, 0),
+              (std::vector<glm::vec3>{{0, 0, 0}, {65535, 0, 0}, {0, 5, 0}}));
 }
 
 TEST(GltfMesh, ReadsNormalisedIntegers) {
     // glTF 2.0, section 3.11: c / 127 with −128 clamped to −1, and so on.
-    const auto signed_byte =
-        load_quantized<std::int8_t>(byte_type, true, {-128, 0, 0, 0, -127, 127, 0, 0, 127, 0, 0, 0});
-    EXPECT_EQ(corners_of(signed_byte, 0), (std::vector<glm::vec3>{{-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}}));
-    const auto byte = load_quantized<std::uint8_t>(ubyte_type, true, {0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0, 0});
+    const auto signed_byte = load_quantized<std::int8_t>(
+        byte_type, true, {-128, 0, 0, 0, -127, 127, 0, 0, 127, 0, 0, 0});
+    EXPECT_EQ(corners_of(signed_byte, 0),
+              (std::vector<glm::vec3>{{-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}}));
+    const auto byte =
+        load_quantized<std::uint8_t>(ubyte_type, true, {0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0, 0});
     EXPECT_EQ(corners_of(byte, 0), (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 0.2f, 0}}));
-    const auto signed_short =
-        load_quantized<std::int16_t>(short_type, true, {-32768, 0, 0, 0, 32767, 0, 0, 0, 0, -32767, 0, 0});
-    EXPECT_EQ(corners_of(signed_short, 0), (std::vector<glm::vec3>{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}}));
-    const auto unsigned_short =
-        load_quantized<std::uint16_t>(ushort_type, true, {0, 0, 0, 0, 65535, 0, 0, 0, 0, 13107, 0, 0});
-    EXPECT_EQ(corners_of(unsigned_short, 0), (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 0.2f, 0}}));
+    const auto signed_short = load_quantized<std::int16_t>(
+        short_type, true, {-32768, 0, 0, 0, 32767, 0, 0, 0, 0, -32767, 0, 0});
+    EXPECT_EQ(corners_of(signed_short, 0),
+              (std::vector<glm::vec3>{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}}));
+    const auto unsigned_short = load_quantized<std::uint16_t>(
+        ushort_type, true, {0, 0, 0, 0, 65535, 0, 0, 0, 0, 13107, 0, 0});
+    EXPECT_EQ(corners_of(unsigned_short, 0),
+              (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 0.2f, 0}}));
 }
 
 TEST(GltfMesh, ReadsSparseAccessors) {
@@ -179,13 +187,14 @@ TEST(GltfMesh, ReadsSparseAccessorsOverZeros) {
     GltfBuilder builder;
     const int indices = builder.add_view(std::vector<std::uint8_t>{1, 2});
     const int values = builder.add_view(std::vector<glm::vec3>{{1, 0, 0}, {0, 1, 0}});
-    builder.root["accessors"] = {{{"componentType", float_type},
-                                  {"type", "VEC3"},
-                                  {"count", 3},
-                                  {"sparse",
-                                   {{"count", 2},
-                                    {"indices", {{"bufferView", indices}, {"componentType", ubyte_type}}},
-                                    {"values", {{"bufferView", values}}}}}}};
+    builder.root["accessors"] = {
+        {{"componentType", float_type},
+         {"type", "VEC3"},
+         {"count", 3},
+         {"sparse",
+          {{"count", 2},
+           {"indices", {{"bufferView", indices}, {"componentType", ubyte_type}}},
+           {"values", {{"bufferView", values}}}}}}};
     builder.add_node({{"mesh", builder.add_mesh({{"attributes", {{"POSITION", 0}}}})}});
     EXPECT_EQ(corners_of(builder.load(), 0), right_triangle());
 }
@@ -202,8 +211,10 @@ TEST(GltfMesh, TakesOnlyTheVerticesThatTrianglesUse) {
     const json attributes{{"POSITION", positions}};
     const int first = builder.add_indices<std::uint16_t>({500, 501, 502});
     const int second = builder.add_indices<std::uint16_t>({700, 701, 702});
-    builder.add_node({{"mesh", builder.add_mesh({{"attributes", attributes}, {"indices", first}})}});
-    builder.root["meshes"][0]["primitives"].push_back({{"attributes", attributes}, {"indices", second}});
+    builder.add_node(
+        {{"mesh", builder.add_mesh({{"attributes", attributes}, {"indices", first}})}});
+    builder.root["meshes"][0]["primitives"].push_back(
+        {{"attributes", attributes}, {"indices", second}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.positions.size(), 6u);
     EXPECT_EQ(corners_of(scene, 0), right_triangle());
@@ -262,10 +273,11 @@ TEST(GltfMesh, NamesWhatItIgnoresOnce) {
     builder.add_node({{"mesh", mesh}, {"skin", 0}});
     const Scene scene = builder.load();
     for (const char* what : {"morph targets", "vertex colours", "skins"}) {
-        EXPECT_EQ(
-            std::count_if(scene.notes.begin(), scene.notes.end(),
-                          [&](const std::string& note) { return note.find(what) != std::string::npos; }),
-            1)
+        EXPECT_EQ(std::count_if(scene.notes.begin(), scene.notes.end(),
+                                [&](const std::string& note) {
+                                    return note.find(what) != std::string::npos;
+                                }),
+                  1)
             << what;
     }
 }

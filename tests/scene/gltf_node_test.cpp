@@ -17,15 +17,17 @@ Scene load_transformed(const json& node) {
     const int positions = builder.add_vectors(right_triangle());
     const int normals = builder.add_vectors(std::vector<glm::vec3>(3, {1, 0, 1}));
     json shown = node;
-    shown["mesh"] = builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}});
+    shown["mesh"] =
+        builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}});
     builder.add_node(shown);
     return builder.load();
 }
 
 TEST(GltfNode, AppliesScaleThenRotationThenTranslation) {
     // Scale x by 2, turn 90 degrees about z (x → y), move.
-    const Scene scene = load_transformed(
-        {{"scale", {2, 1, 1}}, {"rotation", {0, 0, half_root, half_root}}, {"translation", {10, 20, 30}}});
+    const Scene scene = load_transformed({{"scale", {2, 1, 1}},
+                                          {"rotation", {0, 0, half_root, half_root}},
+                                          {"translation", {10, 20, 30}}});
     const std::vector<glm::vec3> corners = corners_of(scene, 0);
     expect_near(corners[0], {10, 20, 30}, 1e-5);
     expect_near(corners[1], {10, 22, 30}, 1e-5);
@@ -35,7 +37,8 @@ TEST(GltfNode, AppliesScaleThenRotationThenTranslation) {
 }
 
 TEST(GltfNode, AppliesMatricesColumnsFirst) {
-    const Scene scene = load_transformed({{"matrix", {0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1}}});
+    const Scene scene =
+        load_transformed({{"matrix", {0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1}}});
     const std::vector<glm::vec3> corners = corners_of(scene, 0);
     EXPECT_EQ(corners, (std::vector<glm::vec3>{{10, 20, 30}, {10, 22, 30}, {9, 20, 30}}));
     expect_near(scene.normals[0], glm::normalize(glm::dvec3(0, 0.5, 1)));
@@ -49,7 +52,8 @@ TEST(GltfNode, NormalisesRotations) {
 TEST(GltfNode, AccumulatesParentsInDoublePrecision) {
     // Far away and back: in single precision the detail of 0.001 would drown.
     GltfBuilder builder;
-    builder.add_triangles({{0, 0, 0}, {0.001f, 0, 0}, {0, 0.001f, 0}}, {{"translation", {-123456789, 0, 0}}});
+    builder.add_triangles({{0, 0, 0}, {0.001f, 0, 0}, {0, 0.001f, 0}},
+                          {{"translation", {-123456789, 0, 0}}});
     builder.root["nodes"].push_back({{"translation", {123456789, 5, 0}}, {"children", {0}}});
     builder.root["scenes"][0]["nodes"] = {1};
     expect_near(corners_of(builder.load(), 0)[1], {0.001, 5, 0}, 1e-8);
@@ -59,7 +63,8 @@ TEST(GltfNode, MirroringKeepsTheFrontInFront) {
     for (const json& scale :
          {json{-1, 1, 1}, json{1, -1, 1}, json{1, 1, -1}, json{-1, -1, -1}, json{-2, -3, 1}}) {
         const Scene scene = load_transformed({{"scale", scale}});
-        // The normal (1, 0, 1) and the winding (0, 0, 1) are on the same side before, so they must be after.
+        // The normal (1, 0, 1) and the winding (0, 0, 1) are on the same side before, so they must
+        // be after.
         EXPECT_GT(glm::dot(winding_normal(scene, 0), glm::dvec3(scene.normals[0])), 0) << scale;
         const double z = scale[2].get<double>() < 0 ? -1 : 1;
         EXPECT_GT(winding_normal(scene, 0).z * z, 0) << scale;
@@ -179,7 +184,8 @@ TEST(GltfNode, RefusesBrokenTransformsAndReferences) {
     EXPECT_THAT(problem({{"translation", {1, 2}}}), HasSubstr("translation that is not 3 numbers"));
     EXPECT_THAT(problem({{"rotation", {0, 0, 0, 0}}}), HasSubstr("not a unit quaternion"));
     EXPECT_THAT(problem({{"scale", {1, "x", 1}}}), HasSubstr("\"scale\" must be made of numbers"));
-    EXPECT_THAT(problem({{"scale", {1e300, 1e300, 1e300}}}), HasSubstr("not finite in world space"));
+    EXPECT_THAT(problem({{"scale", {1e300, 1e300, 1e300}}}),
+                HasSubstr("not finite in world space"));
     EXPECT_THAT(problem({{"children", {99}}}), HasSubstr("node 99, which does not exist"));
     EXPECT_THAT(problem({{"children", {-1}}}), HasSubstr("\"children\" must be an integer"));
     EXPECT_THAT(problem({{"scale", {0, 0, 0}}}), HasSubstr("nothing to render"));

@@ -36,7 +36,8 @@ TEST(SpotSolidAngle, AgreesWithQuadrature) {
                                {0.3, 0.3001}};
     for (const auto& [inner, outer] : cones) {
         const double expected = quadrature(inner, outer);
-        EXPECT_NEAR(spot_solid_angle(inner, outer), expected, 1e-5 * expected) << inner << " " << outer;
+        EXPECT_NEAR(spot_solid_angle(inner, outer), expected, 1e-5 * expected)
+            << inner << " " << outer;
     }
 }
 

@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 #include <set>
 
-// Runs over the collection of scenes that may lie beside the repository (../shared/scenes). What these files
-// test is tested on the product's own by the other tests of this directory; they add breadth.
+// Runs over the collection of scenes that may lie beside the repository (../shared/scenes). What
+// these files test is tested on the product's own by the other tests of this directory; they add
+// breadth.
 
 namespace argand {
 namespace {
@@ -18,8 +19,8 @@ struct SharedScenes : ::testing::Test {
     fs::path root = fs::path(ARGAND_SOURCE_DIR).parent_path() / "shared" / "scenes";
     void SetUp() override {
         if (!fs::exists(root)) {
-            GTEST_SKIP()
-                << "../shared/scenes is not there; the other tests of this directory cover the same features";
+            GTEST_SKIP() << "../shared/scenes is not there; the other tests of this directory "
+                            "cover the same features";
         }
     }
     std::vector<fs::path> files(const char* under) const {

@@ -33,11 +33,14 @@ TEST(Describe, NamesEachKindOfMaterial) {
     EXPECT_EQ(kind(1, 0, 1, 1, 1), "mirror"); // metal does not transmit
 }
 
-/// A lamp and a wall, all kinds of lights, one camera, an animation, an extension that is not understood.
+/// A lamp and a wall, all kinds of lights, one camera, an animation, an extension that is not
+/// understood.
 Scene rich_scene() {
     GltfBuilder builder;
     builder.root["materials"] = {
-        {{"name", "lamp"}, {"emissiveFactor", {1, 1, 1}}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}},
+        {{"name", "lamp"},
+         {"emissiveFactor", {1, 1, 1}},
+         {"pbrMetallicRoughness", {{"metallicFactor", 0}}}},
         {{"name", "wall"},
          {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}},
          {"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
@@ -53,8 +56,9 @@ Scene rich_scene() {
     for (int light = 0; light < 3; ++light) {
         builder.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
     }
-    builder.root["cameras"] = {
-        {{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.5}, {"znear", 1}}}}};
+    builder.root["cameras"] = {{{"type", "perspective"},
+                                {"name", "main"},
+                                {"perspective", {{"yfov", 0.5}, {"znear", 1}}}}};
     builder.add_node({{"camera", 0}});
     builder.root["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
     return builder.load();
@@ -98,11 +102,12 @@ TEST(Summary, CountsAndMeasuresInJson) {
 TEST(Summary, SaysTheSameInText) {
     const std::string text = summary_text(rich_scene());
     for (const char* part :
-         {"triangles   3 over 9 vertices", "bounds      0 0 0 to 2 2 2", "lamp: dielectric", "emits 1 cd/m2",
-          "wall: Lambertian", "bulb: point, 2 candela, power 25.13", "sun: directional, 3 lux", "stage: spot",
-          "cone 0 to 28.65 degrees", "emissive    1 triangles, area 2, power 6.283", "sky         none",
-          "main: perspective, 28.65 degrees high", "animations  1", "EXT_something (not understood)",
-          "animations are not understood yet"}) {
+         {"triangles   3 over 9 vertices", "bounds      0 0 0 to 2 2 2", "lamp: dielectric",
+          "emits 1 cd/m2", "wall: Lambertian", "bulb: point, 2 candela, power 25.13",
+          "sun: directional, 3 lux", "stage: spot", "cone 0 to 28.65 degrees",
+          "emissive    1 triangles, area 2, power 6.283", "sky         none",
+          "main: perspective, 28.65 degrees high", "animations  1",
+          "EXT_something (not understood)", "animations are not understood yet"}) {
         EXPECT_THAT(text, HasSubstr(part));
     }
     EXPECT_EQ(text.back(), '\n');
@@ -119,15 +124,17 @@ TEST(Summary, TellsOfAlpha) {
 
 TEST(Summary, TellsOfPhong) {
     GltfBuilder builder = one_triangle();
-    builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
-                                  {"extras", {{"phong", {{"specular", {0.5, 0.25, 0}}, {"exponent", 20}}}}}}};
+    builder.root["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
+         {"extras", {{"phong", {{"specular", {0.5, 0.25, 0}}, {"exponent", 20}}}}}}};
     builder.root["meshes"][0]["primitives"][0]["material"] = 0;
     const json material = summary_json(builder.load())["materials"][0];
     EXPECT_EQ(material["kind"], "Phong");
     EXPECT_EQ(material["phong"], json({{"specular", {0.5, 0.25, 0}}, {"exponent", 20}}));
     EXPECT_TRUE(summary_json(one_triangle().load())["materials"][0]["phong"].is_null());
-    EXPECT_THAT(summary_text(builder.load()),
-                HasSubstr("Phong, base colour 0.5, specular colour 0.5 0.25 0, exponent 20 (1 tri"));
+    EXPECT_THAT(
+        summary_text(builder.load()),
+        HasSubstr("Phong, base colour 0.5, specular colour 0.5 0.25 0, exponent 20 (1 tri"));
 }
 
 TEST(Summary, TellsOfWhatWasMadeUp) {

@@ -1,6 +1,6 @@
-// tools/setup, run against made-up systems: its commands (dpkg-query, apt-get, sudo, id) are stand-ins that
-// answer from files and write down how they were called, so nothing is installed and the result does not
-// depend on the host.
+// tools/setup, run against made-up systems: its commands (dpkg-query, apt-get, sudo, id) are
+// stand-ins that answer from files and write down how they were called, so nothing is installed and
+// the result does not depend on the host.
 
 #include <array>
 #include <cstdio>
@@ -39,7 +39,8 @@ protected:
                               "  state=installed; while read -r line; do\n"
                               "    [[ $line != \"$name\" ]] || state=not-installed\n"
                               "  done < \"$FOLDER/lacking\"; echo \"$name $state\"; done");
-        command("apt-get", "echo \"apt-get $*\" >> \"$FOLDER/calls\"; exec bash \"$FOLDER/apt\" \"$@\"");
+        command("apt-get",
+                "echo \"apt-get $*\" >> \"$FOLDER/calls\"; exec bash \"$FOLDER/apt\" \"$@\"");
         write("apt", "exit 0");
         lacking("");
     }

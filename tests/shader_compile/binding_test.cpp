@@ -72,14 +72,17 @@ std::string struct_text(const std::string& header) {
 TEST_F(Binding, HeaderNamesWhatTheShaderDeclares) {
     const std::string header = generated("emit.hpp");
     EXPECT_THAT(header, HasSubstr("#pragma once"));
-    EXPECT_THAT(header, HasSubstr("#include \"device/kernel.hpp\"\n#include \"shared/records.h\"\n"));
+    EXPECT_THAT(header,
+                HasSubstr("#include \"device/kernel.hpp\"\n#include \"shared/records.h\"\n"));
     EXPECT_THAT(header, HasSubstr("/// shaders/comp/photon/emit.comp\nstruct emit {"));
     EXPECT_EQ(
         struct_text(header),
-        "struct emit { Read lights; ///< binding 0 Write rays; ///< binding 1 ReadWrite sums; ///< binding 2 "
+        "struct emit { Read lights; ///< binding 0 Write rays; ///< binding 1 ReadWrite sums; ///< "
+        "binding 2 "
         "Read unused; ///< binding 3 EmitParams params = missing_push_constants<EmitParams>(); "
         "struct Constants { float x = 1.0f; std::uint32_t max_depth = 8u; "
-        "std::int32_t least = -2147483648; float never_read = 0.1f; bool b = true; } constants = {}; "
+        "std::int32_t least = -2147483648; float never_read = 0.1f; bool b = true; } constants = "
+        "{}; "
         "static const KernelInfo info; KernelArguments arguments() const; }; } // namespace "
         "argand::kernels ");
 }
@@ -94,8 +97,8 @@ argand::KernelArguments f(const argand::Buffer& a, const argand::Buffer& b) {
     return argand::kernels::emit)";
 
 TEST_F(Binding, ProgramWithAllArgumentsCompiles) {
-    const Outcome outcome =
-        check_cpp(before + R"({.lights = a, .rays = argand::BufferView(b, 16, 32), .sums = a, .unused = b,
+    const Outcome outcome = check_cpp(
+        before + R"({.lights = a, .rays = argand::BufferView(b, 16, 32), .sums = a, .unused = b,
         .params = {.scale = 1, .count = 2, .pad = {}}, .constants = {.max_depth = 3}}.arguments();
     })");
     EXPECT_EQ(outcome.status, 0) << outcome.said;
@@ -109,21 +112,23 @@ TEST_F(Binding, ProgramThatLacksABufferDoesNotCompile) {
 }
 
 TEST_F(Binding, ProgramThatLacksPushConstantsDoesNotCompile) {
-    write("program.cpp", before + "{.lights = a, .rays = b, .sums = a, .unused = b}.arguments(); }");
-    const Outcome outcome = run("cd " + root.string() +
-                                " && " ARGAND_CXX_COMPILER " -std=c++20 -Iout -Ishaders -I" ARGAND_SOURCE_DIR
-                                "/engine -c program.cpp -o program.o");
+    write("program.cpp",
+          before + "{.lights = a, .rays = b, .sums = a, .unused = b}.arguments(); }");
+    const Outcome outcome =
+        run("cd " + root.string() +
+            " && " ARGAND_CXX_COMPILER " -std=c++20 -Iout -Ishaders -I" ARGAND_SOURCE_DIR
+            "/engine -c program.cpp -o program.o");
     EXPECT_NE(outcome.status, 0);
     EXPECT_THAT(outcome.said, HasSubstr("a kernel lacks its push constants"));
 }
 
 TEST_F(Binding, ProgramWithAWrongNameOrTypeDoesNotCompile) {
-    const Outcome name =
-        check_cpp(before + "{.lights = a, .rays = b, .sum = a, .unused = b, .params = {}}.arguments(); }");
+    const Outcome name = check_cpp(
+        before + "{.lights = a, .rays = b, .sum = a, .unused = b, .params = {}}.arguments(); }");
     EXPECT_NE(name.status, 0);
     EXPECT_THAT(name.said, HasSubstr("sum"));
-    const Outcome type =
-        check_cpp(before + "{.lights = a, .rays = b, .sums = a, .unused = b, .params = 3}.arguments(); }");
+    const Outcome type = check_cpp(
+        before + "{.lights = a, .rays = b, .sums = a, .unused = b, .params = 3}.arguments(); }");
     EXPECT_NE(type.status, 0);
     EXPECT_THAT(type.said, HasSubstr("EmitParams"));
 }

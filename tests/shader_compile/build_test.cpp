@@ -23,14 +23,15 @@ target_include_directories(library PUBLIC shaders )" ARGAND_SOURCE_DIR R"(/engin
 )");
         write("user.cpp", "#include \"kernels/copy.hpp\"\n"
                           "const char* name() { return argand::kernels::copy::info.name; }\n");
-        write("shaders/comp/a/copy.comp", head + "#include \"one.glsl\"\n"
-                                                 "layout(set = 0, binding = 0) buffer A { uint a[]; };\n"
-                                                 "void main() { a[THREAD_INDEX] = one(); }\n");
+        write("shaders/comp/a/copy.comp",
+              head + "#include \"one.glsl\"\n"
+                     "layout(set = 0, binding = 0) buffer A { uint a[]; };\n"
+                     "void main() { a[THREAD_INDEX] = one(); }\n");
         write("shaders/comp/a/one.glsl", "uint one() { return 1u; }\n");
     }
     Outcome configure() const {
-        return run(ARGAND_CMAKE " -G Ninja -DCMAKE_CXX_COMPILER=" ARGAND_CXX_COMPILER " -S " + root.string() +
-                   " -B " + (root / "build").string());
+        return run(ARGAND_CMAKE " -G Ninja -DCMAKE_CXX_COMPILER=" ARGAND_CXX_COMPILER " -S " +
+                   root.string() + " -B " + (root / "build").string());
     }
     Outcome build() const { return run(ARGAND_CMAKE " --build " + (root / "build").string()); }
 };

@@ -38,17 +38,20 @@ inline const std::string head = "#version 460\n"
                                 "layout(local_size_x = 64) in;\n"
                                 "#include \"kernel.glsl\"\n";
 
-/// A folder of its own for each test, laid out as the repository: shaders/comp, shaders/shared, out.
+/// A folder of its own for each test, laid out as the repository: shaders/comp, shaders/shared,
+/// out.
 struct ShaderCompile : testing::Test {
-    fs::path root = fs::temp_directory_path() /
-                    ("argand_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                     std::to_string(getpid()));
+    fs::path root =
+        fs::temp_directory_path() /
+        ("argand_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+         std::to_string(getpid()));
 
     void SetUp() override {
         fs::remove_all(root);
         fs::create_directories(root / "out/kernels");
         for (const char* file : {"comp/kernel.glsl", "shared/prelude.h"}) {
-            write(std::string("shaders/") + file, read(fs::path(ARGAND_SOURCE_DIR) / "shaders" / file));
+            write(std::string("shaders/") + file,
+                  read(fs::path(ARGAND_SOURCE_DIR) / "shaders" / file));
         }
     }
     void TearDown() override { fs::remove_all(root); }
@@ -62,29 +65,36 @@ struct ShaderCompile : testing::Test {
         EXPECT_TRUE(stream) << file;
         return {std::istreambuf_iterator<char>(stream), {}};
     }
-    std::string generated(const std::string& file) const { return read(root / "out/kernels" / file); }
-    bool is_generated(const std::string& file) const { return fs::exists(root / "out/kernels" / file); }
+    std::string generated(const std::string& file) const {
+        return read(root / "out/kernels" / file);
+    }
+    bool is_generated(const std::string& file) const {
+        return fs::exists(root / "out/kernels" / file);
+    }
 
     /// Runs the tool on a kernel, as the build does.
     Outcome compile(const std::string& kernel) const {
-        return run("cd " + root.string() +
-                   " && " ARGAND_TOOL
-                   " -I shaders -I shaders/comp --out out/kernels --depfile out/kernels/depfile.d " +
-                   kernel);
+        return run(
+            "cd " + root.string() +
+            " && " ARGAND_TOOL
+            " -I shaders -I shaders/comp --out out/kernels --depfile out/kernels/depfile.d " +
+            kernel);
     }
     /// Writes shaders/comp/test/bad.comp with `head` before `body`, and runs the tool on it.
     Outcome compile_body(const std::string& body) const {
         write("shaders/comp/test/bad.comp", head + body);
         return compile("shaders/comp/test/bad.comp");
     }
-    /// Runs the C++ compiler, without writing anything, on a program that sees the generated headers.
+    /// Runs the C++ compiler, without writing anything, on a program that sees the generated
+    /// headers.
     Outcome check_cpp(const std::string& program) const {
         write("program.cpp", program);
         return check_cpp_file("program.cpp");
     }
     Outcome check_cpp_file(const std::string& file) const {
         return run("cd " + root.string() +
-                   " && " ARGAND_CXX_COMPILER " -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only "
+                   " && " ARGAND_CXX_COMPILER
+                   " -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only "
                    "-Iout -Ishaders -I" ARGAND_SOURCE_DIR "/engine " +
                    file);
     }

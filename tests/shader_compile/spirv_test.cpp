@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint32_t op_name = 5, op_ext_inst = 12, op_type_float = 22, op_type_vector = 23,
                         op_type_matrix = 24, op_function = 54, op_decorate = 71, op_fnegate = 127,
                         op_fadd = 129, op_fsub = 131, op_fmul = 133, op_fdiv = 136, op_frem = 140,
-                        op_fmod = 141, op_vector_times_scalar = 142, op_dot = 148, no_contraction = 42;
+                        op_fmod = 141, op_vector_times_scalar = 142, op_dot = 148,
+                        no_contraction = 42;
 
 struct Instruction {
     std::uint32_t op;
@@ -38,7 +39,8 @@ struct Arithmetic {
 };
 
 Arithmetic arithmetic(const Spirv& spirv) {
-    const std::set<std::uint32_t> simple{op_fnegate, op_fadd, op_fsub, op_fmul, op_fdiv, op_frem, op_fmod};
+    const std::set<std::uint32_t> simple{op_fnegate, op_fadd, op_fsub, op_fmul,
+                                         op_fdiv,    op_frem, op_fmod};
     Arithmetic result;
     std::set<std::uint32_t> float_types;
     std::map<std::uint32_t, int> decorated;
@@ -105,12 +107,14 @@ TEST_F(FinalSpirv, EveryFloatOperationForbidsContraction) {
     const Arithmetic found = arithmetic(spirv);
     EXPECT_EQ(found.not_decorated, 0);
     EXPECT_EQ(found.decorated_twice, 0);
-    // The kinds are really there: one multiplication and one addition of each inlined function at least.
+    // The kinds are really there: one multiplication and one addition of each inlined function at
+    // least.
     for (const std::uint32_t op : {op_fnegate, op_fadd, op_fsub, op_fmul, op_fdiv, op_fmod,
                                    op_vector_times_scalar, op_dot, op_ext_inst}) {
         EXPECT_GT(found.count.at(op), 0) << op;
     }
-    EXPECT_GT(arithmetic(source.spirv).not_decorated, 10) << "glslang itself decorates only what is precise";
+    EXPECT_GT(arithmetic(source.spirv).not_decorated, 10)
+        << "glslang itself decorates only what is precise";
 }
 
 TEST_F(FinalSpirv, OptimiserDoesNotReassociateFloats) {
@@ -120,7 +124,8 @@ layout(set = 0, binding = 0) buffer A { float a[]; };
 void main() { a[1] = (a[0] + 1.0) + 2.0; a[3] = a[2] * 0.0; a[5] = (a[4] / 3.0) / 5.0; }
 )");
     const Arithmetic found = arithmetic(optimise(source.spirv, "test"));
-    EXPECT_EQ(found.count, (std::map<std::uint32_t, int>{{op_fadd, 2}, {op_fmul, 1}, {op_fdiv, 2}}));
+    EXPECT_EQ(found.count,
+              (std::map<std::uint32_t, int>{{op_fadd, 2}, {op_fmul, 1}, {op_fdiv, 2}}));
 }
 
 TEST_F(FinalSpirv, IsOptimisedAndHasNoNames) {
@@ -149,15 +154,17 @@ TEST_F(FinalSpirv, InvalidModuleIsRefused) {
         validate(spirv, "shaders/comp/test.comp");
         FAIL() << "not refused";
     } catch (const std::exception& error) {
-        EXPECT_THAT(error.what(),
-                    testing::StartsWith("shaders/comp/test.comp:1: error: spirv-val refuses the module: "));
+        EXPECT_THAT(
+            error.what(),
+            testing::StartsWith("shaders/comp/test.comp:1: error: spirv-val refuses the module: "));
     }
 }
 
 TEST_F(FinalSpirv, SubgroupsBeyondBasicAreSeen) {
-    const std::string basic = "#extension GL_KHR_shader_subgroup_basic : require\n"
-                              "layout(set = 0, binding = 0) buffer A { uint a[]; };\n"
-                              "void main() { if (subgroupElect()) a[gl_SubgroupID] = gl_SubgroupSize; }\n";
+    const std::string basic =
+        "#extension GL_KHR_shader_subgroup_basic : require\n"
+        "layout(set = 0, binding = 0) buffer A { uint a[]; };\n"
+        "void main() { if (subgroupElect()) a[gl_SubgroupID] = gl_SubgroupSize; }\n";
     EXPECT_FALSE(reflect(compiled(basic), directories()).uses_subgroups);
     const std::string ballot = "#extension GL_KHR_shader_subgroup_ballot : require\n"
                                "layout(set = 0, binding = 0) buffer A { uvec4 a[]; };\n"

@@ -24,7 +24,8 @@ TEST(Sources, LineOfWords) {
 }
 
 TEST(Sources, ErrorPlaceIsTheFirstSourceThatSaysIt) {
-    const Sources sources{{"k.comp", "// struct A {\n"}, {"a.h", "\nstruct A {};"}, {"b.h", "struct A {};"}};
+    const Sources sources{
+        {"k.comp", "// struct A {\n"}, {"a.h", "\nstruct A {};"}, {"b.h", "struct A {};"}};
     EXPECT_EQ(error_at(sources, {"struct", "A"}), "a.h:2: error: ");
     EXPECT_EQ(error_at(sources, {"struct", "B"}), "k.comp:1: error: ");
 }

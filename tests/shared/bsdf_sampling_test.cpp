@@ -1,5 +1,5 @@
-// Sampling tests that invert what they sample: directions are counted in cells, whose probabilities are
-// integrals of bsdf_pdf, and mean weights are compared with integrals of bsdf_eval.
+// Sampling tests that invert what they sample: directions are counted in cells, whose probabilities
+// are integrals of bsdf_pdf, and mean weights are compared with integrals of bsdf_eval.
 #include "materials.hpp"
 #include "shared/random.h"
 #include "statistics.hpp"
@@ -15,8 +15,9 @@ using namespace argand::testing;
 constexpr double pi = 3.14159265358979323846;
 
 /// The hemisphere of wi in cells of the half vector h: rows by the share p of GGX's normals (of the
-/// roughness) that are closer to the normal, so that they are fine where the lobe is, columns by the angle
-/// around. Rows are equal in q = 1 - sqrt(1 - p), by which the density of grazing reflections stays bounded.
+/// roughness) that are closer to the normal, so that they are fine where the lobe is, columns by
+/// the angle around. Rows are equal in q = 1 - sqrt(1 - p), by which the density of grazing
+/// reflections stays bounded.
 class Cells {
 public:
     Cells(vec3 wo, double alpha) : wo_(wo), alpha_(alpha) {}
@@ -34,13 +35,13 @@ public:
     }
 
     /// Integrates f(wi) over each cell by the midpoint rule.
-    template <class F>
-    std::vector<double> integrate(const F& f) const {
+    template <class F> std::vector<double> integrate(const F& f) const {
         std::vector<double> integrals(count());
         const int steps = 8;
         for (std::size_t cell = 0; cell < count(); ++cell) {
             for (int i = 0; i < steps * steps; ++i) {
-                const double rest = 1 - (double(cell / columns) + (i / steps + 0.5) / steps) / rows; // 1 - q
+                const double rest =
+                    1 - (double(cell / columns) + (i / steps + 0.5) / steps) / rows; // 1 - q
                 const double turn = (double(cell % columns) + (i % steps + 0.5) / steps) / columns;
                 const double tan2 = alpha_ * alpha_ * (1 / (rest * rest) - 1);
                 const double z = 1 / std::sqrt(1 + tan2);
@@ -55,7 +56,8 @@ public:
                 // d tan² / dq, solid angle of h by tan² and angle, solid angle of wi by that of h
                 const double measure =
                     2 * alpha_ * alpha_ / (rest * rest * rest) * z * z * z / 2 * 4 * cosine;
-                integrals[cell] += f(rounded(wi)) * measure * 2 * pi / double(count() * steps * steps);
+                integrals[cell] +=
+                    f(rounded(wi)) * measure * 2 * pi / double(count() * steps * steps);
             }
         }
         return integrals;
@@ -99,7 +101,8 @@ void expect_sampling_to_match(const MaterialRecord& m, vec3 wo, uint lobes, int 
     const double inside = std::accumulate(density.begin(), density.end(), 0.0);
     EXPECT_LT(inside, 1.001 - delta_probability);
     const double counted = std::accumulate(counts.begin(), counts.end(), 0.0);
-    EXPECT_NEAR(counted / samples, inside, 5 * std::sqrt(inside * std::abs(1 - inside) / samples) + 3e-3);
+    EXPECT_NEAR(counted / samples, inside,
+                5 * std::sqrt(inside * std::abs(1 - inside) / samples) + 3e-3);
     std::vector<double> expected;
     for (const double p : density) {
         expected.push_back(p * counted / inside);
@@ -112,7 +115,8 @@ void expect_sampling_to_match(const MaterialRecord& m, vec3 wo, uint lobes, int 
 TEST(BsdfSampling, MetalFollowsItsDensity) {
     for (const float roughness : {0.033f, 0.1f, 0.3f, 0.6f, 1.0f}) {
         for (const double angle : {0.0, 45.0, 70.0, 85.0, 89.5}) {
-            expect_sampling_to_match(metal(vec3(0.9f), roughness), at_angle(angle, 77), LOBES_ALL, 40'000);
+            expect_sampling_to_match(metal(vec3(0.9f), roughness), at_angle(angle, 77), LOBES_ALL,
+                                     40'000);
         }
     }
 }
@@ -121,7 +125,8 @@ TEST(BsdfSampling, DielectricFollowsItsDensity) {
     for (const float roughness : {0.5f, 1.0f}) {
         for (const double angle : {0.0, 45.0, 80.0}) {
             for (const uint lobes : {LOBES_ALL, LOBE_DIFFUSE, LOBE_GLOSSY}) {
-                expect_sampling_to_match(glossy_dielectric(roughness), at_angle(angle), lobes, 40'000);
+                expect_sampling_to_match(glossy_dielectric(roughness), at_angle(angle), lobes,
+                                         40'000);
             }
         }
     }
@@ -140,11 +145,13 @@ TEST(BsdfSampling, MixedMaterialsFollowTheirDensity) {
         }
     }
     expect_sampling_to_match(glossy_dielectric(0.0f), at_angle(40), LOBES_ALL, 60'000);
-    expect_sampling_to_match(with_alpha(glossy_dielectric(0.6f), 0.4f), at_angle(40), LOBES_ALL, 60'000);
+    expect_sampling_to_match(with_alpha(glossy_dielectric(0.6f), 0.4f), at_angle(40), LOBES_ALL,
+                             60'000);
 }
 
 /// Mean weight of each lobe's samples, by its bit's place.
-std::array<Mean, 5> mean_weights(const MaterialRecord& m, vec3 wo, bool front, uint lobes, int samples) {
+std::array<Mean, 5> mean_weights(const MaterialRecord& m, vec3 wo, bool front, uint lobes,
+                                 int samples) {
     std::array<Mean, 5> means;
     for (int i = 0; i < samples; ++i) {
         BsdfSample s;
@@ -197,14 +204,14 @@ TEST(BsdfSampling, MasksPartitionTheLobes) {
 TEST(Furnace, WhiteLambertianMirrorAndGlassReturnAll) {
     for (const double angle : {0.0, 30.0, 60.0, 89.0, 89.99}) {
         for (const bool front : {true, false}) {
-            for (const MaterialRecord& m : {lambertian(vec3(1)), metal(vec3(1), 0), glass(1.5f, 0),
-                                            glass(1.5f, 1), glass(2.4f, 1), glass(1.0f, 1),
-                                            with_alpha(lambertian(vec3(1)), 0.3f),
-                                            with_alpha(glass(1.5f, 1), 0.6f)}) {
+            for (const MaterialRecord& m :
+                 {lambertian(vec3(1)), metal(vec3(1), 0), glass(1.5f, 0), glass(1.5f, 1),
+                  glass(2.4f, 1), glass(1.0f, 1), with_alpha(lambertian(vec3(1)), 0.3f),
+                  with_alpha(glass(1.5f, 1), 0.6f)}) {
                 for (int i = 0; i < 500; ++i) {
                     BsdfSample s;
-                    ASSERT_TRUE(
-                        bsdf_sample(m, at_angle(angle), front, LOBES_ALL, random4(13, uint(i), 0, 0), s));
+                    ASSERT_TRUE(bsdf_sample(m, at_angle(angle), front, LOBES_ALL,
+                                            random4(13, uint(i), 0, 0), s));
                     ASSERT_NEAR(s.weight.x, 1, 1e-6); // each sample, not only their mean
                 }
             }
@@ -226,8 +233,8 @@ TEST(Furnace, MetalNeverReturnsMoreThanAll) {
     }
 }
 
-// Single scattering loses little on smooth metal. On the roughest, alpha = 1, the distribution is constant,
-// and seen from above the integral is that of cos / (1 + cos): 1 - ln 2.
+// Single scattering loses little on smooth metal. On the roughest, alpha = 1, the distribution is
+// constant, and seen from above the integral is that of cos / (1 + cos): 1 - ln 2.
 TEST(Furnace, MetalLosesWhatMaskingTakes) {
     const auto mean_of = [](float roughness) {
         return mean_weights(metal(vec3(1), roughness), at_angle(0), true, LOBES_ALL, 40'000)[1];

@@ -73,7 +73,8 @@ TEST(Bsdf, AlphaScalesAllLobesAndLetsTheRestPass) {
         const vec3 wo = any_upper(bits);
         const vec3 wi = any_upper(bits);
         const vec3 f = bsdf_eval(opaque, wo, wi, LOBES_ALL);
-        expect_near(bsdf_eval(m, wo, wi, LOBES_ALL), glm::dvec3(f) * double(alpha), 2e-6 * max_component(f));
+        expect_near(bsdf_eval(m, wo, wi, LOBES_ALL), glm::dvec3(f) * double(alpha),
+                    2e-6 * max_component(f));
         for (const uint lobe : {LOBE_DIFFUSE, LOBE_GLOSSY, LOBE_MIRROR, LOBE_TRANSMIT}) {
             expect_near(bsdf_albedo(m, wo, true, lobe),
                         glm::dvec3(bsdf_albedo(opaque, wo, true, lobe)) * double(alpha), 1e-6);
@@ -154,9 +155,10 @@ TEST(Bsdf, DielectricAgreesWithTheSpecification) {
             const glm::dvec3 h = glm::normalize(v + l);
             const double a2 = std::pow(double(m.roughness), 4);
             const double d = a2 / (3.14159265358979 * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
-            const double visibility =
-                1 /
-                (l.z * std::sqrt(v.z * v.z * (1 - a2) + a2) + v.z * std::sqrt(l.z * l.z * (1 - a2) + a2)) / 2;
+            const double visibility = 1 /
+                                      (l.z * std::sqrt(v.z * v.z * (1 - a2) + a2) +
+                                       v.z * std::sqrt(l.z * l.z * (1 - a2) + a2)) /
+                                      2;
             const double fresnel = 0.04 + 0.96 * std::pow(1 - glm::dot(v, h), 5);
             const glm::dvec3 base(m.base_r, m.base_g, m.base_b);
             const glm::dvec3 f = (1 - fresnel) * base / 3.14159265358979 + fresnel * d * visibility;
@@ -175,7 +177,8 @@ TEST(Bsdf, MetalAgreesWithTheSpecification) {
         EXPECT_EQ(s.lobe, LOBE_MIRROR);
         EXPECT_EQ(s.pdf, 0.0f);
         EXPECT_EQ(s.wi, vec3(-wo.x, -wo.y, wo.z));
-        expect_near(s.weight, glm::dvec3(color) + (1.0 - glm::dvec3(color)) * std::pow(1 - double(wo.z), 5),
+        expect_near(s.weight,
+                    glm::dvec3(color) + (1.0 - glm::dvec3(color)) * std::pow(1 - double(wo.z), 5),
                     1e-6);
     }
 }
@@ -185,7 +188,8 @@ TEST(Bsdf, SpecularExtensionScalesTheLayer) {
     m.specular = 0.5f;
     m.specular_r = 2;
     m.specular_g = 40; // f0 is cut at 1
-    expect_near(bsdf_albedo(m, vec3(0, 0, 1), true, LOBE_MIRROR), glm::dvec3(0.04, 0.5, 0.02), 1e-6);
+    expect_near(bsdf_albedo(m, vec3(0, 0, 1), true, LOBE_MIRROR), glm::dvec3(0.04, 0.5, 0.02),
+                1e-6);
     const vec3 grazing = bsdf_albedo(m, at_angle(89.999), true, LOBE_MIRROR);
     expect_near(grazing, glm::dvec3(0.5), 1e-4);
     m.ior = 0;
@@ -265,8 +269,8 @@ TEST(Fresnel, AgreesWithTheAngles) {
         for (double angle = 0.5; angle < 90; angle += 0.5) {
             const double sine = std::sin(angle * 0.017453292519943295);
             float refracted = 0;
-            const float f =
-                fresnel_dielectric(float(std::cos(angle * 0.017453292519943295)), float(eta), refracted);
+            const float f = fresnel_dielectric(float(std::cos(angle * 0.017453292519943295)),
+                                               float(eta), refracted);
             if (sine / eta > 1.00001) {
                 EXPECT_EQ(f, 1.0f);
                 EXPECT_EQ(refracted, 0.0f);
@@ -336,16 +340,19 @@ TEST(Bsdf, SinglePrecisionSamplesLikeDouble) {
         BsdfSample s;
         const bool scattered = bsdf_sample(m, wo, front, LOBES_ALL, u, s);
         const truth::BsdfSample t = truth::bsdf_sample(record_bytes(m), wo, front, LOBES_ALL, u);
-        if (!scattered || !t.scattered || s.lobe != t.lobe || std::min(t.wi.z, double(s.wi.z)) < 0.01) {
+        if (!scattered || !t.scattered || s.lobe != t.lobe ||
+            std::min(t.wi.z, double(s.wi.z)) < 0.01) {
             continue; // at the very border between two lobes, or of the horizon
         }
         ++compared;
-        // Where u.z is near 1, at the rim of the normals that wo sees, their height is a small difference.
+        // Where u.z is near 1, at the rim of the normals that wo sees, their height is a small
+        // difference.
         ASSERT_NEAR(glm::length(glm::dvec3(s.wi) - t.wi), 0, 4e-5 + 1e-8 / (1 - double(u.z))) << i;
         ASSERT_EQ(s.weight.x >= 0, true);
         const double alpha = std::max(double(m.roughness) * m.roughness, 1e-3);
         for (int k = 0; k < 3; ++k) {
-            ASSERT_NEAR(s.weight[k], t.weight[k], (2e-4 + 1e-5 / alpha) * (t.weight[k] + 0.03)) << i;
+            ASSERT_NEAR(s.weight[k], t.weight[k], (2e-4 + 1e-5 / alpha) * (t.weight[k] + 0.03))
+                << i;
         }
     }
     EXPECT_GT(compared, 100'000);

@@ -20,7 +20,8 @@ CameraRecord camera(bool perspective, double half, glm::dvec3 position) {
     const vec3 f = rounded(perspective ? forward + corner : forward);
     const vec3 a = rounded(across);
     const vec3 d = rounded(down);
-    return {o.x, o.y, o.z, perspective ? 0.0f : 1.0f, f.x, f.y, f.z, 0, a.x, a.y, a.z, 0, d.x, d.y, d.z, 0};
+    return {o.x, o.y, o.z, perspective ? 0.0f : 1.0f, f.x, f.y, f.z, 0, a.x, a.y, a.z, 0, d.x,
+            d.y, d.z, 0};
 }
 
 void expect_near(vec3 a, glm::dvec3 b, double bound) {

@@ -1,5 +1,5 @@
-// The shared maths on the device under test: as good as on the host, and where the device rounds as IEEE 754
-// says, the same to the bit.
+// The shared maths on the device under test: as good as on the host, and where the device rounds as
+// IEEE 754 says, the same to the bit.
 #include "device_fixture.hpp"
 #include "kernels/test_elementary.hpp"
 #include "kernels/test_transport.hpp"
@@ -11,7 +11,8 @@
 namespace argand {
 namespace {
 
-/// Whether division and square root are rounded correctly; Vulkan allows them 2.5 units in the last place.
+/// Whether division and square root are rounded correctly; Vulkan allows them 2.5 units in the last
+/// place.
 bool rounds_exactly(const Device& device) {
     return device.info().driver.find("llvmpipe") != std::string::npos;
 }
@@ -31,8 +32,7 @@ Values on_host(glm::vec2 in) {
 std::array<double, function_count> truth_of(glm::vec2 in) {
     const double x = in.x;
     const double y = in.y;
-    return {truth::elementary("sin_2pi", x),
-            truth::elementary("cos_2pi", x),
+    return {truth::elementary("sin_2pi", x), truth::elementary("cos_2pi", x),
             std::pow(std::abs(x), y)};
 }
 
@@ -42,7 +42,8 @@ TEST_F(SharedMaths, ElementaryFunctionsHaveAFewUlps) {
     std::vector<glm::vec2> inputs(100'000);
     for (glm::vec2& in : inputs) {
         const float sign = bits() % 2 == 0 ? 1.0f : -1.0f;
-        in = {sign * (bits() % 2 == 0 ? testing::to_unit_float(bits) : testing::any_magnitude(bits, -20, 0)),
+        in = {sign * (bits() % 2 == 0 ? testing::to_unit_float(bits)
+                                      : testing::any_magnitude(bits, -20, 0)),
               testing::any_magnitude(bits, -10, 2) * (bits() % 2 == 0 ? 1.0f : -1.0f)};
     }
     const Buffer in = upload(device, "inputs", inputs);
@@ -56,7 +57,8 @@ TEST_F(SharedMaths, ElementaryFunctionsHaveAFewUlps) {
         const Values host = on_host(inputs[i]);
         const auto truth = truth_of(inputs[i]);
         for (int k = 0; k < function_count; ++k) {
-            // Near zero sine and cosine are as exact as 2 pi is; single precision's smallest is far below.
+            // Near zero sine and cosine are as exact as 2 pi is; single precision's smallest is far
+            // below.
             const bool near_zero = k < 2 && std::abs(truth[k]) < 1e-6;
             worst[k] = std::max(worst[k], near_zero ? 0 : testing::ulps(values[i][k], truth[k]));
             differing[k] +=
@@ -83,8 +85,8 @@ TEST_F(SharedMaths, TransportAgreesWithTheHost) {
     const auto any_point = [&] { return glm::vec3(normal(bits), normal(bits), normal(bits)); };
     for (std::size_t i = 0; i < count; ++i) {
         materials.push_back(i % 4 == 0 ? testing::any_phong(bits) : testing::any_material(bits));
-        LightRecord l = testing::triangle_light(any_point(), glm::normalize(any_point()), any_point(),
-                                                glm::vec3(2), i % 2);
+        LightRecord l = testing::triangle_light(any_point(), glm::normalize(any_point()),
+                                                any_point(), glm::vec3(2), i % 2);
         l.kind = static_cast<std::uint32_t>(i % 5);
         l.cos_inner = 0.9f;
         l.cos_outer = 0.5f;

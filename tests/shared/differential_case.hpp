@@ -1,5 +1,5 @@
-// Random paths of photons past mirrors and through glass, in the precision of the file that includes this:
-// what the differentials say, and what photons beside them do.
+// Random paths of photons past mirrors and through glass, in the precision of the file that
+// includes this: what the differentials say, and what photons beside them do.
 #pragma once
 
 #include "shared/light_differential.h"
@@ -69,10 +69,10 @@ inline Begin begin(Start start, uint seed) {
     if (start < Start::paper) {
         const LightRecord l = some_light(start, seed);
         vec3 normal, flux;
-        light_emit(l, all_light_kinds, u, random4(42, seed, 0, 1), vec3(0), real(2), b.photon.position, b.photon.direction,
-                   normal, flux);
-        b.differential =
-            light_differential(l, all_light_kinds, b.photon.direction, normal, real(2), photon_count, photon_count);
+        light_emit(l, all_light_kinds, u, random4(42, seed, 0, 1), vec3(0), real(2),
+                   b.photon.position, b.photon.direction, normal, flux);
+        b.differential = light_differential(l, all_light_kinds, b.photon.direction, normal, real(2),
+                                            photon_count, photon_count);
         return b;
     }
     const Frame frame = make_frame(unit_vector(seed, 4));
@@ -126,7 +126,8 @@ inline WallHit hit_wall(IN(Photon) p, IN(Wall) w) {
     const vec3 q = p.position + p.direction * h.t - w.v0;
     h.weights.x = dot3(cross3(q, w.v2 - w.v0), n) / dot3(n, n);
     h.weights.y = dot3(cross3(w.v1 - w.v0, q), n) / dot3(n, n);
-    h.surface = make_surface(w.v0, w.v1, w.v2, w.n0, w.n1, w.n2, h.weights.x, h.weights.y, p.direction);
+    h.surface =
+        make_surface(w.v0, w.v1, w.v2, w.n0, w.n1, w.n2, h.weights.x, h.weights.y, p.direction);
     return h;
 }
 
@@ -151,13 +152,13 @@ inline Photon scattered(IN(WallHit) h, IN(Wall) w, vec3 direction) {
 
 struct Path {
     PhotonDifferential differential; // at the end
-    vec3 neighbour;                  // the end of the photon beside it, if its own end is the origin
-    real conditioning;               // the smallest cosine on the way, Snell's included
-    bool alike;                      // the neighbour met the same fate
+    vec3 neighbour;    // the end of the photon beside it, if its own end is the origin
+    real conditioning; // the smallest cosine on the way, Snell's included
+    bool alike;        // the neighbour met the same fate
 };
 
-/// Traces photon `seed` past `walls` walls to a plane, and beside it the one that was emitted a `step` of
-/// both parameters away.
+/// Traces photon `seed` past `walls` walls to a plane, and beside it the one that was emitted a
+/// `step` of both parameters away.
 inline Path trace(Start start, uint seed, uint walls, vec2 step) {
     const Begin b = begin(start, seed);
     Path path;
@@ -182,8 +183,9 @@ inline Path trace(Start start, uint seed, uint walls, vec2 step) {
         }
         vec3 dn[2];
         for (int k = 0; k < 2; ++k) {
-            dn[k] = shading_normal_change(w.v0, w.v1, w.v2, w.n0, w.n1, w.n2, h.weights, n,
-                                          k == 0 ? path.differential.dp_du : path.differential.dp_dv);
+            dn[k] =
+                shading_normal_change(w.v0, w.v1, w.v2, w.n0, w.n1, w.n2, h.weights, n,
+                                      k == 0 ? path.differential.dp_du : path.differential.dp_dv);
         }
         path.alike = path.alike && refracts(w, here.direction, n) ==
                                        refracts(w, beside.direction, g.surface.shading_normal);

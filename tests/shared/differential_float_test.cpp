@@ -31,12 +31,14 @@ TEST(DifferentialFloat, IsCloseToTheTruth) {
                     continue;
                 }
                 const double size = std::max(glm::length(t.dp_du), glm::length(t.dp_dv));
-                const double error = std::max(glm::length(glm::dvec3(p.differential.dp_du) - t.dp_du),
-                                              glm::length(glm::dvec3(p.differential.dp_dv) - t.dp_dv)) /
-                                     size;
+                const double error =
+                    std::max(glm::length(glm::dvec3(p.differential.dp_du) - t.dp_du),
+                             glm::length(glm::dvec3(p.differential.dp_dv) - t.dp_dv)) /
+                    size;
                 errors.push_back(error);
                 worst = std::max(worst, error);
-                ASSERT_LT(error, 1e-3) << start << " " << walls << " " << seed << " " << t.conditioning;
+                ASSERT_LT(error, 1e-3)
+                    << start << " " << walls << " " << seed << " " << t.conditioning;
             }
         }
     }
@@ -47,7 +49,8 @@ TEST(DifferentialFloat, IsCloseToTheTruth) {
     EXPECT_GT(errors.size(), 15'000u);
 }
 
-/// All of single precision's differentials stay finite and their directions bounded, whatever they meet.
+/// All of single precision's differentials stay finite and their directions bounded, whatever they
+/// meet.
 TEST(DifferentialFloat, ExtremesStayFinite) {
     std::mt19937 bits(3);
     const auto any_vector = [&](int low, int high) {
@@ -74,13 +77,14 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
             reflect_differential(d, direction, n, dn[0], dn[1]);
             break;
         case 1: { // across total reflection, and indices close to 1
-            const float eta =
-                bits() % 2 == 0 ? 1 + (bits() % 2 == 0 ? 1e-7f : -1e-7f) : any_magnitude(bits, -2, 2);
+            const float eta = bits() % 2 == 0 ? 1 + (bits() % 2 == 0 ? 1e-7f : -1e-7f)
+                                              : any_magnitude(bits, -2, 2);
             refract_differential(d, direction, n, dn[0], dn[1], eta);
             break;
         }
         case 2:
-            d = reemitted_differential(d, frame, -direction, any_magnitude(bits, 0, 30), uint(bits() % 3));
+            d = reemitted_differential(d, frame, -direction, any_magnitude(bits, 0, 30),
+                                       uint(bits() % 3));
             break;
         case 3:
             gloss_differential(d, direction, glm::reflect(direction, n), n, dn[0], dn[1],
@@ -109,8 +113,8 @@ TEST(DifferentialFloat, NoBorderNoChange) {
     for (uint i = 0; i < 1000; ++i) {
         const vec3 n = paths::unit_vector(i, 1);
         const vec3 dd = paths::signed_vector(i, 2);
-        const vec3 refracted =
-            refracted_spread(dd, -make_frame(n).x * 0.6f - n * 0.8f, n, paths::signed_vector(i, 3), 1);
+        const vec3 refracted = refracted_spread(dd, -make_frame(n).x * 0.6f - n * 0.8f, n,
+                                                paths::signed_vector(i, 3), 1);
         ASSERT_LT(glm::length(refracted - dd), 2e-7f);
     }
 }
@@ -145,7 +149,8 @@ TEST(DifferentialFloat, DegenerateTrianglesHaveFlatNormals) {
     const vec3 up[] = {n, glm::normalize(vec3(0.2f, 0, 1)), glm::normalize(vec3(0, 0.2f, 1))};
     const vec3 zero(0);
     const auto change = [&](vec3 v0, vec3 v1, vec3 v2, vec3 shading) {
-        return shading_normal_change(v0, v1, v2, up[0], up[1], up[2], vec2(0.3f), shading, vec3(1, 1, 0));
+        return shading_normal_change(v0, v1, v2, up[0], up[1], up[2], vec2(0.3f), shading,
+                                     vec3(1, 1, 0));
     };
     const vec3 x(1, 0, 0);
     const vec3 y(0, 1, 0);
@@ -155,7 +160,8 @@ TEST(DifferentialFloat, DegenerateTrianglesHaveFlatNormals) {
     EXPECT_EQ(change(zero, x, y, n), zero); // make_surface fell back to the geometric normal
     EXPECT_GT(glm::length(change(zero, x, y, shading)), 0.1f);
     EXPECT_EQ(change(zero, x, y, -shading), -change(zero, x, y, shading));
-    EXPECT_EQ(shading_normal_change(zero, x, y, zero, zero, zero, vec2(0.3f), n, x), zero); // no normals
+    EXPECT_EQ(shading_normal_change(zero, x, y, zero, zero, zero, vec2(0.3f), n, x),
+              zero); // no normals
 }
 
 } // namespace

@@ -24,7 +24,8 @@ namespace {
 using paths::Start;
 
 /// Distance of both differentials from central differences, relative to the longer one.
-double finite_difference_error(Start start, uint seed, uint walls, bool& alike, double& conditioning) {
+double finite_difference_error(Start start, uint seed, uint walls, bool& alike,
+                               double& conditioning) {
     const double h = 1e-4;
     const paths::Path center = trace(start, seed, walls, vec2(0));
     conditioning = center.conditioning;
@@ -49,10 +50,12 @@ TEST(Differential, AgreesWithNeighbouringPhotons) {
             for (uint seed = 0; seed < 500; ++seed) {
                 bool alike;
                 double conditioning;
-                const double error = finite_difference_error(Start(start), seed, walls, alike, conditioning);
+                const double error =
+                    finite_difference_error(Start(start), seed, walls, alike, conditioning);
                 if (alike && conditioning > 0.1) {
                     ++compared;
-                    ASSERT_LT(error, 1e-4) << start << " " << walls << " " << seed << " " << conditioning;
+                    ASSERT_LT(error, 1e-4)
+                        << start << " " << walls << " " << seed << " " << conditioning;
                 }
             }
             EXPECT_GT(compared, 150) << start << " " << walls;
@@ -86,8 +89,8 @@ MaterialRecord phong(float exponent) {
 // A lobe's own spread is what its sampler does to the unit square.
 TEST(Glossy, SpreadIsThatOfTheSampler) {
     int compared = 0;
-    for (const MaterialRecord& m :
-         {metal(0.1f), metal(0.3f), metal(0.6f), metal(1), phong(0), phong(3), phong(50), phong(1000)}) {
+    for (const MaterialRecord& m : {metal(0.1f), metal(0.3f), metal(0.6f), metal(1), phong(0),
+                                    phong(3), phong(50), phong(1000)}) {
         for (uint seed = 0; seed < 300; ++seed) {
             const vec4 u(random4(54, seed, 0, 0));
             const vec3 wo = glm::normalize(vec3(paths::signed_vector(seed, 1).x, 0.3, 0.2 + u.w));
@@ -105,7 +108,8 @@ TEST(Glossy, SpreadIsThatOfTheSampler) {
             PhotonDifferential d = no_differential();
             gloss_differential(d, -wo, s.wi, vec3(0, 0, 1), vec3(0), vec3(0), n, s.pdf);
             const double expected = stretch(direction, vec2(u)) / n;
-            EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-3 * expected) << m.roughness << " " << seed;
+            EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-3 * expected)
+                << m.roughness << " " << seed;
         }
     }
     EXPECT_GT(compared, 1400);
@@ -140,8 +144,8 @@ TEST(Glossy, IncomingSpreadIsMirroredAtTheHalfVector) {
     }
 }
 
-/// A ray through a ball of radius 1 around the origin, refracted in and out onto z = -3, or mirrored (eta 0)
-/// onto z = 4. False if it does not get there, or grazes the plane.
+/// A ray through a ball of radius 1 around the origin, refracted in and out onto z = -3, or
+/// mirrored (eta 0) onto z = 4. False if it does not get there, or grazes the plane.
 bool past_ball(vec3 origin, vec3 direction, double eta, vec3& end, PhotonDifferential* d) {
     const auto move = [&](double t, bool onto_ball) {
         origin += t * direction;
@@ -155,7 +159,8 @@ bool past_ball(vec3 origin, vec3 direction, double eta, vec3& end, PhotonDiffere
         const vec3 normal = side * origin;
         const double ratio = side > 0 ? eta : 1 / eta;
         const vec3 before = direction;
-        direction = eta == 0 ? glm::reflect(direction, normal) : glm::refract(direction, normal, 1 / ratio);
+        direction =
+            eta == 0 ? glm::reflect(direction, normal) : glm::refract(direction, normal, 1 / ratio);
         if (direction == vec3(0)) {
             return false; // total reflection
         }
@@ -209,7 +214,8 @@ TEST(Ball, FocusesAsTracedPhotonsDo) {
     }
 }
 
-// Re-emission onto a plane at distance t: the paper's footprints, those by cosine, and those whose areas add.
+// Re-emission onto a plane at distance t: the paper's footprints, those by cosine, and those whose
+// areas add.
 TEST(Reemission, FootprintOnAPlane) {
     for (uint seed = 0; seed < 200; ++seed) {
         const Frame frame = make_frame(paths::unit_vector(seed, 1));
@@ -235,7 +241,8 @@ TEST(Reemission, FootprintOnAPlane) {
 
         const double spread2 = PI / (n * emission_cosine);
         const double size = std::sqrt(area * emission_cosine) + std::sqrt(spread2) * t;
-        EXPECT_NEAR(footprint_at(REEMIT_COSINE, t, plane), size * size / cosine, 1e-9 * size * size / cosine);
+        EXPECT_NEAR(footprint_at(REEMIT_COSINE, t, plane), size * size / cosine,
+                    1e-9 * size * size / cosine);
         const double sum = (area * emission_cosine + spread2 * t * t) / cosine;
         EXPECT_NEAR(footprint_at(REEMIT_INDEPENDENT, t, plane), sum, 1e-9 * sum);
         // Where they leave the surface, both have the footprint that arrived.

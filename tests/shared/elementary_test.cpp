@@ -33,7 +33,8 @@ TEST(Elementary, SinesOfTurnsHaveAFewUlps) {
     Worst cosine;
     for (int i = 0; i < tries; ++i) {
         // Uniform numbers as the renderer has them, and tiny ones.
-        const float u = i % 4 == 0 ? any_magnitude(bits, -60, 0) : static_cast<float>(bits() >> 8) * 0x1p-24f;
+        const float u =
+            i % 4 == 0 ? any_magnitude(bits, -60, 0) : static_cast<float>(bits() >> 8) * 0x1p-24f;
         float s = 0;
         float c = 0;
         sincos_2pi(u, s, c);
@@ -53,7 +54,8 @@ TEST(Elementary, SinesOfTurnsHaveAFewUlps) {
 }
 
 TEST(Elementary, QuarterTurnsAreExact) {
-    const float truths[5][3] = {{0, 0, 1}, {0.25f, 1, 0}, {0.5f, 0, -1}, {0.75f, -1, 0}, {-0.25f, -1, 0}};
+    const float truths[5][3] = {
+        {0, 0, 1}, {0.25f, 1, 0}, {0.5f, 0, -1}, {0.75f, -1, 0}, {-0.25f, -1, 0}};
     for (const auto& truth : truths) {
         float s = 2;
         float c = 2;
@@ -93,9 +95,11 @@ TEST(Elementary, LogarithmAndExponentialKeepTheDigitsOfSmallNumbers) {
     Worst exp;
     Worst complement;
     for (int i = 0; i < tries; ++i) {
-        const float x = i % 2 == 0 ? any_magnitude(bits, -100, -1) : static_cast<float>(bits() >> 8) * 0x1p-24f;
+        const float x =
+            i % 2 == 0 ? any_magnitude(bits, -100, -1) : static_cast<float>(bits() >> 8) * 0x1p-24f;
         log.take(ulps(log_complement(x), std::log1p(-double(x))), x);
-        const float y = i % 2 == 0 ? -any_magnitude(bits, -100, 0) : -static_cast<float>(bits() >> 8) * 0x1p-18f;
+        const float y = i % 2 == 0 ? -any_magnitude(bits, -100, 0)
+                                   : -static_cast<float>(bits() >> 8) * 0x1p-18f;
         complement.take(ulps(exp_complement(y), -std::expm1(double(y))), y);
         exp.take(ulps(exp_negative(y), std::exp(double(y))), y);
     }

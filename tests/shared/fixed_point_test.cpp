@@ -6,12 +6,8 @@
 namespace argand {
 namespace {
 
-std::uint64_t joined(uvec2 a) {
-    return std::uint64_t{a.y} << 32 | a.x;
-}
-uvec2 split(std::uint64_t a) {
-    return {static_cast<uint>(a), static_cast<uint>(a >> 32)};
-}
+std::uint64_t joined(uvec2 a) { return std::uint64_t{a.y} << 32 | a.x; }
+uvec2 split(std::uint64_t a) { return {static_cast<uint>(a), static_cast<uint>(a >> 32)}; }
 
 TEST(FixedPoint, AddsModulo64Bits) {
     std::mt19937_64 bits(2);

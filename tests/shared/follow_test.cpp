@@ -42,7 +42,8 @@ TEST(Follow, GlossyLobesAreFollowedUpToTheLimit) {
     EXPECT_NE(followed_lobes(glass(1.5f, 1), 0) & LOBE_TRANSMIT, 0u);
 }
 
-// Every sequence of up to ten scatterings against the expressions of docs/design.md, "Which path is whose".
+// Every sequence of up to ten scatterings against the expressions of docs/design.md, "Which path is
+// whose".
 TEST(Follow, LayersAreThoseOfTheTable) {
     const std::regex direct("F*S?");
     const std::regex caustic("F*SF+");
@@ -60,7 +61,8 @@ TEST(Follow, LayersAreThoseOfTheTable) {
                                                                     : layer_indirect;
             ASSERT_EQ(layer_of_emission(state), expected) << path;
             const std::size_t first = path.find('S');
-            ASSERT_EQ(state & path_depth_mask, first == std::string::npos ? 0 : path.size() - first - 1)
+            ASSERT_EQ(state & path_depth_mask,
+                      first == std::string::npos ? 0 : path.size() - first - 1)
                 << path;
         }
     }

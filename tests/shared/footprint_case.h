@@ -1,4 +1,5 @@
-// The whole way from emission to a record and a query, as one function that the host and the device both run.
+// The whole way from emission to a record and a query, as one function that the host and the device
+// both run.
 #ifndef ARGAND_TEST_FOOTPRINT_CASE_H
 #define ARGAND_TEST_FOOTPRINT_CASE_H
 
@@ -18,9 +19,10 @@ struct FootprintResult {
 
 FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
     vec3 origin, direction, normal, flux;
-    light_emit(l, all_light_kinds, random4(61u, i, 0u, 0u), random4(61u, i, 0u, 1u), vec3(real(0.0)), real(2.0), origin,
-               direction, normal, flux);
-    PhotonDifferential d = light_differential(l, all_light_kinds, direction, normal, real(2.0), real(1e4), real(1e5));
+    light_emit(l, all_light_kinds, random4(61u, i, 0u, 0u), random4(61u, i, 0u, 1u),
+               vec3(real(0.0)), real(2.0), origin, direction, normal, flux);
+    PhotonDifferential d =
+        light_differential(l, all_light_kinds, direction, normal, real(2.0), real(1e4), real(1e5));
     vec4 u = random4(61u, i, 1u, 0u);
     vec3 n = sample_sphere(vec2(u.x, u.y));
     n = dot3(n, direction) > real(0.0) ? -n : n;
@@ -35,14 +37,17 @@ FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
     real size;
     smooth_normal = unit_and_length(n * real(0.5) + n1 * real(0.25) + n2 * real(0.25), size);
     vec2 b = vec2(real(0.25), real(0.25));
-    vec3 dn_du = shading_normal_change(vec3(real(0.0)), f.x, at, n, n1, n2, b, smooth_normal, d.dp_du);
-    vec3 dn_dv = shading_normal_change(vec3(real(0.0)), f.x, at, n, n1, n2, b, smooth_normal, d.dp_dv);
+    vec3 dn_du =
+        shading_normal_change(vec3(real(0.0)), f.x, at, n, n1, n2, b, smooth_normal, d.dp_du);
+    vec3 dn_dv =
+        shading_normal_change(vec3(real(0.0)), f.x, at, n, n1, n2, b, smooth_normal, d.dp_dv);
     uint event = i % 6u;
     vec3 next = to_world(f, sample_cosine_hemisphere(vec2(u.z, u.w)));
     if (event == 0u) {
         reflect_differential(d, direction, smooth_normal, dn_du, dn_dv);
     } else if (event == 1u) {
-        refract_differential(d, direction, smooth_normal, dn_du, dn_dv, u.z < real(0.5) ? real(1.5) : real(0.66666666666666667));
+        refract_differential(d, direction, smooth_normal, dn_du, dn_dv,
+                             u.z < real(0.5) ? real(1.5) : real(0.66666666666666667));
     } else if (event == 2u) {
         gloss_differential(d, direction, next, smooth_normal, dn_du, dn_dv, real(1e4), real(0.5));
     } else {
@@ -52,8 +57,8 @@ FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
     r.spread_u = float32(sqrt(dot3(d.dd_du, d.dd_du)));
     r.spread_v = float32(sqrt(dot3(d.dd_dv, d.dd_dv)));
     transfer_differential(d, next, u.y, n);
-    FootprintScale s = make_footprint_scale(real(1e5), real(1e4), real(2.0), real(3.0), real(5.0), real(0.1), real(0.4),
-                                            real(0.16666666666666666667));
+    FootprintScale s = make_footprint_scale(real(1e5), real(1e4), real(2.0), real(3.0), real(5.0),
+                                            real(0.1), real(0.4), real(0.16666666666666666667));
     s.principal_axes = i % 2u;
     Footprint footprint = make_footprint(d, n, event < 2u, s);
     r.photon.x = float32(origin.x);
@@ -80,7 +85,8 @@ FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
     r.extent_z = float32(extent.z);
     r.area = float32(footprint_area(footprint));
     vec3 offset = footprint.u * real(0.3) - footprint.v * real(0.4) + footprint.w * real(0.2);
-    r.weight = float32(footprint_weight(duals, packed_normal, smooth_normal, offset, real(0.4), i % 4u < 2u));
+    r.weight = float32(
+        footprint_weight(duals, packed_normal, smooth_normal, offset, real(0.4), i % 4u < 2u));
     r.scale = s.diffuse;
     return r;
 }

@@ -20,16 +20,18 @@ TEST_F(FootprintOnDevice, AgreesWithTheHost) {
     std::normal_distribution<float> normal;
     const auto any_point = [&] { return glm::vec3(normal(bits), normal(bits), normal(bits)); };
     for (std::size_t i = 0; i < count; ++i) {
-        LightRecord l = testing::triangle_light(any_point(), glm::normalize(any_point()), any_point(),
-                                                glm::vec3(2), i % 2);
+        LightRecord l = testing::triangle_light(any_point(), glm::normalize(any_point()),
+                                                any_point(), glm::vec3(2), i % 2);
         l.kind = static_cast<std::uint32_t>(i / 6 % 5);
         l.cos_inner = 0.9f;
         l.cos_outer = 0.5f;
         lights.push_back(l);
     }
     const Buffer results = device.allocate("results", count * sizeof(FootprintResult));
-    dispatch(device, kernels::test_footprint{.lights = upload(device, "lights", lights), .results = results},
-             count);
+    dispatch(
+        device,
+        kernels::test_footprint{.lights = upload(device, "lights", lights), .results = results},
+        count);
     const auto on_device = download<FootprintResult>(device, results, count);
     std::size_t unlike = 0;
     std::size_t differing = 0;

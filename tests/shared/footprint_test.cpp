@@ -32,7 +32,8 @@ FootprintScale plain(float flatness) {
     return s;
 }
 
-/// Semi-axes of a random skewed footprint: ratio of the lengths up to 30, and any angle above 5 degrees.
+/// Semi-axes of a random skewed footprint: ratio of the lengths up to 30, and any angle above 5
+/// degrees.
 PhotonDifferential any_skewed(std::mt19937& bits, vec3 normal, float scale) {
     const Frame f = make_frame(normal);
     std::uniform_real_distribution<float> uniform;
@@ -51,9 +52,7 @@ FootprintDuals stored_duals(const Footprint& f, vec3 normal) {
     return {unpack_dual(a.x, a.y), unpack_dual(b.x, b.y)};
 }
 
-double area_of(vec3 u, vec3 v) {
-    return glm::length(glm::cross(glm::dvec3(u), glm::dvec3(v)));
-}
+double area_of(vec3 u, vec3 v) { return glm::length(glm::cross(glm::dvec3(u), glm::dvec3(v))); }
 
 TEST(Footprint, PaperAreaAndAxes) {
     std::mt19937 bits(1);
@@ -84,7 +83,8 @@ double flux_on_plane(const FootprintDuals& duals, vec3 normal, vec3 m, double re
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
         for (int j = 0; j < steps; ++j) {
-            const vec3 offset = f.x * float((i + 0.5) * cell - reach) + f.y * float((j + 0.5) * cell - reach);
+            const vec3 offset =
+                f.x * float((i + 0.5) * cell - reach) + f.y * float((j + 0.5) * cell - reach);
             sum += footprint_weight(duals, normal, m, offset, flatness, uniform_kernel);
         }
     }
@@ -103,9 +103,10 @@ TEST(Footprint, FluxIsConservedOnPlanes) {
         const Footprint f = make_footprint(d, n, true, plain(flatness));
         const FootprintDuals duals = stored_duals(f, n);
         const vec3 m = i % 2 == 0 ? n : glm::normalize(n + 0.9f * any_unit(bits));
-        // The cut's two half-axes within the tangent plane and the ellipsoid's size bound its reach.
-        const double reach =
-            glm::length(glm::dvec3(f.u)) + glm::length(glm::dvec3(f.v)) + glm::length(glm::dvec3(f.w));
+        // The cut's two half-axes within the tangent plane and the ellipsoid's size bound its
+        // reach.
+        const double reach = glm::length(glm::dvec3(f.u)) + glm::length(glm::dvec3(f.v)) +
+                             glm::length(glm::dvec3(f.w));
         const double thin = area_of(f.u, f.v) / (glm::length(f.u) + glm::length(f.v));
         if (std::min(thin, double(glm::length(f.w))) < 0.03 * reach) {
             continue; // too thin for this grid
@@ -122,7 +123,8 @@ TEST(Footprint, EndsWithTheEllipsoid) {
         const Footprint f = make_footprint(any_skewed(bits, n, 1), n, true, plain(0.3f));
         const FootprintDuals duals = stored_duals(f, n);
         const glm::dvec3 s = glm::normalize(glm::dvec3(any_unit(bits)));
-        const glm::dvec3 rim = s.x * glm::dvec3(f.u) + s.y * glm::dvec3(f.v) + s.z * glm::dvec3(f.w);
+        const glm::dvec3 rim =
+            s.x * glm::dvec3(f.u) + s.y * glm::dvec3(f.v) + s.z * glm::dvec3(f.w);
         EXPECT_GT(footprint_weight(duals, n, n, vec3(0.99 * rim), 0.3f, true), 0.0f);
         EXPECT_EQ(footprint_weight(duals, n, n, vec3(1.01 * rim), 0.3f, true), 0.0f);
         // Epanechnikov's falls to nothing there, and is twice the uniform one in the centre.
@@ -150,7 +152,8 @@ TEST(Footprint, BoxContainsTheEllipsoidTightly) {
             const vec3 point = s.x * f.u + s.y * f.v + s.z * f.w;
             EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(point), extent * 1.000001f)));
         }
-        // The box of what the map keeps is nearly that of what was made, and nothing reaches beyond it.
+        // The box of what the map keeps is nearly that of what was made, and nothing reaches beyond
+        // it.
         const FootprintDuals duals = stored_duals(f, n);
         const vec3 normal = unpack_photon_normal(pack_photon_normal(n, true));
         const vec3 kept = footprint_extent(footprint_of_duals(duals, normal, 0.3f));
@@ -192,7 +195,8 @@ TEST(Footprint, DegenerateDifferentialsHaveFootprints) {
     std::mt19937 bits(6);
     const float infinity = std::numeric_limits<float>::infinity();
     for (const float length : {1e-3f, 1.0f, 1e3f, 1e6f}) {
-        FootprintScale s = make_footprint_scale(1e5f, 1e5f, length, 40.0f, 5.0f, 0.05f, 0.3f, 1.0f / 6);
+        FootprintScale s =
+            make_footprint_scale(1e5f, 1e5f, length, 40.0f, 5.0f, 0.05f, 0.3f, 1.0f / 6);
         for (int i = 0; i < 4000; ++i) {
             const vec3 n = any_unit(bits);
             PhotonDifferential d = any_skewed(bits, n, length * any_magnitude(bits, -60, 30));
@@ -243,9 +247,9 @@ TEST(FootprintScaling, FollowsThePaper) {
     const double spacing = 2 * std::sqrt(pi / photons);
     const double length = 30; // of the scene
     const double paper_smoothing = 40;
-    const FootprintScale s =
-        make_footprint_scale(float(photons), 1e5f, float(length),
-                             float(paper_smoothing / std::pow(length, 0.75)), 5.0f, 10.0f, 0.3f, 0.5f);
+    const FootprintScale s = make_footprint_scale(float(photons), 1e5f, float(length),
+                                                  float(paper_smoothing / std::pow(length, 0.75)),
+                                                  5.0f, 10.0f, 0.3f, 0.5f);
     for (const double offset : {0.5, 5.0, 18.0, 40.0}) {
         PhotonDifferential d = no_differential();
         d.dp_du = vec3(offset * spacing, 0, 0);
@@ -265,7 +269,8 @@ TEST(FootprintScaling, ShrinksWithTheExponent) {
         const FootprintScale s =
             make_footprint_scale(float(photons), 1e5f, 1, 3, 5, 10, 0.3f, float(exponent));
         PhotonDifferential d = no_differential();
-        const float size = 0.7f * float(2 * std::sqrt(pi / photons)); // as the differentials of emission fall
+        const float size =
+            0.7f * float(2 * std::sqrt(pi / photons)); // as the differentials of emission fall
         d.dp_du = vec3(size, 0, 0);
         d.dp_dv = vec3(0, size, 0);
         return double(make_footprint(d, vec3(0, 0, 1), caustic, s).u.x);
@@ -284,7 +289,8 @@ TEST(FootprintScaling, IsThatOfTheScene) {
     std::mt19937 bits(7);
     for (const float factor : {1e-6f, 1e-3f, 1e3f, 1e6f}) {
         const FootprintScale one = make_footprint_scale(1e6f, 1e5f, 1, 3, 5, 0.1f, 0.3f, 1.0f / 6);
-        const FootprintScale other = make_footprint_scale(1e6f, 1e5f, factor, 3, 5, 0.1f, 0.3f, 1.0f / 6);
+        const FootprintScale other =
+            make_footprint_scale(1e6f, 1e5f, factor, 3, 5, 0.1f, 0.3f, 1.0f / 6);
         for (int i = 0; i < 1000; ++i) {
             const vec3 n = any_unit(bits);
             PhotonDifferential d = any_skewed(bits, n, 1e-3f);
@@ -309,7 +315,8 @@ TEST(Footprint, PrincipalAxesAreThoseOfTheEllipse) {
         make_principal(u, v);
         EXPECT_NEAR(dot3(u, v), 0, 2e-6 * glm::length(u) * glm::length(d.dp_du));
         EXPECT_GE(glm::length(u), glm::length(v) * 0.999999f);
-        EXPECT_NEAR(area_of(u, v), area_of(d.dp_du, d.dp_dv), 1e-5 * glm::length(u) * glm::length(d.dp_du));
+        EXPECT_NEAR(area_of(u, v), area_of(d.dp_du, d.dp_dv),
+                    1e-5 * glm::length(u) * glm::length(d.dp_du));
         // The same ellipse: u uᵀ + v vᵀ.
         for (int k = 0; k < 3; ++k) {
             const double before = d.dp_du[k] * d.dp_du[k] + d.dp_dv[k] * d.dp_dv[k];

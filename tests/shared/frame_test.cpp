@@ -47,8 +47,9 @@ TEST(Frame, IsOrthonormalAroundAnyVector) {
         const double tiny = std::exp2(-double(bits() % 40));
         expect_orthonormal(unit_of(tiny, -tiny, i % 2 == 0 ? 1 : -1));
     }
-    for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0), vec3(0, -1, 0),
-                            vec3(0, 0, -1), vec3(0.0f, 0.0f, -0.0f) + vec3(1, 0, 0)}) {
+    for (const vec3 axis :
+         {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0), vec3(0, -1, 0),
+          vec3(0, 0, -1), vec3(0.0f, 0.0f, -0.0f) + vec3(1, 0, 0)}) {
         expect_orthonormal(axis);
     }
 }
@@ -65,12 +66,14 @@ TEST(Frame, ThereAndBack) {
     }
 }
 
-/// Cells of equal probability: of a coordinate (by its distribution function, in [0,1]) and an angle.
+/// Cells of equal probability: of a coordinate (by its distribution function, in [0,1]) and an
+/// angle.
 class Histogram {
 public:
     void add(double quantile, double x, double y) {
         const double turn = std::atan2(y, x) / 6.283185307179586 + 0.5;
-        const auto row = std::min<std::size_t>(15, static_cast<std::size_t>(std::max(0.0, quantile) * 16));
+        const auto row =
+            std::min<std::size_t>(15, static_cast<std::size_t>(std::max(0.0, quantile) * 16));
         const auto column = std::min<std::size_t>(31, static_cast<std::size_t>(turn * 32));
         ++counts_[row * 32 + column];
     }
@@ -106,7 +109,8 @@ TEST(Sampling, DensitiesIntegrateToOne) {
     const int steps = 2000; // midpoints of cos θ
     double hemisphere = 0;
     for (int i = 0; i < steps; ++i) {
-        hemisphere += cosine_hemisphere_pdf((float(i) + 0.5f) / float(steps)) * 2 * double(PI) / steps;
+        hemisphere +=
+            cosine_hemisphere_pdf((float(i) + 0.5f) / float(steps)) * 2 * double(PI) / steps;
     }
     EXPECT_NEAR(hemisphere, 1, 1e-5);
     EXPECT_EQ(cosine_hemisphere_pdf(-0.5f), 0.0f);
@@ -134,7 +138,8 @@ TEST(Sampling, TrianglePointsAreUniform) {
     for (std::uint32_t i = 0; i < 100'000; ++i) {
         const vec4 u = random4(5, i, 0, 0);
         const vec2 b = sample_triangle(vec2(u.x, u.y));
-        // The triangle cut in 8 × 8 small ones of equal area: the strip, and within it the small triangle.
+        // The triangle cut in 8 × 8 small ones of equal area: the strip, and within it the small
+        // triangle.
         const auto row = std::min(7, static_cast<int>(b.x * 8));
         const double along = b.y * 8;
         const auto column = std::min(7 - row, static_cast<int>(along));
@@ -159,8 +164,8 @@ TEST(PackedUnit, ErrorIsBounded) {
 }
 
 TEST(PackedUnit, AxesAreExact) {
-    for (const vec3 axis :
-         {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)}) {
+    for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0),
+                            vec3(0, -1, 0), vec3(0, 0, -1)}) {
         EXPECT_EQ(unpack_unit(pack_unit(axis)), axis);
     }
 }
@@ -169,7 +174,8 @@ TEST(PackedUnit, EveryCodeIsAUnitVectorThatPacksToItsEqual) {
     std::mt19937 bits(5);
     for (int i = 0; i < 500'000; ++i) {
         std::uint32_t code = bits();
-        code = i % 4 == 0 ? code & 0xffff0000u : code; // the least coordinate, beyond the square by one
+        code = i % 4 == 0 ? code & 0xffff0000u
+                          : code; // the least coordinate, beyond the square by one
         const vec3 v = unpack_unit(code);
         ASSERT_NEAR(dot_double(v, v), 1, 1e-6) << code;
         const vec3 again = unpack_unit(pack_unit(v));

@@ -30,8 +30,9 @@ bool smooth_there(vec4 u) {
     const double b = std::abs(2 * u.w - 1);
     const double c = std::abs(2 * u.x - 1);
     const double d = std::abs(2 * u.y - 1);
-    return std::abs(a - b) > 1e-3 && std::abs(c - d) > 1e-3 && std::min({u.x, u.y, u.z, u.w}) > 1e-3 &&
-           std::max({u.x, u.y, u.z, u.w}) < 1 - 1e-3 && std::max(a, b) > 1e-3 && std::max(c, d) > 1e-3;
+    return std::abs(a - b) > 1e-3 && std::abs(c - d) > 1e-3 &&
+           std::min({u.x, u.y, u.z, u.w}) > 1e-3 && std::max({u.x, u.y, u.z, u.w}) < 1 - 1e-3 &&
+           std::max(a, b) > 1e-3 && std::max(c, d) > 1e-3;
 }
 
 TEST(Emission, SpacingIsThatOfTheSamplers) {
@@ -46,11 +47,13 @@ TEST(Emission, SpacingIsThatOfTheSamplers) {
         for (const Start start : {Start::point, Start::directional, Start::triangle, Start::sky}) {
             const LightRecord l = paths::some_light(start, seed);
             const Emitted e = emitted(l, u, v);
-            const PhotonDifferential d = light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
-            const double over_directions =
-                stretch([&](vec2 x) { return emitted(l, vec4(x.x, x.y, u.z, u.w), v).direction; }, vec2(u));
-            const double over_positions = stretch(
-                [&](vec2 x) { return emitted(l, vec4(u.x, u.y, x.x, x.y), v).origin; }, vec2(u.z, u.w));
+            const PhotonDifferential d =
+                light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
+            const double over_directions = stretch(
+                [&](vec2 x) { return emitted(l, vec4(x.x, x.y, u.z, u.w), v).direction; }, vec2(u));
+            const double over_positions =
+                stretch([&](vec2 x) { return emitted(l, vec4(u.x, u.y, x.x, x.y), v).origin; },
+                        vec2(u.z, u.w));
             double positions = over_positions / n;
             double directions = over_directions / n;
             if (start == Start::triangle) {
@@ -59,9 +62,11 @@ TEST(Emission, SpacingIsThatOfTheSamplers) {
                 directions *= light_sides(l);
             }
             if (start == Start::sky) {
-                directions /= 4; // docs/methods/footprints.md: the share of the spread that directions get
+                directions /=
+                    4; // docs/methods/footprints.md: the share of the spread that directions get
             }
-            EXPECT_NEAR(area_of(d.dp_du, d.dp_dv), positions, 1e-5 * positions) << int(start) << " " << seed;
+            EXPECT_NEAR(area_of(d.dp_du, d.dp_dv), positions, 1e-5 * positions)
+                << int(start) << " " << seed;
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), directions, 1e-5 * directions)
                 << int(start) << " " << seed;
         }
@@ -78,7 +83,8 @@ TEST(Emission, PointLightFollowsThePaper) {
         const double sine = std::sqrt(1 - cosine * cosine);
         const double phi = 2 * PI * u.x;
         const Emitted e = emitted(l, u, vec4(0));
-        const PhotonDifferential d = light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
+        const PhotonDifferential d =
+            light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
         const double spacing = 2 * std::sqrt(PI / n);
         const vec3 along(-std::cos(phi) * cosine, -std::sin(phi) * cosine, sine);
         const vec3 around(-std::sin(phi), std::cos(phi), 0);
@@ -104,28 +110,32 @@ TEST(Emission, SpotsFollowTheirFalloff) {
             };
             const double density = on_ramp ? 3 * m * m * ramp / all : 1 - ramp / all;
             const double expected = stretch(direction, vec2(m, around)) / density / n;
-            const PhotonDifferential d =
-                light_differential(l, all_light_kinds, direction(vec2(m, around)), vec3(0), 2.0, n, n);
-            EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-5 * expected) << on_ramp << " " << m;
+            const PhotonDifferential d = light_differential(
+                l, all_light_kinds, direction(vec2(m, around)), vec3(0), 2.0, n, n);
+            EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-5 * expected)
+                << on_ramp << " " << m;
         }
     }
 }
 
-/// Mean over the photons that reach a patch of z = 0 around the origin of their parallelogram's area, times
-/// their number per area; for footprints, whose axes are half as long as their ellipses, the same times pi.
+/// Mean over the photons that reach a patch of z = 0 around the origin of their parallelogram's
+/// area, times their number per area; for footprints, whose axes are half as long as their
+/// ellipses, the same times pi.
 double area_times_density(const LightRecord& l, double half_width, uint photons) {
     const double radius = 2;
     double sum = 0;
     for (uint i = 0; i < photons; ++i) {
         vec3 origin, direction, normal, flux;
-        light_emit(l, all_light_kinds, vec4(random4(57, i, 0, 0)), vec4(random4(57, i, 0, 1)), vec3(0), radius, origin,
-                   direction, normal, flux);
+        light_emit(l, all_light_kinds, vec4(random4(57, i, 0, 0)), vec4(random4(57, i, 0, 1)),
+                   vec3(0), radius, origin, direction, normal, flux);
         const double t = -origin.z / direction.z;
         const vec3 hit = origin + t * direction;
-        if (!(t > 0) || !(direction.z < 0) || std::abs(hit.x) > half_width || std::abs(hit.y) > half_width) {
+        if (!(t > 0) || !(direction.z < 0) || std::abs(hit.x) > half_width ||
+            std::abs(hit.y) > half_width) {
             continue;
         }
-        PhotonDifferential d = light_differential(l, all_light_kinds, direction, normal, radius, photons, photons);
+        PhotonDifferential d =
+            light_differential(l, all_light_kinds, direction, normal, radius, photons, photons);
         transfer_differential(d, direction, t, vec3(0, 0, 1));
         sum += area_of(d.dp_du, d.dp_dv);
     }
@@ -145,13 +155,15 @@ TEST(Emission, AreaTimesDensityIsOne) {
     EXPECT_NEAR(area_times_density(l, 0.2, 400'000), 1, 0.03);
     l.kind = light_directional;
     EXPECT_NEAR(area_times_density(l, 0.2, 400'000), 1, 0.03);
-    // The sky's is split between position and direction so that it holds in the middle of the scene.
+    // The sky's is split between position and direction so that it holds in the middle of the
+    // scene.
     l.kind = light_sky;
     EXPECT_NEAR(area_times_density(l, 0.2, 1'000'000), 1, 0.03);
 }
 
-// Emitters: per photon exact on the axis of a disc. On the mean, the tail of slanted photons adds to that the
-// positions' own share, which is noticed closer than about two diameters (docs/methods/footprints.md).
+// Emitters: per photon exact on the axis of a disc. On the mean, the tail of slanted photons adds
+// to that the positions' own share, which is noticed closer than about two diameters
+// (docs/methods/footprints.md).
 TEST(Emission, AreaTimesDensityOfAnEmitter) {
     LightRecord l{};
     l.kind = light_triangle;
@@ -165,7 +177,8 @@ TEST(Emission, AreaTimesDensityOfAnEmitter) {
             l.z = l.dz = l.ez = float(height);
             l.double_sided = both;
             const double disc = area / (area + PI * height * height);
-            EXPECT_NEAR(area_times_density(l, 0.05, 1'000'000), 1 + disc, 0.08) << height << " " << both;
+            EXPECT_NEAR(area_times_density(l, 0.05, 1'000'000), 1 + disc, 0.08)
+                << height << " " << both;
         }
     }
 }

@@ -26,7 +26,8 @@ Photon photon_of(const LightRecord& l, uint i) {
 }
 
 LightRecord slanted_triangle(bool double_sided) {
-    return triangle_light(vec3(0, 0, 4), vec3(0.5f, 2, 4.5f), vec3(2, 0.5f, 3.5f), color, double_sided);
+    return triangle_light(vec3(0, 0, 4), vec3(0.5f, 2, 4.5f), vec3(2, 0.5f, 3.5f), color,
+                          double_sided);
 }
 
 std::vector<LightRecord> one_of_each() {
@@ -67,8 +68,8 @@ TEST(LightEmission, AgreesWithLightSamples) {
             const Photon p = photon_of(l, i);
             const float t = (z - p.origin.z) / p.direction.z;
             const vec3 at = p.origin + t * p.direction;
-            const bool through =
-                t > 0 && p.direction.z < 0 && at.x > low && at.x < high && at.y > low && at.y < high;
+            const bool through = t > 0 && p.direction.z < 0 && at.x > low && at.x < high &&
+                                 at.y > low && at.y < high;
             arrived.add(through ? double(p.flux.x) : 0);
             const vec4 u = random4(32, i, 0, 0);
             LightSample s;
@@ -79,7 +80,8 @@ TEST(LightEmission, AgreesWithLightSamples) {
         const double area = double(high - low) * (high - low);
         EXPECT_GT(arrived.value(), 0.0);
         EXPECT_NEAR(arrived.value(), irradiance.value() * area,
-                    5 * (arrived.deviation() + area * irradiance.deviation()) + 1e-4 * arrived.value())
+                    5 * (arrived.deviation() + area * irradiance.deviation()) +
+                        1e-4 * arrived.value())
             << l.kind;
     }
 }
@@ -130,8 +132,8 @@ TEST(LightEmission, TrianglesEmitByTheCosineFromAllOfTheirArea) {
             front += dot3(p.normal, n) > 0;
             centroid.add(p.origin.x);
             // On the side it is sent to, and hardly off the surface.
-            const double height =
-                glm::dot(glm::dvec3(p.origin) - glm::dvec3(light_position(l)), glm::dvec3(p.normal));
+            const double height = glm::dot(glm::dvec3(p.origin) - glm::dvec3(light_position(l)),
+                                           glm::dvec3(p.normal));
             ASSERT_GT(height, 0.0);
             ASSERT_LT(height, 2e-5);
             const vec3 b(l.dx, l.dy, l.dz);
@@ -172,7 +174,8 @@ TEST(LightEmission, DegenerateTrianglesEmitNothing) {
     vec3 normal;
     vec3 flux;
     const LightRecord l = triangle_light(vec3(1), vec3(2), vec3(2), color, true);
-    EXPECT_FALSE(light_emit(l, vec4(0.5f), vec4(0.5f), center, radius, origin, direction, normal, flux));
+    EXPECT_FALSE(
+        light_emit(l, vec4(0.5f), vec4(0.5f), center, radius, origin, direction, normal, flux));
     EXPECT_EQ(flux, vec3(0));
 }
 

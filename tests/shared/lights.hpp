@@ -34,7 +34,8 @@ inline LightRecord directional_light(vec3 direction, vec3 irradiance) {
 }
 
 /// Angles in degrees.
-inline LightRecord spot_light(vec3 position, vec3 direction, vec3 intensity, double inner, double outer) {
+inline LightRecord spot_light(vec3 position, vec3 direction, vec3 intensity, double inner,
+                              double outer) {
     LightRecord l = point_light(position, intensity);
     l.kind = light_spot;
     l.dx = direction.x;
@@ -62,14 +63,15 @@ inline LightRecord triangle_light(vec3 a, vec3 b, vec3 c, vec3 radiance, bool do
 inline bool light_sample(const LightRecord& l, vec3 p, vec2 u, LightSample& s) {
     return argand::light_sample(l, all_light_kinds, p, u, s);
 }
-inline vec3 light_power(const LightRecord& l, float radius) { return argand::light_power(l, all_light_kinds, radius); }
-inline bool light_emit(const LightRecord& l, vec4 u, vec4 v, vec3 center, float radius, vec3& origin, vec3& direction,
-                       vec3& normal, vec3& flux) {
-    return argand::light_emit(l, all_light_kinds, u, v, center, radius, origin, direction, normal, flux);
+inline vec3 light_power(const LightRecord& l, float radius) {
+    return argand::light_power(l, all_light_kinds, radius);
+}
+inline bool light_emit(const LightRecord& l, vec4 u, vec4 v, vec3 center, float radius,
+                       vec3& origin, vec3& direction, vec3& normal, vec3& flux) {
+    return argand::light_emit(l, all_light_kinds, u, v, center, radius, origin, direction, normal,
+                              flux);
 }
 
-inline truth::Record record_bytes(const LightRecord& l) {
-    return std::bit_cast<truth::Record>(l);
-}
+inline truth::Record record_bytes(const LightRecord& l) { return std::bit_cast<truth::Record>(l); }
 
 } // namespace argand::testing

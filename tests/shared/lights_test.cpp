@@ -75,8 +75,8 @@ TEST(LightSample, PointLightFollowsTheInverseSquare) {
     }
     LightSample s;
     EXPECT_FALSE(light_sample(point_light(vec3(1), color), vec3(1), vec2(0.5f), s));
-    EXPECT_FALSE(
-        light_sample(point_light(vec3(1e-25f), color), vec3(0), vec2(0.5f), s)); // brighter than any number
+    EXPECT_FALSE(light_sample(point_light(vec3(1e-25f), color), vec3(0), vec2(0.5f),
+                              s)); // brighter than any number
 }
 
 TEST(LightSample, SpotAndDirectionalLights) {
@@ -129,12 +129,15 @@ TEST(LightSample, TriangleGivesLambertsIrradiance) {
                 irradiance.add(double(s.radiance.y) * s.wi.z);
                 ASSERT_FALSE(s.delta);
                 ASSERT_NEAR(s.radiance.y * s.pdf, color.y, 1e-5);
-                // As the only light it is always chosen. The distance is short of the light by some roundings.
+                // As the only light it is always chosen. The distance is short of the light by some
+                // roundings.
                 const float weight = light_weight_of_emitter(color) * light_sides(l) * area;
                 const float cosine = std::abs(dot3(s.wi, normal));
-                ASSERT_NEAR(emitter_density(color, light_sides(l), weight, s.distance, cosine), s.pdf, 1e-4 * s.pdf);
+                ASSERT_NEAR(emitter_density(color, light_sides(l), weight, s.distance, cosine),
+                            s.pdf, 1e-4 * s.pdf);
             }
-            const double truth = polygon_irradiance({v[0], v[1], v[2]}, p, glm::dvec3(0, 0, 1)) * color.y;
+            const double truth =
+                polygon_irradiance({v[0], v[1], v[2]}, p, glm::dvec3(0, 0, 1)) * color.y;
             const bool faces = dot3(normal, p - v[0]) > 0 || double_sided;
             EXPECT_NEAR(irradiance.value(), faces ? truth : 0, 5 * irradiance.deviation() + 1e-9);
         }
@@ -170,12 +173,12 @@ TEST(LightSample, DegenerateAndEdgeOnTrianglesAreDark) {
     const vec3 b(0, 1, 1);
     EXPECT_FALSE(light_sample(triangle_light(a, b, b, color, true), vec3(0), vec2(0.5f), s));
     EXPECT_FALSE(light_sample(triangle_light(a, a, a, color, true), vec3(0), vec2(0.5f), s));
-    EXPECT_FALSE(
-        light_sample(triangle_light(a, b, vec3(0, 0, 1), color, true), vec3(5, 5, 1), vec2(0.5f), s));
+    EXPECT_FALSE(light_sample(triangle_light(a, b, vec3(0, 0, 1), color, true), vec3(5, 5, 1),
+                              vec2(0.5f), s));
 }
 
-// The way to the sampled point is free of the emitter itself, and all but the last millionth of it is
-// watched: at any scale, from any point, in front of walls too.
+// The way to the sampled point is free of the emitter itself, and all but the last millionth of it
+// is watched: at any scale, from any point, in front of walls too.
 TEST(LightSample, ShadowRaysEndJustBeforeTheEmitter) {
     std::mt19937 bits(1);
     std::normal_distribution<float> normal;
@@ -185,7 +188,8 @@ TEST(LightSample, ShadowRaysEndJustBeforeTheEmitter) {
         const float size = any_magnitude(bits, -10, 0);
         const auto any_point = [&] { return vec3(normal(bits), normal(bits), normal(bits)); };
         const vec3 center = any_point();
-        const vec3 v[3] = {(center + size * any_point()) * scale, (center + size * any_point()) * scale,
+        const vec3 v[3] = {(center + size * any_point()) * scale,
+                           (center + size * any_point()) * scale,
                            (center + size * any_point()) * scale};
         const vec3 p = (center + any_magnitude(bits, -8, 2) * any_point()) * scale;
         const vec2 u(float(bits() >> 8) * 0x1p-24f, float(bits() >> 8) * 0x1p-24f);
@@ -204,8 +208,8 @@ TEST(LightSample, ShadowRaysEndJustBeforeTheEmitter) {
         const double extent = max_component(max(abs(p), max(abs(v[0]), max(abs(v[1]), abs(v[2])))));
         ASSERT_LE(s.distance, distance);
         ASSERT_GE(s.distance, distance * (1 - 2e-6) - 3e-6 * extent / cosine) << i;
-        const float longest =
-            std::max({glm::distance(v[0], v[1]), glm::distance(v[1], v[2]), glm::distance(v[2], v[0])});
+        const float longest = std::max(
+            {glm::distance(v[0], v[1]), glm::distance(v[1], v[2]), glm::distance(v[2], v[0])});
         if (area / longest / longest > 0.5f / 30) { // no needle
             ASSERT_FALSE(hit_of(ray_shear(s.wi), p, v[0], v[1], v[2], 0, s.distance).hit)
                 << i << " " << cosine;
@@ -220,8 +224,8 @@ TEST(LightSample, SinglePrecisionIsStable) {
     const auto any_point = [&] { return vec3(normal(bits), normal(bits), normal(bits)); };
     for (int i = 0; i < 100'000; ++i) {
         const float scale = any_magnitude(bits, -30, 30);
-        LightRecord l =
-            triangle_light(any_point() * scale, any_point() * scale, any_point() * scale, color, i % 3 == 0);
+        LightRecord l = triangle_light(any_point() * scale, any_point() * scale,
+                                       any_point() * scale, color, i % 3 == 0);
         if (i % 4 == 0) {
             l = spot_light(any_point() * scale, any_direction(bits), color, 90 * normal(bits), 89);
         }

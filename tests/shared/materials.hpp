@@ -87,7 +87,8 @@ inline MaterialRecord any_phong(std::mt19937& bits) {
 inline MaterialRecord any_material(std::mt19937& bits) {
     std::uniform_real_distribution<float> uniform;
     const auto end_or_between = [&] { return bits() % 3 == 0 ? float(bits() % 2) : uniform(bits); };
-    MaterialRecord m = with_color(white_dielectric(), vec3(uniform(bits), uniform(bits), uniform(bits)));
+    MaterialRecord m =
+        with_color(white_dielectric(), vec3(uniform(bits), uniform(bits), uniform(bits)));
     m.metallic = end_or_between();
     m.roughness = end_or_between();
     m.specular = end_or_between();
@@ -100,15 +101,14 @@ inline MaterialRecord any_material(std::mt19937& bits) {
 }
 
 /// A number of the renderer's streams.
-inline float to_unit_float(std::mt19937& bits) {
-    return float(bits() >> 8) * 0x1p-24f;
-}
+inline float to_unit_float(std::mt19937& bits) { return float(bits() >> 8) * 0x1p-24f; }
 
 /// At an angle [degrees] from the normal.
 inline vec3 at_angle(double degrees, double around = 0) {
     const double theta = degrees * 0.017453292519943295;
     const double phi = around * 0.017453292519943295;
-    return rounded({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+    return rounded(
+        {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
 }
 
 /// Above the surface; every fourth grazes it.

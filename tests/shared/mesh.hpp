@@ -16,12 +16,14 @@ struct Mesh {
     std::vector<std::array<int, 3>> triangles;
 };
 
-/// A closed surface around the origin, star-shaped as seen from there: an octahedron whose faces are cut in
-/// four `cuts` times, with the vertices' distances from the origin random in [1, 1 + bumps].
+/// A closed surface around the origin, star-shaped as seen from there: an octahedron whose faces
+/// are cut in four `cuts` times, with the vertices' distances from the origin random in [1, 1 +
+/// bumps].
 inline Mesh closed_mesh(int cuts, float bumps, std::mt19937& bits) {
     Mesh mesh;
     mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-    mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+    mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2},
+                      {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
     for (int cut = 0; cut < cuts; ++cut) {
         std::map<std::pair<int, int>, int> middles;
         const auto middle = [&](int a, int b) {
@@ -57,8 +59,8 @@ struct TriangleHit {
     bool hit;
     float t, u, v;
 };
-inline TriangleHit hit_of(const RayShear& shear, vec3 origin, vec3 a, vec3 b, vec3 c, float tmin = 0,
-                          float tmax = 3e38f) {
+inline TriangleHit hit_of(const RayShear& shear, vec3 origin, vec3 a, vec3 b, vec3 c,
+                          float tmin = 0, float tmax = 3e38f) {
     TriangleHit h{};
     h.hit = intersect_triangle(shear, origin, a, b, c, tmin, tmax, h.t, h.u, h.v);
     return h;

@@ -25,8 +25,11 @@ TEST(Morton, InterleavesTheCells) {
     for (int i = 0; i < 100'000; ++i) {
         const vec3 p(float(bits() >> 8) * 0x1p-24f, float(bits() >> 8) * 0x1p-24f,
                      float(bits() >> 8) * 0x1p-24f);
-        const auto cell = [](float x, double cells) { return static_cast<std::uint64_t>(double(x) * cells); };
-        ASSERT_EQ(morton30(p, low, high), interleaved(cell(p.x, 1024), cell(p.y, 1024), cell(p.z, 1024), 10));
+        const auto cell = [](float x, double cells) {
+            return static_cast<std::uint64_t>(double(x) * cells);
+        };
+        ASSERT_EQ(morton30(p, low, high),
+                  interleaved(cell(p.x, 1024), cell(p.y, 1024), cell(p.z, 1024), 10));
     }
 }
 
@@ -67,7 +70,8 @@ TEST(Morton, AnythingGivesACodeInRange) {
     EXPECT_EQ(morton30(vec3(0), vec3(nan), vec3(1)), 0u);
     EXPECT_EQ(morton30(vec3(0), vec3(-1), vec3(nan)), 0u);
     // One flat axis does not disturb the others.
-    EXPECT_EQ(morton30(vec3(1, 0, 1), vec3(-1, 0, -1), vec3(1, 0, 1)), interleaved(1023, 0, 1023, 10));
+    EXPECT_EQ(morton30(vec3(1, 0, 1), vec3(-1, 0, -1), vec3(1, 0, 1)),
+              interleaved(1023, 0, 1023, 10));
     // An extent beyond the largest number.
     EXPECT_EQ(morton_cell(0.0f, -3e38f, 3e38f, 1024.0f), 512u);
     EXPECT_EQ(morton_cell(3e38f, -3e38f, 3e38f, 1024.0f), 1023u);
@@ -78,7 +82,8 @@ TEST(Morton, LeadingZerosAreCounted) {
     std::mt19937 bits(3);
     for (int bit = 0; bit < 32; ++bit) {
         EXPECT_EQ(leading_zeros(1u << bit), 31u - bit);
-        EXPECT_EQ(leading_zeros((1u << bit) | (static_cast<uint>(bits()) & ((1u << bit) - 1))), 31u - bit);
+        EXPECT_EQ(leading_zeros((1u << bit) | (static_cast<uint>(bits()) & ((1u << bit) - 1))),
+                  31u - bit);
     }
 }
 

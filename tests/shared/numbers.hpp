@@ -9,9 +9,9 @@
 
 namespace argand::testing {
 
-/// Distance of `value` from the truth in units in the last place of the truth, rounded to single precision's
-/// exponent; units of the smallest subnormal below the normal numbers. 0 if both are the same infinity or
-/// NaN.
+/// Distance of `value` from the truth in units in the last place of the truth, rounded to single
+/// precision's exponent; units of the smallest subnormal below the normal numbers. 0 if both are
+/// the same infinity or NaN.
 inline double ulps(float value, double truth) {
     if (std::isnan(truth) || std::isnan(value)) {
         return std::isnan(truth) && std::isnan(value) ? 0 : std::numeric_limits<double>::infinity();
@@ -26,8 +26,8 @@ inline double ulps(float value, double truth) {
     return std::abs(double(value) - truth) / unit;
 }
 
-/// The nearest numbers of single precision. By way of memory: GCC 12's vectoriser takes a pair of numbers
-/// from double to float and back to double without rounding them.
+/// The nearest numbers of single precision. By way of memory: GCC 12's vectoriser takes a pair of
+/// numbers from double to float and back to double without rounding them.
 inline glm::vec3 rounded(glm::dvec3 v) {
     volatile float x = static_cast<float>(v.x);
     volatile float y = static_cast<float>(v.y);

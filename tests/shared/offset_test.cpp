@@ -39,7 +39,8 @@ Case any_case(std::mt19937& bits) {
     const float scale = any_magnitude(bits, -40, 40);
     const float size = any_magnitude(bits, -10, 0);     // in the scene
     const float thickness = any_magnitude(bits, -6, 0); // slivers
-    const vec3 center = vec3(normal(bits), normal(bits), normal(bits)) * (bits() % 4 == 0 ? 0.0f : 1.0f);
+    const vec3 center =
+        vec3(normal(bits), normal(bits), normal(bits)) * (bits() % 4 == 0 ? 0.0f : 1.0f);
     const int flat = int(bits() % 6); // lies in a plane of coordinates, and begins in its origin
     const vec3 long_way = any_direction(bits);
     const vec3 sideways = any_direction(bits) * thickness;
@@ -60,7 +61,8 @@ Case any_case(std::mt19937& bits) {
     }
     c.point = hit_point(c.v[0], c.v[1], c.v[2], u, v, c.error);
     float length = 0;
-    c.normal = unit_and_length(cross3((c.v[1] - c.v[0]) / scale, (c.v[2] - c.v[0]) / scale), length);
+    c.normal =
+        unit_and_length(cross3((c.v[1] - c.v[0]) / scale, (c.v[2] - c.v[0]) / scale), length);
     return c;
 }
 
@@ -127,8 +129,8 @@ TEST(OffsetOrigin, OwnTriangleIsNotHit) {
     EXPECT_LT(hits, needles / 50);
 }
 
-// The origin lies on the side that the ray goes to, and not further from the surface than a few roundings of
-// its coordinates.
+// The origin lies on the side that the ray goes to, and not further from the surface than a few
+// roundings of its coordinates.
 TEST(OffsetOrigin, IsJustOffThePlane) {
     std::mt19937 bits(4);
     for (int i = 0; i < 200'000; ++i) {
@@ -145,7 +147,8 @@ TEST(OffsetOrigin, IsJustOffThePlane) {
             continue; // a needle: the single-precision normal is another
         }
         const double side = dot3(w, c.normal) < 0 ? -1 : 1;
-        const double height = side * glm::dot(glm::normalize(exact), glm::dvec3(o) - glm::dvec3(c.v[0]));
+        const double height =
+            side * glm::dot(glm::normalize(exact), glm::dvec3(o) - glm::dvec3(c.v[0]));
         double extent = 0;
         for (const vec3& v : c.v) {
             extent = std::max(extent, double(max_component(abs(v))));
@@ -170,7 +173,9 @@ TEST(OffsetOrigin, CoplanarNeighboursAreNotHit) {
             continue;
         }
         const float scale = std::ldexp(1.0f, int(bits() % 60) - 30);
-        const auto vertex = [&](int x, int y) { return (corner + a * float(x) + b * float(y)) * scale; };
+        const auto vertex = [&](int x, int y) {
+            return (corner + a * float(x) + b * float(y)) * scale;
+        };
         float u = uniform(bits);
         float v = uniform(bits) * (1 - u);
         vec3 error;
@@ -180,8 +185,10 @@ TEST(OffsetOrigin, CoplanarNeighboursAreNotHit) {
         const RayShear shear = ray_shear(w);
         for (int x = -3; x <= 3; ++x) {
             for (int y = -3; y <= 3; ++y) {
-                ASSERT_FALSE(hit_of(shear, o, vertex(x, y), vertex(x + 1, y), vertex(x, y + 1)).hit) << i;
-                ASSERT_FALSE(hit_of(shear, o, vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)).hit)
+                ASSERT_FALSE(hit_of(shear, o, vertex(x, y), vertex(x + 1, y), vertex(x, y + 1)).hit)
+                    << i;
+                ASSERT_FALSE(
+                    hit_of(shear, o, vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)).hit)
                     << i;
             }
         }

@@ -16,8 +16,7 @@ using namespace argand::oracle;
 
 namespace {
 
-template <class T>
-T as(const std::array<std::byte, sizeof(T)>& record) {
+template <class T> T as(const std::array<std::byte, sizeof(T)>& record) {
     return std::bit_cast<T>(record);
 }
 
@@ -31,9 +30,11 @@ double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, uns
     return oracle::bsdf_pdf(as<MaterialRecord>(material), wo, wi, lobes);
 }
 
-BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u) {
+BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes,
+                       glm::dvec4 u) {
     oracle::BsdfSample s;
-    const bool scattered = oracle::bsdf_sample(as<MaterialRecord>(material), wo, front, lobes, u, s);
+    const bool scattered =
+        oracle::bsdf_sample(as<MaterialRecord>(material), wo, front, lobes, u, s);
     return {scattered, s.wi, s.weight, s.pdf, s.eta_scale, s.lobe};
 }
 
@@ -47,11 +48,12 @@ glm::dvec3 light_power(const Record& light, double radius) {
     return oracle::light_power(as<LightRecord>(light), oracle::all_light_kinds, radius);
 }
 
-Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center, double radius) {
+Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center,
+                    double radius) {
     Emission e;
     vec3 normal;
-    oracle::light_emit(as<LightRecord>(light), oracle::all_light_kinds, u, v, center, radius, e.origin, e.direction, normal,
-                       e.flux);
+    oracle::light_emit(as<LightRecord>(light), oracle::all_light_kinds, u, v, center, radius,
+                       e.origin, e.direction, normal, e.flux);
     return e;
 }
 
@@ -61,13 +63,16 @@ Ray camera_ray(const Record& camera, double x, double y) {
     return ray;
 }
 
-Surface make_surface(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& n, double u, double v,
-                     glm::dvec3 ray_direction) {
-    const oracle::Surface s = oracle::make_surface(p[0], p[1], p[2], n[0], n[1], n[2], u, v, ray_direction);
+Surface make_surface(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& n,
+                     double u, double v, glm::dvec3 ray_direction) {
+    const oracle::Surface s =
+        oracle::make_surface(p[0], p[1], p[2], n[0], n[1], n[2], u, v, ray_direction);
     return {s.position, s.geometric_normal, s.shading_normal, s.front};
 }
 
-unsigned pack_photon_normal(glm::dvec3 normal, bool caustic) { return oracle::pack_photon_normal(normal, caustic); }
+unsigned pack_photon_normal(glm::dvec3 normal, bool caustic) {
+    return oracle::pack_photon_normal(normal, caustic);
+}
 
 glm::dvec3 unpack_photon_normal(unsigned packed) { return oracle::unpack_photon_normal(packed); }
 

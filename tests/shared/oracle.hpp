@@ -22,7 +22,8 @@ struct BsdfSample {
     double pdf, eta_scale;
     unsigned lobe;
 };
-BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes, glm::dvec4 u);
+BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes,
+                       glm::dvec4 u);
 
 struct LightSample {
     bool lit;
@@ -35,7 +36,8 @@ glm::dvec3 light_power(const Record& light, double radius);
 struct Emission {
     glm::dvec3 origin, direction, flux;
 };
-Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center, double radius);
+Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center,
+                    double radius);
 
 struct Ray {
     glm::dvec3 origin, direction;
@@ -46,8 +48,9 @@ struct Surface {
     glm::dvec3 position, geometric_normal, shading_normal;
     bool front;
 };
-Surface make_surface(const std::array<glm::dvec3, 3>& vertices, const std::array<glm::dvec3, 3>& normals, double u,
-                     double v, glm::dvec3 ray_direction);
+Surface make_surface(const std::array<glm::dvec3, 3>& vertices,
+                     const std::array<glm::dvec3, 3>& normals, double u, double v,
+                     glm::dvec3 ray_direction);
 
 unsigned pack_photon_normal(glm::dvec3 normal, bool caustic);
 glm::dvec3 unpack_photon_normal(unsigned packed);

@@ -1,4 +1,5 @@
-// The truth is to be trusted as well: the double build against closed forms and the standard library.
+// The truth is to be trusted as well: the double build against closed forms and the standard
+// library.
 #include "oracle.hpp"
 
 #include <cmath>

@@ -14,18 +14,21 @@ using namespace argand::testing;
 constexpr double pi = 3.14159265358979323846;
 constexpr float exponents[] = {0, 0.5f, 1, 8, 100, 1e4f, 1e6f};
 
-/// The unit square onto directions around the mirror direction of wo: u.y is the share of (n + 1)/(2π) cosⁿ that is
-/// nearer to it. In double precision, by the angle.
+/// The unit square onto directions around the mirror direction of wo: u.y is the share of (n +
+/// 1)/(2π) cosⁿ that is nearer to it. In double precision, by the angle.
 glm::dvec3 around_mirror(glm::dvec3 wo, double n, glm::dvec2 u) {
     const glm::dvec3 axis(-wo.x, -wo.y, wo.z);
-    const glm::dvec3 x = glm::normalize(glm::cross(std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axis));
+    const glm::dvec3 x = glm::normalize(
+        glm::cross(std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axis));
     const glm::dvec3 y = glm::cross(axis, x);
     const double complement = -std::expm1(std::log1p(-u.y) / (n + 1));
     const double sine = std::sqrt(complement * (2 - complement));
-    return axis * (1 - complement) + sine * (std::cos(2 * pi * u.x) * x + std::sin(2 * pi * u.x) * y);
+    return axis * (1 - complement) +
+           sine * (std::cos(2 * pi * u.x) * x + std::sin(2 * pi * u.x) * y);
 }
 
-/// Means over the cells of that square, by the midpoint rule, of a function of wi over the density cosⁿ (n + 1)/(2π).
+/// Means over the cells of that square, by the midpoint rule, of a function of wi over the density
+/// cosⁿ (n + 1)/(2π).
 template <class F>
 std::vector<double> over_lobe(glm::dvec3 wo, double n, int cells, int steps, const F& f) {
     std::vector<double> means(std::size_t(cells) * std::size_t(cells));
@@ -36,7 +39,8 @@ std::vector<double> over_lobe(glm::dvec3 wo, double n, int cells, int steps, con
         const glm::dvec3 wi = around_mirror(wo, n, u);
         const double density = (n + 1) / (2 * pi) * std::pow(1 - u.y, n / (n + 1));
         if (wi.z > 0) {
-            means[std::size_t(row / steps * cells + column / steps)] += f(wi) / density / (steps * steps);
+            means[std::size_t(row / steps * cells + column / steps)] +=
+                f(wi) / density / (steps * steps);
         }
     }
     return means;
@@ -54,7 +58,8 @@ TEST(Phong, HasItsLobes) {
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0.5f), 20)), LOBE_DIFFUSE | LOBE_GLOSSY);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0), vec3(0.5f), 20)), LOBE_GLOSSY);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0), 20)), LOBE_DIFFUSE);
-    EXPECT_EQ(bsdf_lobes(with_alpha(phong(vec3(0.5f), vec3(0), 20), 0.5f)), LOBE_DIFFUSE | LOBE_PASS);
+    EXPECT_EQ(bsdf_lobes(with_alpha(phong(vec3(0.5f), vec3(0), 20), 0.5f)),
+              LOBE_DIFFUSE | LOBE_PASS);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0.5f), 1e6f)), LOBE_DIFFUSE | LOBE_GLOSSY);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0.5f), 1e7f)), LOBE_DIFFUSE | LOBE_MIRROR);
     EXPECT_EQ(roughness_of_phong(0), 1.0f);
@@ -66,7 +71,8 @@ TEST(Phong, AgreesWithTheFormula) {
     for (int i = 0; i < 100'000; ++i) {
         const float n = exponents[bits() % std::size(exponents)];
         const vec3 wo = any_upper(bits);
-        const glm::dvec3 toward = around_mirror(glm::dvec3(wo), n, {to_unit_float(bits), to_unit_float(bits)});
+        const glm::dvec3 toward =
+            around_mirror(glm::dvec3(wo), n, {to_unit_float(bits), to_unit_float(bits)});
         if (toward.z <= 0) {
             continue;
         }
@@ -81,7 +87,9 @@ TEST(Phong, AgreesWithTheFormula) {
         const vec3 f = bsdf_eval(m, wo, wi, LOBES_ALL);
         const double peak = (double(n) + 2) / (2 * pi);
         // Directions of single precision are of unit length and at their places within 1e-7.
-        const double bound = 2e-6 * (0.25 + peak * (0.5 * std::sqrt(double(n)) * std::sqrt(std::sqrt(power)) + power));
+        const double bound =
+            2e-6 *
+            (0.25 + peak * (0.5 * std::sqrt(double(n)) * std::sqrt(std::sqrt(power)) + power));
         ASSERT_NEAR(f.x, 0.25 / pi + 0.5 * peak * power, bound) << n << " " << power;
         ASSERT_NEAR(f.y, 0.25 / pi + 0.25 * peak * power, bound) << n << " " << power;
         ASSERT_FLOAT_EQ(f.z, float(0.25 / pi));
@@ -93,7 +101,8 @@ TEST(Phong, IsReciprocal) {
     for (int i = 0; i < 100'000; ++i) {
         const MaterialRecord m = any_phong(bits);
         const vec3 a = any_upper(bits);
-        const vec3 b = rounded(around_mirror(glm::dvec3(a), m.exponent, {to_unit_float(bits), to_unit_float(bits)}));
+        const vec3 b = rounded(
+            around_mirror(glm::dvec3(a), m.exponent, {to_unit_float(bits), to_unit_float(bits)}));
         ASSERT_EQ(bsdf_eval(m, a, b, LOBES_ALL), bsdf_eval(m, b, a, LOBES_ALL)) << i;
     }
 }
@@ -122,18 +131,21 @@ TEST(Phong, SamplingFollowsTheDensity) {
         for (const double angle : {0.0, 45.0, 85.0}) {
             const vec3 wo = at_angle(angle, 77);
             for (const float diffuse : {0.0f, 0.4f}) {
-                SCOPED_TRACE(::testing::Message() << "n " << n << ", " << angle << " degrees, diffuse " << diffuse);
+                SCOPED_TRACE(::testing::Message()
+                             << "n " << n << ", " << angle << " degrees, diffuse " << diffuse);
                 const MaterialRecord m = phong(vec3(diffuse), vec3(0.6f), n);
                 const double glossy = double(lobe_probabilities(m, wo.z, LOBES_ALL).y);
                 const auto density = over_lobe(glm::dvec3(wo), n, cells, 16, [&](glm::dvec3 wi) {
-                    return glossy * truth::bsdf_pdf(record_bytes(m), glm::dvec3(wo), wi, LOBE_GLOSSY);
+                    return glossy *
+                           truth::bsdf_pdf(record_bytes(m), glm::dvec3(wo), wi, LOBE_GLOSSY);
                 });
                 std::vector<double> counts(density.size());
                 Mean weight;
                 constexpr int samples = 60'000;
                 for (int i = 0; i < samples; ++i) {
                     BsdfSample s;
-                    const bool scattered = bsdf_sample(m, wo, true, LOBES_ALL, random4(21, uint(i), 0, 0), s);
+                    const bool scattered =
+                        bsdf_sample(m, wo, true, LOBES_ALL, random4(21, uint(i), 0, 0), s);
                     weight.add(scattered ? double(s.weight.x) : 0);
                     if (!scattered) {
                         continue;
@@ -145,12 +157,16 @@ TEST(Phong, SamplingFollowsTheDensity) {
                     if (s.lobe == LOBE_GLOSSY) {
                         const glm::dvec3 axis(-wo.x, -wo.y, wo.z);
                         const glm::dvec3 d = glm::dvec3(s.wi) - axis;
-                        const double nearer = -std::expm1((double(n) + 1) * std::log1p(-0.5 * glm::dot(d, d)));
-                        const glm::dvec3 x = glm::normalize(
-                            glm::cross(std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axis));
-                        const double turn = std::atan2(glm::dot(d, glm::cross(axis, x)), glm::dot(d, x)) / (2 * pi);
+                        const double nearer =
+                            -std::expm1((double(n) + 1) * std::log1p(-0.5 * glm::dot(d, d)));
+                        const glm::dvec3 x = glm::normalize(glm::cross(
+                            std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0),
+                            axis));
+                        const double turn =
+                            std::atan2(glm::dot(d, glm::cross(axis, x)), glm::dot(d, x)) / (2 * pi);
                         const auto row = std::min(cells - 1, int(nearer * cells));
-                        const auto column = std::min(cells - 1, int((turn < 0 ? turn + 1 : turn) * cells));
+                        const auto column =
+                            std::min(cells - 1, int((turn < 0 ? turn + 1 : turn) * cells));
                         ++counts[std::size_t(row * cells + column)];
                     }
                 }
@@ -158,12 +174,15 @@ TEST(Phong, SamplingFollowsTheDensity) {
                 for (const double p : density) {
                     expected.push_back(p * samples / double(cells * cells));
                 }
-                const double inside = std::accumulate(expected.begin(), expected.end(), 0.0) / samples;
+                const double inside =
+                    std::accumulate(expected.begin(), expected.end(), 0.0) / samples;
                 EXPECT_LE(inside, glossy * 1.0001);
                 const double counted = std::accumulate(counts.begin(), counts.end(), 0.0);
-                EXPECT_NEAR(counted / samples, inside, 5 * std::sqrt(inside * std::abs(1 - inside) / samples) + 2e-3);
+                EXPECT_NEAR(counted / samples, inside,
+                            5 * std::sqrt(inside * std::abs(1 - inside) / samples) + 2e-3);
                 EXPECT_LT(chi_square_deviations(counts, expected), unlikely);
-                EXPECT_NEAR(weight.value(), reflected(m, glm::dvec3(wo)), 5 * weight.deviation() + 2e-3);
+                EXPECT_NEAR(weight.value(), reflected(m, glm::dvec3(wo)),
+                            5 * weight.deviation() + 2e-3);
             }
         }
     }
@@ -194,7 +213,8 @@ TEST(Phong, IsFiniteAtTheExtremes) {
             ASSERT_TRUE(is_finite3(bsdf_eval(m, wo, wi, LOBES_ALL)));
             const float ends[] = {0, 0x1p-24f, 1 - 0x1p-24f, to_unit_float(bits)};
             BsdfSample s;
-            if (bsdf_sample(m, wo, true, LOBES_ALL, vec4(0.99f, ends[bits() % 4], ends[bits() % 4], 0), s)) {
+            if (bsdf_sample(m, wo, true, LOBES_ALL,
+                            vec4(0.99f, ends[bits() % 4], ends[bits() % 4], 0), s)) {
                 ASSERT_TRUE(is_finite3(s.weight) && is_finite(s.pdf) && is_finite3(s.wi));
             }
         }

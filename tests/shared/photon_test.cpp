@@ -24,8 +24,8 @@ TEST(PhotonNormal, ErrorIsBounded) {
 }
 
 TEST(PhotonNormal, AxesAreAlmostExact) {
-    for (const vec3 axis :
-         {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)}) {
+    for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0),
+                            vec3(0, -1, 0), vec3(0, 0, -1)}) {
         EXPECT_GT(dot3(unpack_photon_normal(pack_photon_normal(axis, false)), axis), 1 - 1e-7f);
     }
 }
@@ -92,7 +92,8 @@ TEST(FluxUnits, AreRoundedToTheNearest) {
         const float unit = any_magnitude(bits, -60, 60);
         const float flux = unit * any_magnitude(bits, -10, 22);
         const double exact = double(flux) / double(unit);
-        // The quotient's and the sum's rounding, each at most half a unit in the last place of 2^22.
+        // The quotient's and the sum's rounding, each at most half a unit in the last place of
+        // 2^22.
         ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 0.5 + 1e-6) << i;
         if (exact < 0x1p12) {
             ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 1e-3) << i;

@@ -22,7 +22,8 @@ struct Extent {
 };
 
 /// Random points of a plane through `center` by their cells.
-std::map<Key, Extent> cells_of_plane(vec3 center, vec3 normal, float half, float largest, float size) {
+std::map<Key, Extent> cells_of_plane(vec3 center, vec3 normal, float half, float largest,
+                                     float size) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> u(-half, half);
     const Frame frame = make_frame(normal);
@@ -38,19 +39,24 @@ std::map<Key, Extent> cells_of_plane(vec3 center, vec3 normal, float half, float
 }
 
 TEST(QueryCell, HoldsPointsWithinTwiceItsEdge) {
-    const vec3 normals[] = {{0, 1, 0}, {0, 0, -1}, normalize(vec3(1, 2, -3)), normalize(vec3(-0.1f, 0.05f, 1))};
+    const vec3 normals[] = {
+        {0, 1, 0}, {0, 0, -1}, normalize(vec3(1, 2, -3)), normalize(vec3(-0.1f, 0.05f, 1))};
     for (const vec3 normal : normals) {
         for (const float wanted : {1.0f, 0.1f, 0.06f, 0.01f}) {
-            const float edge = 0.1f * std::exp2(std::floor(std::log2(std::min(wanted / 0.1f, 1.0f))));
+            const float edge =
+                0.1f * std::exp2(std::floor(std::log2(std::min(wanted / 0.1f, 1.0f))));
             const auto cells = cells_of_plane({0.3f, -2, 5}, normal, 0.5f, 0.1f, wanted);
             for (const auto& [key, extent] : cells) {
                 // A point is moved by up to half an edge along each axis.
                 ASSERT_LE(glm::length(extent.high - extent.low), 2 * 1.7321f * edge) << wanted;
             }
-            // As many as there are edges squared, and a row more on each side; of slanted planes, cut by their height too.
+            // As many as there are edges squared, and a row more on each side; of slanted planes,
+            // cut by their height too.
             const double squares = 1 / (double(edge) * edge);
-            EXPECT_GT(static_cast<double>(cells.size()), 0.9 * squares * (squares < 2000 ? 1 : 0.5)) << wanted;
-            EXPECT_LT(static_cast<double>(cells.size()), 2.5 * (1 / edge + 2) * (1 / edge + 2)) << wanted;
+            EXPECT_GT(static_cast<double>(cells.size()), 0.9 * squares * (squares < 2000 ? 1 : 0.5))
+                << wanted;
+            EXPECT_LT(static_cast<double>(cells.size()), 2.5 * (1 / edge + 2) * (1 / edge + 2))
+                << wanted;
         }
     }
 }
@@ -75,7 +81,8 @@ TEST(QueryCell, AreNotSharedAcrossSurfaces) {
 
 TEST(QueryCell, ScalesWithTheScene) {
     for (const float scale : {1e-20f, 1e-6f, 1.0f, 1e6f, 1e20f}) {
-        const auto cells = cells_of_plane(vec3(1, 2, 3) * scale, {0, 1, 0}, 0.5f * scale, 0.1f * scale, 1e30f);
+        const auto cells =
+            cells_of_plane(vec3(1, 2, 3) * scale, {0, 1, 0}, 0.5f * scale, 0.1f * scale, 1e30f);
         EXPECT_GE(cells.size(), 100u) << scale;
         EXPECT_LE(cells.size(), 144u) << scale;
     }
@@ -90,13 +97,16 @@ TEST(QueryCell, DirectionsInOneAreNear) {
         const uint steps = direction_steps(alpha, 1);
         EXPECT_GE(steps, 4u);
         EXPECT_EQ(direction_steps(alpha, 0), 1u);
-        EXPECT_LE(steps, 60u);      // which fit into a byte on either side of 0
+        EXPECT_LE(steps, 60u); // which fit into a byte on either side of 0
         std::map<uint, vec3> first;
         for (int i = 0; i < 50'000; ++i) {
             const vec3 v = normalize(vec3(normal(random), normal(random), normal(random)));
             const auto [found, is_new] = first.emplace(direction_cell(v, steps, uint(random())), v);
-            // Twice a step a side, which is at most half a turn over twice the steps, and half as much again in corners.
-            ASSERT_LT(std::acos(glm::dot(found->second, v) * 0.999999f), 1.5 * std::sqrt(2.0) * 3.1416 / steps) << alpha;
+            // Twice a step a side, which is at most half a turn over twice the steps, and half as
+            // much again in corners.
+            ASSERT_LT(std::acos(glm::dot(found->second, v) * 0.999999f),
+                      1.5 * std::sqrt(2.0) * 3.1416 / steps)
+                << alpha;
         }
         EXPECT_GT(first.size(), 2 * steps * steps);
     }

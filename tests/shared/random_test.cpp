@@ -30,7 +30,9 @@ TEST(Random, HashIsPcg4d) {
             word = static_cast<std::uint32_t>(counter >> 32);
         }
         std::uint64_t v[4];
-        const auto wrap = [&](int to, int a, int b) { v[to] = (v[to] + v[a] * v[b]) & 0xffffffffu; };
+        const auto wrap = [&](int to, int a, int b) {
+            v[to] = (v[to] + v[a] * v[b]) & 0xffffffffu;
+        };
         for (int k = 0; k < 4; ++k) {
             v[k] = (in[k] * std::uint64_t{1664525} + 1013904223u) & 0xffffffffu;
         }
@@ -76,8 +78,8 @@ TEST(Random, NeighboursAreIndependent) {
             const std::uint32_t k = i % 64;
             const vec4 a =
                 random4(kind == 0 ? i : 3, kind == 1 ? i : k, kind == 2 ? i : 5, kind == 3 ? i : 1);
-            const vec4 b = random4(kind == 0 ? i + 1 : 3, kind == 1 ? i + 1 : k, kind == 2 ? i + 1 : 5,
-                                   kind == 3 ? i + 1 : 1);
+            const vec4 b = random4(kind == 0 ? i + 1 : 3, kind == 1 ? i + 1 : k,
+                                   kind == 2 ? i + 1 : 5, kind == 3 ? i + 1 : 1);
             for (int pair = 0; pair < 16; ++pair) {
                 const auto x = static_cast<std::size_t>(a[pair / 4] * 16);
                 const auto y = static_cast<std::size_t>(b[pair % 4] * 16);

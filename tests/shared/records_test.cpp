@@ -1,5 +1,5 @@
-// Records cross from the host to the device as bytes: std430, C++ and CUDA must agree on where everything
-// lies.
+// Records cross from the host to the device as bytes: std430, C++ and CUDA must agree on where
+// everything lies.
 #include "shared/camera.h"
 #include "shared/light_record.h"
 #include "shared/material_record.h"

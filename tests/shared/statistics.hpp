@@ -6,9 +6,11 @@
 
 namespace argand::testing {
 
-/// How far Pearson's chi-square of the counts lies above what chance gives, in standard deviations (Wilson
-/// and Hilferty 1931). `expected` are the counts' expectations; cells that expect fewer than 5 are pooled.
-inline double chi_square_deviations(const std::vector<double>& counts, const std::vector<double>& expected) {
+/// How far Pearson's chi-square of the counts lies above what chance gives, in standard deviations
+/// (Wilson and Hilferty 1931). `expected` are the counts' expectations; cells that expect fewer
+/// than 5 are pooled.
+inline double chi_square_deviations(const std::vector<double>& counts,
+                                    const std::vector<double>& expected) {
     double chi_square = 0;
     double pooled_count = 0;
     double pooled_expected = 0;
@@ -24,7 +26,8 @@ inline double chi_square_deviations(const std::vector<double>& counts, const std
     }
     if (pooled_expected > 0 || pooled_count > 0) {
         const double at_least = std::max(pooled_expected, 1.0);
-        chi_square += (pooled_count - pooled_expected) * (pooled_count - pooled_expected) / at_least;
+        chi_square +=
+            (pooled_count - pooled_expected) * (pooled_count - pooled_expected) / at_least;
         ++cells;
     }
     const double spread = 2 / (9 * cells);
@@ -37,7 +40,8 @@ inline double chi_square_deviations(const std::vector<double>& counts) {
     for (const double count : counts) {
         sum += count;
     }
-    return chi_square_deviations(counts, std::vector<double>(counts.size(), sum / double(counts.size())));
+    return chi_square_deviations(counts,
+                                 std::vector<double>(counts.size(), sum / double(counts.size())));
 }
 
 /// Chance exceeds this in one of 3 million tests; the streams of the tests are fixed.
@@ -52,7 +56,9 @@ struct Mean {
         ++count;
     }
     double value() const { return sum / count; }
-    double deviation() const { return std::sqrt(std::max(squares / count - value() * value(), 0.0) / count); }
+    double deviation() const {
+        return std::sqrt(std::max(squares / count - value() * value(), 0.0) / count);
+    }
 };
 
 } // namespace argand::testing

@@ -6,16 +6,13 @@
 namespace argand::oracle {
 
 /// Area by which a map of the unit square stretches there: central differences.
-template <class F>
-double stretch(const F& map, vec2 u) {
+template <class F> double stretch(const F& map, vec2 u) {
     const double h = 1e-6;
     const vec3 x = (map(u + vec2(h, 0)) - map(u - vec2(h, 0))) / (2 * h);
     const vec3 y = (map(u + vec2(0, h)) - map(u - vec2(0, h))) / (2 * h);
     return glm::length(glm::cross(x, y));
 }
 
-inline double area_of(vec3 u, vec3 v) {
-    return glm::length(glm::cross(u, v));
-}
+inline double area_of(vec3 u, vec3 v) { return glm::length(glm::cross(u, v)); }
 
 } // namespace argand::oracle

@@ -15,7 +15,9 @@ struct Case {
     float u, w;
     vec3 direction;
 
-    Surface surface() const { return make_surface(v[0], v[1], v[2], n[0], n[1], n[2], u, w, direction); }
+    Surface surface() const {
+        return make_surface(v[0], v[1], v[2], n[0], n[1], n[2], u, w, direction);
+    }
 
     truth::Surface truth() const {
         const auto widened = [](const std::array<vec3, 3>& a) {
@@ -25,8 +27,8 @@ struct Case {
     }
 };
 
-/// A triangle of any size and place, up to 2^-slimmest slim; its vertices' normals are (0,0,0) in one case of
-/// four, and any directions otherwise.
+/// A triangle of any size and place, up to 2^-slimmest slim; its vertices' normals are (0,0,0) in
+/// one case of four, and any directions otherwise.
 Case any_case(std::mt19937& bits, int slimmest) {
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> uniform;
@@ -48,9 +50,7 @@ Case any_case(std::mt19937& bits, int slimmest) {
     return c;
 }
 
-double dot_double(vec3 a, vec3 b) {
-    return glm::dot(glm::dvec3(a), glm::dvec3(b));
-}
+double dot_double(vec3 a, vec3 b) { return glm::dot(glm::dvec3(a), glm::dvec3(b)); }
 
 // Whatever the triangle and its normals: both normals are unit vectors on the ray's side.
 TEST(Surface, NormalsAreUnitAndFaceTheRay) {
@@ -79,13 +79,14 @@ TEST(Surface, SinglePrecisionIsStable) {
         for (int k = 0; k < 3; ++k) {
             ASSERT_LE(std::abs(double(s.position[k]) - t.position[k]), s.error[k]) << i;
         }
-        // Left out where rounding may turn a normal round: slim triangles, rays along them, normals across
-        // the ray.
+        // Left out where rounding may turn a normal round: slim triangles, rays along them, normals
+        // across the ray.
         const glm::dvec3 e1 = glm::dvec3(c.v[1]) - glm::dvec3(c.v[0]);
         const glm::dvec3 e2 = glm::dvec3(c.v[2]) - glm::dvec3(c.v[0]);
         const double slim = glm::length(glm::cross(e1, e2)) / (glm::dot(e1, e1) + glm::dot(e2, e2));
         const glm::dvec3 blend = double(1 - c.u - c.w) * glm::dvec3(c.n[0]) +
-                                 double(c.u) * glm::dvec3(c.n[1]) + double(c.w) * glm::dvec3(c.n[2]);
+                                 double(c.u) * glm::dvec3(c.n[1]) +
+                                 double(c.w) * glm::dvec3(c.n[2]);
         const double length = glm::length(blend);
         const bool plain = length == 0;
         if (slim < 0.05 || std::abs(glm::dot(t.geometric_normal, glm::dvec3(c.direction))) < 1e-3 ||
@@ -153,13 +154,14 @@ TEST(Surface, NormalsThatDoNotServeAreReplaced) {
     // One that faces away from a grazing ray.
     const vec3 leaning = glm::normalize(vec3(1, 0, 0.1f));
     const vec3 grazing = glm::normalize(vec3(1, 0, -0.01f));
-    EXPECT_EQ((Case{v, {leaning, leaning, leaning}, 0.3f, 0.3f, grazing}.surface().shading_normal), up);
+    EXPECT_EQ((Case{v, {leaning, leaning, leaning}, 0.3f, 0.3f, grazing}.surface().shading_normal),
+              up);
 }
 
 TEST(Surface, ATriangleWithoutAreaFacesTheRay) {
     const vec3 direction = glm::normalize(vec3(1, 2, 3));
-    for (const auto& v :
-         {std::array<vec3, 3>{vec3(1), vec3(1), vec3(1)}, {vec3(0), vec3(1, 1, 1), vec3(2, 2, 2)}}) {
+    for (const auto& v : {std::array<vec3, 3>{vec3(1), vec3(1), vec3(1)},
+                          {vec3(0), vec3(1, 1, 1), vec3(2, 2, 2)}}) {
         const Surface s = Case{v, {}, 0.25f, 0.25f, direction}.surface();
         EXPECT_EQ(s.geometric_normal, -direction);
         EXPECT_EQ(s.shading_normal, -direction);

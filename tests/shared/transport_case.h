@@ -24,7 +24,8 @@ struct TransportResult {
     uint random, fixed_low, fixed_high, pad;
 };
 
-FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(CameraRecord) c, uint i) {
+FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(CameraRecord) c,
+                                  uint i) {
     TransportResult r;
     vec4 u = random4(5u, i, 0u, 0u);
     vec4 v = random4(5u, i, 1u, 0u);
@@ -75,7 +76,8 @@ FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(Ca
     real length_;
     towards = unit_and_length(towards, length_);
     real t, bu, bv;
-    bool hit = intersect_triangle(ray_shear(towards), eye, a, b, d, real(0.0), real(1e30), t, bu, bv);
+    bool hit =
+        intersect_triangle(ray_shear(towards), eye, a, b, d, real(0.0), real(1e30), t, bu, bv);
     r.t = t;
     r.u = bu;
     r.v = bv;

@@ -12,7 +12,8 @@ using testing::hit_of;
 using testing::Mesh;
 using testing::TriangleHit;
 
-/// Möller and Trumbore in double precision: determinant relative to the size of what it is made of, t, u, v.
+/// Möller and Trumbore in double precision: determinant relative to the size of what it is made of,
+/// t, u, v.
 struct Truth {
     double determinant, t, u, v;
 };
@@ -42,7 +43,8 @@ TEST(Triangle, AgreesWithDoublePrecision) {
         const TriangleHit h = hit_of(ray_shear(direction), v[3], v[0], v[1], v[2]);
         const Truth truth = intersect_in_double(v[3], direction, v[0], v[1], v[2]);
         const double w = 1 - truth.u - truth.v;
-        const double error = 3e-6 / std::abs(truth.determinant); // grows as the triangle is seen edge-on
+        const double error =
+            3e-6 / std::abs(truth.determinant); // grows as the triangle is seen edge-on
         const double depth = truth.t / scale;
         if (error > 0.01) {
             continue;
@@ -101,8 +103,8 @@ TEST(Triangle, RangeIncludesItsEnds) {
     EXPECT_EQ(h.v, 0.25f);
 }
 
-// From inside a closed mesh every ray hits something, whatever it is aimed at, wherever the mesh lies and
-// however large it is.
+// From inside a closed mesh every ray hits something, whatever it is aimed at, wherever the mesh
+// lies and however large it is.
 TEST(Triangle, ClosedMeshIsWatertight) {
     std::mt19937 bits(3);
     for (const float scale : {1e-12f, 1e-6f, 1.0f, 1e6f, 1e12f}) {
@@ -126,7 +128,9 @@ TEST(Triangle, ClosedMeshIsWatertight) {
                 const RayShear shear = ray_shear(direction);
                 int hits = 0;
                 for (const auto& [p, q, r] : mesh.triangles) {
-                    hits += hit_of(shear, origin, mesh.vertices[p], mesh.vertices[q], mesh.vertices[r]).hit;
+                    hits +=
+                        hit_of(shear, origin, mesh.vertices[p], mesh.vertices[q], mesh.vertices[r])
+                            .hit;
                 }
                 ASSERT_GT(hits, 0) << scale << " " << i;
             }
@@ -141,7 +145,8 @@ TEST(Triangle, GridIsWatertightForAxisParallelRays) {
             for (int y = -3; y <= 3; ++y) {
                 for (const vec3 direction :
                      {vec3(0, 0, -1), vec3(1, 0, -1), vec3(0, -1, -1), vec3(1, 1, -1)}) {
-                    // Halves and whole numbers: on edges, vertices, or the diagonals within the cells.
+                    // Halves and whole numbers: on edges, vertices, or the diagonals within the
+                    // cells.
                     const vec3 through = vec3(0.5f * float(x), 0.5f * float(y), 0);
                     const vec3 origin = (through - direction * 3.0f) * scale;
                     const RayShear shear = ray_shear(direction);
@@ -179,7 +184,8 @@ TEST(Triangle, ScaleByAPowerOfTwoChangesNothing) {
         const RayShear shear = ray_shear(any_direction(bits));
         const TriangleHit h = hit_of(shear, v[3], v[0], v[1], v[2]);
         for (const float scale : {0x1p-40f, 0x1p40f}) {
-            const TriangleHit k = hit_of(shear, v[3] * scale, v[0] * scale, v[1] * scale, v[2] * scale);
+            const TriangleHit k =
+                hit_of(shear, v[3] * scale, v[0] * scale, v[1] * scale, v[2] * scale);
             ASSERT_EQ(h.hit, k.hit);
             ASSERT_EQ(h.u, k.u);
             ASSERT_EQ(h.v, k.v);
@@ -204,8 +210,9 @@ TEST(Triangle, DegenerateOnesAreMissed) {
         EXPECT_FALSE(hit_of(shear, vec3(0), vec3(0, infinity, 0), p, q).hit);
     }
     // Edge-on.
-    EXPECT_FALSE(
-        hit_of(ray_shear(vec3(1, 0, 0)), vec3(-1, 0, 0), vec3(0, 0, 0), vec3(1, 1, 0), vec3(1, -1, 0)).hit);
+    EXPECT_FALSE(hit_of(ray_shear(vec3(1, 0, 0)), vec3(-1, 0, 0), vec3(0, 0, 0), vec3(1, 1, 0),
+                        vec3(1, -1, 0))
+                     .hit);
 }
 
 } // namespace

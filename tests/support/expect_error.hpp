@@ -8,10 +8,9 @@
 
 namespace argand::testing {
 
-/// The message of the Error that `act` throws, checked to be one line; a failure of the test if it throws
-/// none.
-template <class Act>
-std::string error_of(Act&& act) {
+/// The message of the Error that `act` throws, checked to be one line; a failure of the test if it
+/// throws none.
+template <class Act> std::string error_of(Act&& act) {
     try {
         act();
     } catch (const Error& error) {

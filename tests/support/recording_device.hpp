@@ -42,12 +42,13 @@ public:
     }
     void fill(const BufferView& to, std::uint32_t value) override { device_.fill(to, value); }
     void copy(const BufferView& from, const BufferView& to) override { device_.copy(from, to); }
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override {
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override {
         record(kernel, arguments);
         device_.dispatch(kernel, arguments, threads);
     }
-    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                           std::uint32_t count_index) override {
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                           const Buffer& counts, std::uint32_t count_index) override {
         record(kernel, arguments);
         device_.dispatch_indirect(kernel, arguments, counts, count_index);
     }
@@ -64,14 +65,19 @@ public:
     void end_stage() override { device_.end_stage(); }
     std::vector<StageTime> stage_times() override { return device_.stage_times(); }
     void reset_stage_times() override { device_.reset_stage_times(); }
-    const std::map<std::string, MemoryUse>& memory_by_name() const override { return device_.memory_by_name(); }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override {
+        return device_.memory_by_name();
+    }
     MemoryUse memory() const override { return device_.memory(); }
-    std::vector<std::string> validation_messages() const override { return device_.validation_messages(); }
+    std::vector<std::string> validation_messages() const override {
+        return device_.validation_messages();
+    }
 
 private:
     void record(const KernelInfo& kernel, const KernelArguments& arguments) {
         variants_.insert({&kernel,
-                          {arguments.constants.begin(), arguments.constants.begin() + arguments.constant_count}});
+                          {arguments.constants.begin(),
+                           arguments.constants.begin() + arguments.constant_count}});
         ++runs_[kernel.name];
     }
 

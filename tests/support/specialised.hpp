@@ -17,13 +17,14 @@ namespace argand::testing {
 
 /// What is left of a kernel when its specialization constants have values and dead code is gone.
 struct SpecialisedCode {
-    std::size_t instructions = 0;       ///< in functions
-    std::set<std::string> buffers;      ///< names of the bindings that are read or written
-    std::set<float> numbers;            ///< literals
+    std::size_t instructions = 0;  ///< in functions
+    std::set<std::string> buffers; ///< names of the bindings that are read or written
+    std::set<float> numbers;       ///< literals
 };
 
 /// As a driver leaves out what cannot be reached or is not used, but with nothing else.
-inline SpecialisedCode specialised(const KernelInfo& kernel, const std::vector<std::uint32_t>& constants) {
+inline SpecialisedCode specialised(const KernelInfo& kernel,
+                                   const std::vector<std::uint32_t>& constants) {
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
     for (std::size_t i = 0; i < constants.size(); ++i) {
         values[kernel.constants[i].id] = {constants[i]};
@@ -43,7 +44,8 @@ inline SpecialisedCode specialised(const KernelInfo& kernel, const std::vector<s
     std::vector<std::uint32_t> code;
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
-    EXPECT_TRUE(optimizer.Run(kernel.spirv.data(), kernel.spirv.size(), &code, options)) << kernel.name;
+    EXPECT_TRUE(optimizer.Run(kernel.spirv.data(), kernel.spirv.size(), &code, options))
+        << kernel.name;
 
     SpecialisedCode found;
     std::map<std::uint32_t, std::uint32_t> binding_of;
@@ -54,7 +56,8 @@ inline SpecialisedCode specialised(const KernelInfo& kernel, const std::vector<s
         const std::uint32_t words = code[at] >> 16;
         const auto op = static_cast<spv::Op>(code[at] & 0xffff);
         const std::uint32_t* operands = code.data() + at + 1;
-        if (op == spv::Op::OpDecorate && operands[1] == static_cast<std::uint32_t>(spv::Decoration::Binding)) {
+        if (op == spv::Op::OpDecorate &&
+            operands[1] == static_cast<std::uint32_t>(spv::Decoration::Binding)) {
             binding_of[operands[0]] = operands[2];
         } else if (op == spv::Op::OpTypeFloat && operands[1] == 32) {
             float_types.insert(operands[0]);

@@ -17,23 +17,25 @@ namespace {
 using testing::noisy;
 using testing::true_radiance;
 
-/// Stands in for the renderer: each pass of 16 samples has noise of its own; all methods but `path` have bias as well, that
-/// shrinks as ErrorModel says, and take longer.
+/// Stands in for the renderer: each pass of 16 samples has noise of its own; all methods but `path`
+/// have bias as well, that shrinks as ErrorModel says, and take longer.
 class FakePasses {
 public:
-    double direct_deviation = 0;        // of a layer `direct`, with no bias, beside what is estimated
+    double direct_deviation = 0; // of a layer `direct`, with no bias, beside what is estimated
     double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
     double path_seconds = 0.002, map_seconds = 0.004;
     std::uint64_t interrupted_after = 1'000'000;
-    std::uint64_t most_passes = 1'000'000;  // of a render: there are no random numbers for more
+    std::uint64_t most_passes = 1'000'000; // of a render: there are no random numbers for more
 
     RenderPasses passes() {
         return [this](const RenderSettings& settings, const OnPass& on_pass) {
             const bool is_path = settings.method == "path";
-            const double work = settings.samples / 16.0;    // of what pilots have in so small a picture
+            const double work =
+                settings.samples / 16.0; // of what pilots have in so small a picture
             RenderResult result;
             const auto pixels = static_cast<std::size_t>(settings.width * settings.height);
-            const Image black{settings.width, settings.height, std::vector<glm::vec3>(pixels, glm::vec3(0))};
+            const Image black{settings.width, settings.height,
+                              std::vector<glm::vec3>(pixels, glm::vec3(0))};
             result.layers = {{"", black}, {"direct", black}};
             Image &mean = result.layers[0].image, &direct = result.layers[1].image;
             std::uint64_t done = 0;
@@ -45,14 +47,17 @@ public:
                 }
                 streams.insert(plan->stream);
                 const double bias = is_path ? 0 : map_bias * std::pow(plan->expected, -1 / 6.0);
-                const double deviation = (is_path ? path_deviation : map_deviation) / std::sqrt(work);
+                const double deviation =
+                    (is_path ? path_deviation : map_deviation) / std::sqrt(work);
                 const Image pass = noisy(settings.width, settings.height, bias, deviation, ++seed_);
                 ++done;
                 const Image lamps = noisy(settings.width, settings.height, -true_radiance,
                                           direct_deviation / std::sqrt(work), seed_ + 1'000'000);
                 for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-                    mean.pixels[i] += (pass.pixels[i] + lamps.pixels[i] - mean.pixels[i]) / static_cast<float>(done);
-                    direct.pixels[i] += (lamps.pixels[i] - direct.pixels[i]) / static_cast<float>(done);
+                    mean.pixels[i] += (pass.pixels[i] + lamps.pixels[i] - mean.pixels[i]) /
+                                      static_cast<float>(done);
+                    direct.pixels[i] +=
+                        (lamps.pixels[i] - direct.pixels[i]) / static_cast<float>(done);
                 }
                 std::this_thread::sleep_for(
                     std::chrono::duration<double>(work * (is_path ? path_seconds : map_seconds)));
@@ -68,7 +73,7 @@ public:
         };
     }
 
-    std::vector<std::string> methods;   ///< of all renders, the last is the picture's
+    std::vector<std::string> methods; ///< of all renders, the last is the picture's
     std::set<std::uint32_t> streams;
     std::uint64_t total = 0;
 
@@ -154,7 +159,9 @@ TEST(Aim, ErrorThatTheChosenMethodCannotReachIsRefusedAtOnce) {
     RenderSettings settings = small();
     settings.method = "photons";
     const Clock::time_point start = Clock::now();
-    EXPECT_THAT(testing::error_of([&] { aim_at(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings); }),
+    EXPECT_THAT(testing::error_of([&] {
+                    aim_at(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings);
+                }),
                 ::testing::HasSubstr("ask for more error"));
     EXPECT_LT(seconds_since(start), 2);
 }
@@ -166,7 +173,8 @@ TEST(Aim, BiasFarFromWhatIsUsualIsSeen) {
     fake.path_deviation = 0.3;
     RenderSettings settings = small();
     settings.method = "photons";
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.01, .seconds = 0.5}, {.method = true}, settings);
+    const AimedRender aimed =
+        aim_at(fake, box(), {.error = 0.01, .seconds = 0.5}, {.method = true}, settings);
     EXPECT_FALSE(aimed.reached);
     ASSERT_TRUE(aimed.measured);
     EXPECT_NEAR(aimed.measured->error() / true_error(aimed.result.layers[0].image), 1, 0.5);
@@ -174,16 +182,21 @@ TEST(Aim, BiasFarFromWhatIsUsualIsSeen) {
 
 TEST(Aim, NoiseThatDoesNotFallEndsInTime) {
     const Aim aim{.error = 1e-8, .seconds = {}};
-    const Prospect prospect{.settings = small(), .model = {.fixed = 0.01}, .seconds_per_pass = 0.001, .passes = 100};
+    const Prospect prospect{
+        .settings = small(), .model = {.fixed = 0.01}, .seconds_per_pass = 0.001, .passes = 100};
     const std::optional<Pair> no_truth;
     Course course(aim, prospect, no_truth, 0);
     const Pair halves{noisy(16, 16, 0, 0.5, 1), noisy(16, 16, 0, 0.5, 2)};
     Image mean = halves[0];
-    for (std::uint64_t done = 0; const std::optional<PassPlan> plan = course({done, [&] { return std::vector<Layer>{{"", mean}}; }});) {
+    for (std::uint64_t done = 0;
+         const std::optional<PassPlan> plan = course({done, [&] {
+                                                          return std::vector<Layer>{{"", mean}};
+                                                      }});) {
         ASSERT_LT(done, 1'000'000u);
         const Image& pass = halves[plan->stream];
         for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-            mean.pixels[i] = (static_cast<float>(done) * mean.pixels[i] + pass.pixels[i]) / static_cast<float>(done + 1);
+            mean.pixels[i] = (static_cast<float>(done) * mean.pixels[i] + pass.pixels[i]) /
+                             static_cast<float>(done + 1);
         }
         ++done;
     }
@@ -230,7 +243,7 @@ TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
 
 TEST(Aim, InterruptedRenderSaysWhatItKnows) {
     FakePasses fake;
-    fake.interrupted_after = pilot_passes / 2 + 1;     // so few passes do that a half pilot is enough
+    fake.interrupted_after = pilot_passes / 2 + 1; // so few passes do that a half pilot is enough
     const AimedRender aimed = aim_at(fake, box(), {.error = 0.005, .seconds = {}});
     EXPECT_TRUE(aimed.result.statistics.interrupted);
     EXPECT_EQ(aimed.result.statistics.passes, 3u);
@@ -280,9 +293,15 @@ TEST(Aim, FinalGatherIsNotLeftOutForPaths) {
     fake.path_deviation = 0.1;
     RenderSettings settings = small();
     settings.final_gather = true;
-    EXPECT_NE(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings).prospects.front().settings.method, "path");
+    EXPECT_NE(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
+                  .prospects.front()
+                  .settings.method,
+              "path");
     settings.final_gather = false;
-    EXPECT_EQ(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings).prospects.front().settings.method, "path");
+    EXPECT_EQ(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
+                  .prospects.front()
+                  .settings.method,
+              "path");
 }
 
 TEST(Aim, ChosenMethodAndNumbersAreKept) {
@@ -291,8 +310,8 @@ TEST(Aim, ChosenMethodAndNumbersAreKept) {
     settings.method = "knn";
     settings.samples = 2;
     settings.photons = 1234;
-    const AimedRender aimed =
-        aim_at(fake, box(), {.error = 0.002, .seconds = {}}, {.method = true, .samples = true, .photons = true}, settings);
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.002, .seconds = {}},
+                                     {.method = true, .samples = true, .photons = true}, settings);
     EXPECT_EQ(fake.methods.back(), "knn");
     EXPECT_EQ(aimed.prospects.front().settings.photons, 1234u);
     EXPECT_EQ(aimed.prospects.front().settings.samples, 2u);
@@ -345,7 +364,10 @@ TEST(Aim, PathsAreBlindToCausticsOfLampsWithoutExtent) {
     EXPECT_EQ(std::count(fake.methods.begin(), fake.methods.end(), "path"), 0);
     RenderSettings settings = small();
     settings.method = "path";
-    EXPECT_THAT(testing::error_of([&] { aim_at(fake, scene, {.error = 0.002, .seconds = {}}, {.method = true}, settings); }),
+    EXPECT_THAT(testing::error_of([&] {
+                    aim_at(fake, scene, {.error = 0.002, .seconds = {}}, {.method = true},
+                           settings);
+                }),
                 ::testing::HasSubstr("leave --method out"));
     scene.materials[0].roughness = 1;
     EXPECT_FALSE(is_blind_to_caustics(scene));

@@ -13,7 +13,8 @@ namespace argand::testing {
 
 inline constexpr double true_radiance = 2;
 
-/// A picture whose true radiance is the same everywhere, with a bias and with noise of a normal distribution.
+/// A picture whose true radiance is the same everywhere, with a bias and with noise of a normal
+/// distribution.
 inline Image noisy(int width, int height, double bias, double deviation, std::uint32_t seed) {
     std::mt19937 bits(seed);
     std::normal_distribution<double> noise(true_radiance + bias, deviation);
@@ -25,14 +26,15 @@ inline Image noisy(int width, int height, double bias, double deviation, std::ui
     return image;
 }
 
-/// Stands in for the renderer: `path` has noise alone, all others bias as well, less with more photons. Times follow from
-/// the work. Counts what it is asked for.
+/// Stands in for the renderer: `path` has noise alone, all others bias as well, less with more
+/// photons. Times follow from the work. Counts what it is asked for.
 class FakeRenderer {
 public:
     explicit FakeRenderer(int interrupted_after = 1 << 30) : left_(interrupted_after) {}
 
     RenderTrials trials() {
-        return [this](const RenderSettings& s, std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
+        return [this](const RenderSettings& s,
+                      std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
             if (left_-- <= 0) {
                 return std::nullopt;
             }
@@ -41,8 +43,10 @@ public:
             const double bias = is_path ? 0 : 10 / std::sqrt(1.0 + static_cast<double>(s.photons));
             Trials trials{.trials = {}, .peak_bytes = s.photons + s.samples};
             for (const std::uint32_t seed : seeds) {
-                Trial trial{.picture = noisy(s.width, s.height, bias, (is_path ? 1 : 0.1) / std::sqrt(s.samples), seed)};
-                trial.wall_seconds = 1e-3 * s.samples + 1e-6 * (is_path ? 0 : static_cast<double>(s.photons));
+                Trial trial{.picture = noisy(s.width, s.height, bias,
+                                             (is_path ? 1 : 0.1) / std::sqrt(s.samples), seed)};
+                trial.wall_seconds =
+                    1e-3 * s.samples + 1e-6 * (is_path ? 0 : static_cast<double>(s.photons));
                 trial.device_seconds = 0.5 * trial.wall_seconds;
                 trial.statistics.radius = 0.25;
                 trial.statistics.neighbours = 50;

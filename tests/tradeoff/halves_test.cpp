@@ -70,13 +70,15 @@ TEST(Halves, StreamsTakeTurnsAndTheFirstIsZero) {
 TEST(Estimate, SquaredDifferenceIsFreeOfNoise) {
     const Image reference = noisy(side, side, 0, 0, 0);
     const auto pair = [](double bias, std::uint32_t seed) {
-        return std::array{noisy(side, side, bias, 0.5, seed), noisy(side, side, bias, 0.5, seed + 1)};
+        return std::array{noisy(side, side, bias, 0.5, seed),
+                          noisy(side, side, bias, 0.5, seed + 1)};
     };
     const double expected = 0.2 * 0.2 / (1.01 * true_radiance * true_radiance);
     const auto [raw, smooth] = squared_difference(pair(0.3, 1), pair(0.1, 3), reference);
     EXPECT_LT(raw.error, 0.3 * expected);
     EXPECT_NEAR(raw.value, expected, 4 * raw.error);
-    EXPECT_NEAR(smooth.value, expected, 2 * smooth.error);  // it takes the difference for one that smoothing lessens
+    EXPECT_NEAR(smooth.value, expected,
+                2 * smooth.error); // it takes the difference for one that smoothing lessens
     const auto [none, smooth_none] = squared_difference(pair(0.1, 11), pair(0.1, 13), reference);
     EXPECT_NEAR(none.value, 0, 4 * none.error);
     EXPECT_NEAR(smooth_none.value, 0, 4 * smooth_none.error);

@@ -9,7 +9,8 @@ constexpr int side = 64;
 Trials trials_of(double bias, double deviation, std::uint32_t seeds) {
     Trials trials{.trials = {}, .peak_bytes = 7};
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-        trials.trials.push_back({.picture = noisy(side, side, bias, deviation, seed), .wall_seconds = 1.0 + seed});
+        trials.trials.push_back(
+            {.picture = noisy(side, side, bias, deviation, seed), .wall_seconds = 1.0 + seed});
     }
     return trials;
 }
@@ -23,10 +24,13 @@ constexpr double divisor = 1.01 * true_radiance * true_radiance;
 
 TEST(Measurement, TellsBiasFromVariance) {
     constexpr double bias = 0.2, deviation = 0.3;
-    const Measurement m = measure({"default", "", {}}, trials_of(bias, deviation, 4), reference(0.1));
-    // 4 × 64 × 64 × 3 samples: the standard error of the variance is 0.7 %, that of the squared bias 1.5 %.
+    const Measurement m =
+        measure({"default", "", {}}, trials_of(bias, deviation, 4), reference(0.1));
+    // 4 × 64 × 64 × 3 samples: the standard error of the variance is 0.7 %, that of the squared
+    // bias 1.5 %.
     EXPECT_NEAR(*m.bias, bias * bias / divisor, 0.06 * bias * bias / divisor);
-    EXPECT_NEAR(*m.variance, deviation * deviation / divisor, 0.03 * deviation * deviation / divisor);
+    EXPECT_NEAR(*m.variance, deviation * deviation / divisor,
+                0.03 * deviation * deviation / divisor);
     EXPECT_NEAR(*m.bias + *m.variance, m.rel_mse.mean, 1e-12);
 }
 
@@ -39,7 +43,8 @@ TEST(Measurement, TheNoiseOfThePairDoesNotCount) {
     const Trials trials = trials_of(0.1, 0, 2);
     const Reference pair = reference(0.05);
     const double with_pair = measure({"default", "", {}}, trials, pair).rel_mse.mean;
-    const double with_one = measure({"default", "", {}}, trials, {.a = pair.a, .b = pair.a}).rel_mse.mean;
+    const double with_one =
+        measure({"default", "", {}}, trials, {.a = pair.a, .b = pair.a}).rel_mse.mean;
     EXPECT_NEAR(with_pair, 0.01 / divisor, 0.1 * 0.01 / divisor);
     EXPECT_NEAR(with_one, (0.01 + 0.05 * 0.05) / divisor, 0.1 * 0.0125 / divisor);
 }
@@ -75,7 +80,8 @@ TEST(Measurement, WhatIsNotBlackWhereAllIsBlackHasNoFiniteError) {
     const Trials trials{.trials = {{.picture = white, .wall_seconds = 1}}, .peak_bytes = 0};
     const Measurement m = measure({"default", "", {}}, trials, {.a = black, .b = black});
     EXPECT_TRUE(std::isinf(m.rel_mse.mean));
-    EXPECT_TRUE(std::isinf(measurement_from(nlohmann::ordered_json::parse(to_json(m).dump())).rel_mse.mean));
+    EXPECT_TRUE(std::isinf(
+        measurement_from(nlohmann::ordered_json::parse(to_json(m).dump())).rel_mse.mean));
 }
 
 } // namespace

@@ -16,8 +16,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Measurement measurement(const std::string& method, double seconds, double error) {
-    return {.method = method, .knob = "default", .options = "--method " + method, .wall_seconds = seconds,
-            .rel_mse = {error, 0}, .ssim = {1, 0}};
+    return {.method = method,
+            .knob = "default",
+            .options = "--method " + method,
+            .wall_seconds = seconds,
+            .rel_mse = {error, 0},
+            .ssim = {1, 0}};
 }
 
 Results results() {
@@ -44,7 +48,8 @@ TEST(LogAxis, HoldsItsNumbersBetweenRoundEnds) {
 }
 
 TEST(LogAxis, IsNotEmptyForOneNumberOrNone) {
-    for (const std::vector<double>& values : {std::vector<double>{}, {1.0}, {2.0}, {1e-30}, {1e30}}) {
+    for (const std::vector<double>& values :
+         {std::vector<double>{}, {1.0}, {2.0}, {1e-30}, {1e30}}) {
         const LogAxis axis = log_axis(values);
         EXPECT_LT(axis.low, axis.high);
         EXPECT_FALSE(axis.ticks.empty());
@@ -64,7 +69,8 @@ TEST(Plot, QuickerLiesLeftAndMoreExactBelow) {
 TEST(Plot, AllLiesWithinThePicture) {
     const Plot plot = lay_out(results());
     for (const PlotPoint& point : plot.points) {
-        EXPECT_TRUE(point.place.x > 0 && point.place.x < plot.width && point.place.y > 0 && point.place.y < plot.height);
+        EXPECT_TRUE(point.place.x > 0 && point.place.x < plot.width && point.place.y > 0 &&
+                    point.place.y < plot.height);
     }
 }
 
@@ -80,7 +86,8 @@ TEST(Plot, WhatIsBelowTheLeastErrorLiesOnTheLowerEdge) {
     ASSERT_EQ(plot.points.size(), 3 + 4 + 2u) << "all but what is infinite, and the legend's two";
     double edge = 0;
     for (const PlotLine& line : plot.lines) {
-        edge = line.color == grid_color(plot) ? std::max(edge, std::max(line.from.y, line.to.y)) : edge;
+        edge = line.color == grid_color(plot) ? std::max(edge, std::max(line.from.y, line.to.y))
+                                              : edge;
     }
     for (std::size_t i = 3; i < 7; ++i) {
         EXPECT_NEAR(plot.points[i].place.y, edge, 1e-6);
@@ -98,13 +105,14 @@ TEST(Plot, ALineIsDrawnAtTheReferencesOwnError) {
     const Plot plot = lay_out(some);
     EXPECT_THAT(texts(plot), Contains("below: within the reference's noise"));
     EXPECT_TRUE(std::any_of(plot.lines.begin(), plot.lines.end(), [&](const PlotLine& line) {
-        return line.color != grid_color(plot) && line.from.y == plot.points[1].place.y && line.from.y == line.to.y &&
-               line.to.x - line.from.x > plot.width / 2;
+        return line.color != grid_color(plot) && line.from.y == plot.points[1].place.y &&
+               line.from.y == line.to.y && line.to.x - line.from.x > plot.width / 2;
     }));
 }
 
 TEST(Plot, AnExactReferenceHasNoNoise) {
-    Results dark{.reference_error = 0, .measurements = {measurement("path", 1, 0), measurement("photons", 2, 0)}};
+    Results dark{.reference_error = 0,
+                 .measurements = {measurement("path", 1, 0), measurement("photons", 2, 0)}};
     const Plot plot = lay_out(dark);
     EXPECT_EQ(plot.points.size(), 2 + 2u);
     EXPECT_TRUE(plot.points[0].on_front);
@@ -121,14 +129,17 @@ TEST(Plot, BarsSpanTheDeviation) {
         });
     };
     Results some = results();
-    some.measurements[2].rel_mse = {0.0505, 0.0495};   // from 0.001, the second point's error, to the first one's
+    some.measurements[2].rel_mse = {
+        0.0505, 0.0495}; // from 0.001, the second point's error, to the first one's
     const Plot plot = lay_out(some);
     EXPECT_TRUE(has_bar(plot, 2, plot.points[1].place.y, plot.points[0].place.y));
-    EXPECT_FALSE(has_bar(lay_out(results()), 2, plot.points[1].place.y, plot.points[0].place.y)) << "without deviation";
+    EXPECT_FALSE(has_bar(lay_out(results()), 2, plot.points[1].place.y, plot.points[0].place.y))
+        << "without deviation";
     // One that reaches below 0 ends at the axis, and nothing outside the frame.
     some.measurements[1].rel_mse.deviation = 10;
     for (const PlotLine& line : lay_out(some).lines) {
-        EXPECT_TRUE(line.to.y > 0 && line.from.y < plot.height - 60) << line.from.y << " " << line.to.y;
+        EXPECT_TRUE(line.to.y > 0 && line.from.y < plot.height - 60)
+            << line.from.y << " " << line.to.y;
     }
 }
 
@@ -138,7 +149,7 @@ TEST(Plot, IsTitledAndSaysWhatIsBetter) {
     const Plot plot = lay_out(some);
     EXPECT_THAT(texts(plot), Contains("r\u00f6hre.glb: error against time"));
     EXPECT_THAT(texts(plot), Contains(HasSubstr("better is down")));
-    EXPECT_NO_THROW(to_image(plot));    // whose font has no such letter
+    EXPECT_NO_THROW(to_image(plot)); // whose font has no such letter
     some.run["scene"] = std::string(1000, 'x');
     for (const std::string& text : texts(lay_out(some))) {
         EXPECT_LT(text.size(), 80u);
@@ -157,7 +168,8 @@ TEST(Plot, ImageHasPointsOfTheirColourOnWhite) {
     const Plot plot = lay_out(results());
     const Image image = to_image(plot);
     const auto pixel = [&](double x, double y) {
-        return image.pixels[static_cast<std::size_t>(static_cast<int>(y) * image.width + static_cast<int>(x))];
+        return image.pixels[static_cast<std::size_t>(static_cast<int>(y) * image.width +
+                                                     static_cast<int>(x))];
     };
     EXPECT_EQ(pixel(2, 2), glm::vec3(1));
     for (const PlotPoint& point : {plot.points[0], plot.points[1]}) {

@@ -22,33 +22,38 @@ TEST(Reference, HasSamplesUntilItsErrorIsFarBelowThePilots) {
     const double least = 0.06 * 0.06 / (1.01 * true_radiance * true_radiance);
     EXPECT_LT(*reference->own_error, 1.1 * reference_share * least);
     // Its own error is what is left: of variance 1 / samples.
-    EXPECT_NEAR(*reference->own_error, 1 / (1.01 * true_radiance * true_radiance * static_cast<double>(reference->samples)),
-                0.15 * *reference->own_error);
+    EXPECT_NEAR(
+        *reference->own_error,
+        1 / (1.01 * true_radiance * true_radiance * static_cast<double>(reference->samples)),
+        0.15 * *reference->own_error);
     EXPECT_GT(renderer.keys.size(), 3u);
 }
 
 TEST(Reference, KeepsToItsTime) {
     FakeRenderer renderer;
-    const std::array pilots{noisy(32, 32, 0, 0, 5)};    // nothing is exact enough for this
+    const std::array pilots{noisy(32, 32, 0, 0, 5)}; // nothing is exact enough for this
     const auto reference = render_reference(renderer.trials(), small(), pilots, 0);
     ASSERT_TRUE(reference);
     EXPECT_EQ(renderer.keys.size(), 1u);
     EXPECT_GT(*reference->own_error, 0);
 }
 
-/// relMSE of the true picture against pairs of `deviation` of noise in the first `noisy_rows`, over the least error.
+/// relMSE of the true picture against pairs of `deviation` of noise in the first `noisy_rows`, over
+/// the least error.
 std::vector<double> true_errors_over_least(int noisy_rows) {
     constexpr int side = 32, pairs = 50;
     const Image truth = noisy(side, side, 0, 0, 0);
     const auto half = [&](std::uint32_t seed) {
         Image image = noisy(side, side, 0, 0.1, seed);
-        std::copy(truth.pixels.begin() + noisy_rows * side, truth.pixels.end(), image.pixels.begin() + noisy_rows * side);
+        std::copy(truth.pixels.begin() + noisy_rows * side, truth.pixels.end(),
+                  image.pixels.begin() + noisy_rows * side);
         return image;
     };
     std::vector<double> ratios;
     for (std::uint32_t pair = 0; pair < pairs; ++pair) {
         Reference reference{.a = half(2 * pair + 1), .b = half(2 * pair + 2)};
-        reference.own_error = rel_variance(std::array{reference.a, reference.b}, reference.a, reference.b) / 2;
+        reference.own_error =
+            rel_variance(std::array{reference.a, reference.b}, reference.a, reference.b) / 2;
         const double least = least_error_of(reference);
         EXPECT_LT(least, *reference.own_error);
         ratios.push_back(rel_mse(truth, reference.a, reference.b) / least);
@@ -80,7 +85,7 @@ TEST(Reference, TheLeastErrorOfOneWithoutNoiseIsRounding) {
 
 TEST(Reference, TheLeastErrorIsNotAboveItsOwn) {
     Image a = noisy(8, 8, 0, 0, 0), b = a;
-    a.pixels[5] = glm::vec3(3);     // all of the noise is in one pixel
+    a.pixels[5] = glm::vec3(3); // all of the noise is in one pixel
     EXPECT_EQ(least_error_of({.a = a, .b = b, .own_error = 0.01}), 0.01);
 }
 
@@ -99,8 +104,10 @@ TEST(Reference, FilesAreOneOrAPair) {
     write_reference(folder / "kept.exr", pair);
     EXPECT_EQ(reread_reference(folder / "kept.exr").a.pixels, pair.a.pixels);
     EXPECT_EQ(reread_reference(folder / "kept.exr").b.pixels, pair.b.pixels);
-    EXPECT_THAT(error_of([&] { read_reference({folder / "a.exr"}, 8, 8); }), ::testing::HasSubstr("--size 8x4"));
-    EXPECT_THAT(error_of([&] { reread_reference(folder / "a.exr"); }), ::testing::HasSubstr("not of a sweep"));
+    EXPECT_THAT(error_of([&] { read_reference({folder / "a.exr"}, 8, 8); }),
+                ::testing::HasSubstr("--size 8x4"));
+    EXPECT_THAT(error_of([&] { reread_reference(folder / "a.exr"); }),
+                ::testing::HasSubstr("not of a sweep"));
 }
 
 } // namespace

@@ -21,8 +21,8 @@ LearntWidths learnt() {
     return {{"footprints", statistics}, {"photons", statistics}, {"knn", statistics}};
 }
 
-std::set<std::string> knobs(const Scene& scene, const std::string& method, Extent extent = Extent::full,
-                            const RenderSettings& base = {}) {
+std::set<std::string> knobs(const Scene& scene, const std::string& method,
+                            Extent extent = Extent::full, const RenderSettings& base = {}) {
     std::set<std::string> names;
     for (const Setting& setting : sweep(scene, base, {method}, learnt(), extent)) {
         EXPECT_EQ(setting.render.method, method);
@@ -35,25 +35,29 @@ TEST(Sweep, TurnsEveryKnobThatAMethodHas) {
     const Scene glass = asset("cornell_glass.glb");
     EXPECT_EQ(knobs(glass, "path"), (std::set<std::string>{"default", "spp", "bounces"}));
     EXPECT_THAT(knobs(glass, "photons"),
-                IsSupersetOf({"default", "spp", "photons", "radius", "query-cell", "leaf-size", "wide-codes",
-                              "photon-sampling", "final-gather", "bounces"}));
+                IsSupersetOf({"default", "spp", "photons", "radius", "query-cell", "leaf-size",
+                              "wide-codes", "photon-sampling", "final-gather", "bounces"}));
     EXPECT_THAT(knobs(glass, "knn"), Contains("k"));
     EXPECT_THAT(knobs(glass, "photons"), Not(Contains("k")));
-    EXPECT_THAT(knobs(glass, "footprints"), IsSupersetOf({"smoothing", "caustic-smoothing", "flatness", "uniform-kernel",
-                                                          "paper-axes", "paper-reemission"}));
+    EXPECT_THAT(knobs(glass, "footprints"),
+                IsSupersetOf({"smoothing", "caustic-smoothing", "flatness", "uniform-kernel",
+                              "paper-axes", "paper-reemission"}));
 }
 
 TEST(Sweep, TurnsOneKnobAtATime) {
-    const std::vector<Setting> settings = sweep(asset("cornell_glass.glb"), {}, method_names(), learnt(), Extent::full);
+    const std::vector<Setting> settings =
+        sweep(asset("cornell_glass.glb"), {}, method_names(), learnt(), Extent::full);
     std::set<std::string> keys;
     for (const Setting& setting : settings) {
-        EXPECT_TRUE(keys.insert(parameter_key(setting.render)).second) << parameter_key(setting.render);
+        EXPECT_TRUE(keys.insert(parameter_key(setting.render)).second)
+            << parameter_key(setting.render);
         RenderSettings base;
         base.method = setting.render.method;
         const auto turned = parameters(setting.render), usual = parameters(base);
         ASSERT_EQ(turned.size(), usual.size());
         for (std::size_t i = 0; i < turned.size(); ++i) {
-            EXPECT_EQ(turned[i] != usual[i], turned[i].first == setting.knob) << parameter_key(setting.render);
+            EXPECT_EQ(turned[i] != usual[i], turned[i].first == setting.knob)
+                << parameter_key(setting.render);
         }
     }
 }
@@ -99,7 +103,8 @@ TEST(Sweep, AMethodThatIsNamedTwiceCountsOnce) {
 
 TEST(Sweep, QuickTurnsLess) {
     const Scene scene = asset("cornell_area.glb");
-    EXPECT_EQ(knobs(scene, "knn", Extent::quick), (std::set<std::string>{"default", "spp", "photons", "radius", "k"}));
+    EXPECT_EQ(knobs(scene, "knn", Extent::quick),
+              (std::set<std::string>{"default", "spp", "photons", "radius", "k"}));
 }
 
 TEST(Parameters, OptionsAreThoseOfArgandRender) {
@@ -109,7 +114,8 @@ TEST(Parameters, OptionsAreThoseOfArgandRender) {
     settings.photons = 5;
     settings.radius = 0.125;
     settings.footprints.uniform_kernel = true;
-    EXPECT_EQ(command_options(settings), "--method footprints --photons 5 --radius 0.125 --uniform-kernel");
+    EXPECT_EQ(command_options(settings),
+              "--method footprints --photons 5 --radius 0.125 --uniform-kernel");
 }
 
 } // namespace

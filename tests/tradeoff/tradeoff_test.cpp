@@ -17,7 +17,8 @@ using ::testing::Not;
 class TradeoffTest : public ::testing::Test {
 protected:
     TradeoffRequest request(const std::string& folder) const {
-        TradeoffRequest request{.run = {{"scene", "cornell_area.glb"}}, .methods = {"photons", "path"}};
+        TradeoffRequest request{.run = {{"scene", "cornell_area.glb"}},
+                                .methods = {"photons", "path"}};
         request.extent = Extent::quick;
         request.base.width = request.base.height = 16;
         request.reference_seconds = 0;
@@ -36,7 +37,8 @@ TEST_F(TradeoffTest, MeasuresEverySettingOnce) {
     FakeRenderer renderer;
     const Results results = run(renderer, scene_, request("a"));
     EXPECT_TRUE(results.complete);
-    const auto settings = sweep(scene_, request("a").base, {"photons", "path"}, results.learnt, Extent::quick);
+    const auto settings =
+        sweep(scene_, request("a").base, {"photons", "path"}, results.learnt, Extent::quick);
     ASSERT_EQ(results.measurements.size(), settings.size());
     for (std::size_t i = 0; i < settings.size(); ++i) {
         EXPECT_EQ(results.measurements[i].key, parameter_key(settings[i].render));
@@ -57,8 +59,10 @@ TEST_F(TradeoffTest, InterruptedGoesOnWhereItStopped) {
         for (const Measurement& known : before.measurements) {
             EXPECT_THAT(second.keys, Not(::testing::Contains(known.key)));
         }
-        for (const char* file : {"tradeoff.json", "tradeoff.csv", "tradeoff.html", "tradeoff.png", "reference.exr"}) {
-            EXPECT_EQ(text(folder + "/" + file), text(std::string("whole/") + file)) << file << " after " << stop;
+        for (const char* file :
+             {"tradeoff.json", "tradeoff.csv", "tradeoff.html", "tradeoff.png", "reference.exr"}) {
+            EXPECT_EQ(text(folder + "/" + file), text(std::string("whole/") + file))
+                << file << " after " << stop;
         }
     }
 }
@@ -86,7 +90,8 @@ TEST_F(TradeoffTest, GoesOnAfterASettingThatFails) {
         }
         return renderer.trials()(s, seeds);
     };
-    const Results results = measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    const Results results =
+        measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
     EXPECT_TRUE(results.complete);
     ASSERT_EQ(results.failures.size(), 1u);
     EXPECT_EQ(results.failures[0].options, "--method photons --photons 10000");
@@ -99,7 +104,8 @@ TEST_F(TradeoffTest, GoesOnAfterASettingThatFails) {
 TEST_F(TradeoffTest, WantOfMemoryAtTheLargestSettingLeavesTheOthers) {
     FakeRenderer whole;
     const std::size_t all = run(whole, scene_, request("whole")).measurements.size();
-    const auto measured_with = [&](const std::string& folder, const std::function<void()>& give_up) {
+    const auto measured_with = [&](const std::string& folder,
+                                   const std::function<void()>& give_up) {
         FakeRenderer renderer;
         const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
             if (s.method == "photons" && s.photons == 1'000'000) {
@@ -107,14 +113,16 @@ TEST_F(TradeoffTest, WantOfMemoryAtTheLargestSettingLeavesTheOthers) {
             }
             return renderer.trials()(s, seeds);
         };
-        const Results results = measure_tradeoff(request(folder), scene_, failing, [](std::string_view, double) {});
+        const Results results =
+            measure_tradeoff(request(folder), scene_, failing, [](std::string_view, double) {});
         EXPECT_TRUE(results.complete);
         EXPECT_EQ(results.failures.size(), 1u);
         EXPECT_EQ(results.failures.at(0).options, "--method photons --photons 1000000");
         EXPECT_THAT(results.failures.at(0).why, HasSubstr("out of memory"));
         return results.measurements.size();
     };
-    EXPECT_EQ(measured_with("a", [] { fail("allocating 'photons': the device is out of memory"); }), all - 1);
+    EXPECT_EQ(measured_with("a", [] { fail("allocating 'photons': the device is out of memory"); }),
+              all - 1);
     EXPECT_EQ(measured_with("b", [] { throw std::bad_alloc(); }), all - 1);
 }
 
@@ -126,13 +134,16 @@ TEST_F(TradeoffTest, AMethodThatCannotBeRenderedLeavesTheOthers) {
         }
         return renderer.trials()(s, seeds);
     };
-    const Results results = measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    const Results results =
+        measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
     EXPECT_TRUE(results.complete);
-    EXPECT_EQ(results.measurements.size(), sweep(scene_, request("a").base, {"path"}, {}, Extent::quick).size());
+    EXPECT_EQ(results.measurements.size(),
+              sweep(scene_, request("a").base, {"path"}, {}, Extent::quick).size());
     EXPECT_THAT(results.failures, Not(IsEmpty()));
     // Once it can be, its widths are turned too.
     FakeRenderer again, whole;
-    EXPECT_EQ(run(again, scene_, request("a")).measurements.size(), run(whole, scene_, request("b")).measurements.size());
+    EXPECT_EQ(run(again, scene_, request("a")).measurements.size(),
+              run(whole, scene_, request("b")).measurements.size());
 }
 
 TEST_F(TradeoffTest, AMethodThatIsNamedTwiceIsMeasuredOnce) {
@@ -141,7 +152,8 @@ TEST_F(TradeoffTest, AMethodThatIsNamedTwiceIsMeasuredOnce) {
     FakeRenderer first, second;
     const Results results = run(first, scene_, twice);
     EXPECT_TRUE(results.complete);
-    EXPECT_EQ(results.measurements.size(), sweep(scene_, twice.base, {"path"}, {}, Extent::quick).size());
+    EXPECT_EQ(results.measurements.size(),
+              sweep(scene_, twice.base, {"path"}, {}, Extent::quick).size());
     run(second, scene_, twice);
     EXPECT_THAT(second.keys, IsEmpty());
 }
@@ -155,7 +167,8 @@ TEST_F(TradeoffTest, AReferenceThatIsLostIsMadeAgain) {
     EXPECT_EQ(text("a/reference.exr"), before);
     EXPECT_EQ(text("a/tradeoff.csv"), csv);
     write_text(scratch_ / "a/reference.exr", before.substr(0, before.size() / 2));
-    EXPECT_THAT(error_of([&] { run(second, scene_, request("a")); }), HasSubstr("remove it, and it is made again"));
+    EXPECT_THAT(error_of([&] { run(second, scene_, request("a")); }),
+                HasSubstr("remove it, and it is made again"));
 }
 
 TEST_F(TradeoffTest, AGivenReferenceThatIsLostIsReadAgain) {
@@ -192,9 +205,11 @@ TEST_F(TradeoffTest, DoesNotMixRuns) {
     other.run["build"] = "b";
     other.base.height = 8;
     EXPECT_THAT(error_of([&] { run(renderer, scene_, other); }),
-                HasSubstr("another scene (cornell_area.glb, now another.glb), height (16, now 8), build (none, now b);"));
+                HasSubstr("another scene (cornell_area.glb, now another.glb), height (16, now 8), "
+                          "build (none, now b);"));
     write_text(scratch_ / "a/tradeoff.json", "{\"run\": ");
-    EXPECT_THAT(error_of([&] { run(renderer, scene_, request("a")); }), ::testing::HasSubstr("tradeoff.json"));
+    EXPECT_THAT(error_of([&] { run(renderer, scene_, request("a")); }),
+                ::testing::HasSubstr("tradeoff.json"));
 }
 
 TEST_F(TradeoffTest, CsvSaysWhatJsonSays) {
@@ -232,7 +247,8 @@ TEST_F(TradeoffTest, PageRefersToNothingOutside) {
     FakeRenderer renderer;
     run(renderer, scene_, request("a"));
     const std::string page = text("a/tradeoff.html");
-    EXPECT_FALSE(std::regex_search(page, std::regex(R"((src|href)\s*=\s*"(?!data:))"))) << page.substr(0, 1000);
+    EXPECT_FALSE(std::regex_search(page, std::regex(R"((src|href)\s*=\s*"(?!data:))")))
+        << page.substr(0, 1000);
     for (const char* outside : {"http:", "https:", "<link", "<script", "@import", "url("}) {
         EXPECT_THAT(page, Not(HasSubstr(outside)));
     }
@@ -244,8 +260,10 @@ TEST_F(TradeoffTest, OneSeedAndABlackScene) {
     Scene dark;
     add_floor(dark, 1, 0, add_material(dark, lambertian(glm::vec3(0.5f))));
     const RenderTrials black = [](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
-        const Image image{s.width, s.height, std::vector<glm::vec3>(static_cast<std::size_t>(s.width * s.height))};
-        return Trials{std::vector<Trial>(seeds.size(), Trial{.picture = image, .wall_seconds = 1}), 1};
+        const Image image{s.width, s.height,
+                          std::vector<glm::vec3>(static_cast<std::size_t>(s.width * s.height))};
+        return Trials{std::vector<Trial>(seeds.size(), Trial{.picture = image, .wall_seconds = 1}),
+                      1};
     };
     TradeoffRequest one = request("dark");
     one.seeds = 1;

@@ -19,7 +19,8 @@ RenderSettings small(const std::string& method, std::uint64_t photons) {
 
 class TrialsTest : public ::testing::Test {
 protected:
-    std::optional<Trials> render(const RenderSettings& settings, const std::function<bool()>& go_on = [] { return true; }) {
+    std::optional<Trials> render(
+        const RenderSettings& settings, const std::function<bool()>& go_on = [] { return true; }) {
         constexpr std::array<std::uint32_t, 2> seeds{3, 4};
         return trials_on_device([] { return open_device(); }, scene_, go_on)(settings, seeds);
     }
@@ -35,7 +36,8 @@ TEST_F(TrialsTest, AreTheRendersOfTheSeeds) {
     RenderSettings settings = small("photons", 2000);
     for (std::size_t i = 0; i < 2; ++i) {
         settings.seed = static_cast<std::uint32_t>(3 + i);
-        const RenderResult expected = argand::render(*device, scene_, settings, [](double) { return true; });
+        const RenderResult expected =
+            argand::render(*device, scene_, settings, [](double) { return true; });
         EXPECT_EQ(trials->trials[i].picture.pixels, expected.layers[0].image.pixels);
         EXPECT_GT(trials->trials[i].wall_seconds, 0);
         if (trials->trials[i].device_seconds) {

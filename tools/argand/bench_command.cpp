@@ -30,7 +30,8 @@ struct NamedBench {
     std::vector<BenchRow> (*measure)(Device&);
 };
 
-constexpr NamedBench benches[] = {{"parallel", bench_parallel}, {"rays", bench_rays}, {"photons", bench_photons}};
+constexpr NamedBench benches[] = {
+    {"parallel", bench_parallel}, {"rays", bench_rays}, {"photons", bench_photons}};
 
 std::string names() {
     std::string all;
@@ -41,7 +42,8 @@ std::string names() {
 }
 
 void print(const BenchRow& row) {
-    fmt::print("{:<28}{:>10}  {:>10.3g} s  {:>10.4g} {}", row.name, row.n, row.seconds, row.rate, row.unit);
+    fmt::print("{:<28}{:>10}  {:>10.3g} s  {:>10.4g} {}", row.name, row.n, row.seconds, row.rate,
+               row.unit);
     if (row.bound > 0) {
         fmt::print("  {:>5.1f} % of {:.4g}", 100 * row.rate / row.bound, row.bound);
     }
@@ -52,8 +54,10 @@ void print(const BenchRow& row) {
 }
 
 nlohmann::ordered_json to_json(const BenchRow& row) {
-    return {{"name", row.name}, {"n", row.n},         {"seconds", row.seconds}, {"rate", row.rate},
-            {"unit", row.unit}, {"bound", row.bound}, {"peer", row.peer},       {"peer_rate", row.peer_rate}};
+    return {{"name", row.name},       {"n", row.n},
+            {"seconds", row.seconds}, {"rate", row.rate},
+            {"unit", row.unit},       {"bound", row.bound},
+            {"peer", row.peer},       {"peer_rate", row.peer_rate}};
 }
 
 void run_paper(const BenchOptions& options) {
@@ -81,16 +85,17 @@ void run(const BenchOptions& options) {
         return;
     }
     for (const std::string& name : options.names) {
-        if (std::none_of(std::begin(benches), std::end(benches), [&](const NamedBench& b) { return name == b.name; })) {
-            throw UsageError(fmt::format("measuring '{}': there is no such benchmark; choose from {}", name,
-                                         names()));
+        if (std::none_of(std::begin(benches), std::end(benches),
+                         [&](const NamedBench& b) { return name == b.name; })) {
+            throw UsageError(fmt::format(
+                "measuring '{}': there is no such benchmark; choose from {}", name, names()));
         }
     }
     const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const NamedBench& bench : benches) {
-        if (!options.names.empty() &&
-            std::find(options.names.begin(), options.names.end(), bench.name) == options.names.end()) {
+        if (!options.names.empty() && std::find(options.names.begin(), options.names.end(),
+                                                bench.name) == options.names.end()) {
             continue;
         }
         for (const BenchRow& row : bench.measure(*device)) {
@@ -115,28 +120,38 @@ void add_bench_command(CLI::App& app) {
     add_backend_options(*command, options->backend, options->device);
     Fd09Settings& fd09 = options->fd09;
     CLI::Option* paper =
-        command->add_option("--paper", options->paper,
-                            "Measure instead what a paper did: fd09, Fabianowski and Dingliana 2009")
+        command
+            ->add_option("--paper", options->paper,
+                         "Measure instead what a paper did: fd09, Fabianowski and Dingliana 2009")
             ->check(CLI::IsMember({"fd09"}));
-    command->add_option("--scene", fd09.scenes, "With --paper: glTF files (default: of the project's own)")
+    command
+        ->add_option("--scene", fd09.scenes,
+                     "With --paper: glTF files (default: of the project's own)")
         ->needs(paper)
         ->check(CLI::ExistingFile);
-    command->add_option("--part", fd09.parts, fmt::format("With --paper: {} (default: all)", fmt::join(fd09_parts(), ", ")))
+    command
+        ->add_option("--part", fd09.parts,
+                     fmt::format("With --paper: {} (default: all)", fmt::join(fd09_parts(), ", ")))
         ->needs(paper)
         ->check(CLI::IsMember(fd09_parts()));
     command->add_option("--size", fd09.size, "With --paper: pixels a side where speed is measured")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
-    command->add_option("--error-size", fd09.error_size, "With --paper: pixels a side where error is measured")
+    command
+        ->add_option("--error-size", fd09.error_size,
+                     "With --paper: pixels a side where error is measured")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
-    command->add_option("--budget", fd09.budgets, "With --paper: seconds in which errors are compared")
+    command
+        ->add_option("--budget", fd09.budgets, "With --paper: seconds in which errors are compared")
         ->needs(paper)
         ->capture_default_str()
         ->check(number_between(1e-3, 1e5));
-    command->add_option("--photons", fd09.photons, "With --paper: photons emitted (default: as in the paper)")
+    command
+        ->add_option("--photons", fd09.photons,
+                     "With --paper: photons emitted (default: as in the paper)")
         ->needs(paper)
         ->check(integer_between(1, 4'000'000));
     command
@@ -145,13 +160,17 @@ void add_bench_command(CLI::App& app) {
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 1 << 20));
-    command->add_option("--runs", fd09.runs, "With --paper: interleaved runs, of which the median counts")
+    command
+        ->add_option("--runs", fd09.runs,
+                     "With --paper: interleaved runs, of which the median counts")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 101));
     command->add_flag("--json", options->json, "Print JSON, one object per measurement");
-    command->footer("Rates are items per second: median of several runs, GPU time. The bound is what the rate would be if\n"
-                    "only memory traffic counted, at the copy rate measured in the same run; the peer does the same on\n"
+    command->footer("Rates are items per second: median of several runs, GPU time. The bound is "
+                    "what the rate would be if\n"
+                    "only memory traffic counted, at the copy rate measured in the same run; the "
+                    "peer does the same on\n"
                     "the host.\n\nExample:\n  argand bench parallel --json\n"
                     "  argand bench --paper fd09 --part table1 --scene assets/ring.glb");
     command->callback([options] { run(*options); });

@@ -35,12 +35,13 @@ struct BackendOptions {
 using Passes = bool (*)(const StageComparison&);
 
 void print(const char* kind, const std::vector<StageComparison>& stages, Passes passes) {
-    fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12}{:>10}{:>10}  {}\n", kind, "items",
-               "unequal", "diverged", "largest ULP", "relative", "A, ms", "B, ms", "verdict");
+    fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12}{:>10}{:>10}  {}\n", kind, "items", "unequal",
+               "diverged", "largest ULP", "relative", "A, ms", "B, ms", "verdict");
     for (const StageComparison& stage : stages) {
-        fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12.2g}{:>10.2f}{:>10.2f}  {}\n", stage.name, stage.items,
-                   stage.unequal, stage.diverged, stage.largest_ulp, stage.largest_relative, 1e3 * stage.seconds_a,
-                   1e3 * stage.seconds_b, passes(stage) ? "same" : "DIFFERENT");
+        fmt::print("  {:<18}{:>11}{:>11}{:>10}{:>12}{:>12.2g}{:>10.2f}{:>10.2f}  {}\n", stage.name,
+                   stage.items, stage.unequal, stage.diverged, stage.largest_ulp,
+                   stage.largest_relative, 1e3 * stage.seconds_a, 1e3 * stage.seconds_b,
+                   passes(stage) ? "same" : "DIFFERENT");
     }
 }
 
@@ -62,14 +63,16 @@ nlohmann::ordered_json to_json(const std::vector<StageComparison>& stages, Passe
 }
 
 void fail_different(const BackendOptions& options) {
-    fail("comparing {} with {} on '{}': they differ by more than the tolerance; `same` tells in which stages", options.a,
-         options.b, options.scene);
+    fail("comparing {} with {} on '{}': they differ by more than the tolerance; `same` tells in "
+         "which stages",
+         options.a, options.b, options.scene);
 }
 
 void compare_live(const BackendOptions& options, const Scene& scene) {
     const std::unique_ptr<Device> a = open_device(options.device_a, options.a);
     const std::unique_ptr<Device> b = open_device(options.device_b, options.b);
-    nlohmann::ordered_json report = {{"scene", options.scene}, {"a", a->info().name}, {"b", b->info().name}};
+    nlohmann::ordered_json report = {
+        {"scene", options.scene}, {"a", a->info().name}, {"b", b->info().name}};
     bool same = true;
     for (const std::string& method : options.methods) {
         RenderSettings settings = options.settings;
@@ -82,8 +85,9 @@ void compare_live(const BackendOptions& options, const Scene& scene) {
                                      {"isolated", to_json(found.isolated, passes_isolated)},
                                      {"end_to_end", to_json(found.end_to_end, passes_end_to_end)}};
         if (!options.json) {
-            fmt::print("{}, {}: A {} ({:.3f} s), B {} ({:.3f} s), relMSE of the pictures {:.3g}\n", options.scene, method,
-                       a->info().name, found.seconds_a, b->info().name, found.seconds_b, found.rel_mse);
+            fmt::print("{}, {}: A {} ({:.3f} s), B {} ({:.3f} s), relMSE of the pictures {:.3g}\n",
+                       options.scene, method, a->info().name, found.seconds_a, b->info().name,
+                       found.seconds_b, found.rel_mse);
             print("isolated", found.isolated, passes_isolated);
             print("end to end", found.end_to_end, passes_end_to_end);
         }
@@ -105,12 +109,13 @@ void compare_golden(const BackendOptions& options, const Scene& scene) {
                                      {"driver", golden.driver},  {"revision", golden.revision}};
     bool same = true;
     for (const auto& [method, capture] : golden.captures) {
-        const std::vector<StageComparison> found = compare_with_golden(golden, method, *device, scene);
+        const std::vector<StageComparison> found =
+            compare_with_golden(golden, method, *device, scene);
         same = same && std::all_of(found.begin(), found.end(), passes_isolated);
         report["methods"][method] = {{"isolated", to_json(found, passes_isolated)}};
         if (!options.json) {
-            fmt::print("{}, {}: A {} (recorded, {}, {}), B {}\n", options.scene, method, golden.device, golden.driver,
-                       golden.revision, device->info().name);
+            fmt::print("{}, {}: A {} (recorded, {}, {}), B {}\n", options.scene, method,
+                       golden.device, golden.driver, golden.revision, device->info().name);
             print("isolated", found, passes_isolated);
         }
     }
@@ -148,7 +153,8 @@ void record(const BackendOptions& options, const Scene& scene) {
 void run(BackendOptions& options) {
     check_methods(options.methods);
     if ((options.b == "golden") != !options.golden.empty()) {
-        throw UsageError("comparing with a golden capture: --b golden and --golden FILE belong together");
+        throw UsageError(
+            "comparing with a golden capture: --b golden and --golden FILE belong together");
     }
     const PictureSize size = parse_picture_size(options.size);
     options.settings.width = size.width;
@@ -170,20 +176,29 @@ void run(BackendOptions& options) {
 } // namespace
 
 void add_compare_backends_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("compare-backends", "Compare two backends stage by stage");
+    CLI::App* command =
+        app.add_subcommand("compare-backends", "Compare two backends stage by stage");
     auto options = std::make_shared<BackendOptions>();
     const std::string backends = fmt::format("{}", fmt::join(backend_names(), ", "));
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("--a", options->a, backends)->capture_default_str();
-    command->add_option("--b", options->b, backends + ", golden (with --golden)")->capture_default_str();
-    command->add_option("--device-a", options->device_a, "Device of --a by index or part of its name (see `argand devices`)");
+    command->add_option("--b", options->b, backends + ", golden (with --golden)")
+        ->capture_default_str();
+    command->add_option("--device-a", options->device_a,
+                        "Device of --a by index or part of its name (see `argand devices`)");
     CLI::Option* device_b = command->add_option("--device-b", options->device_b, "Device of --b");
     CLI::Option* golden =
-        command->add_option("--golden", options->golden, "With --b golden: the capture, which holds size, samples and photons");
+        command->add_option("--golden", options->golden,
+                            "With --b golden: the capture, which holds size, samples and photons");
     CLI::Option* record =
-        command->add_option("--record", options->record, "Write a capture of what --a does to this file, and compare nothing");
-    command->add_option("--revision", options->revision, "With --record: what it is recorded from")->capture_default_str();
-    command->add_option("--methods", options->methods, fmt::format("{}", fmt::join(method_names(), ",")))->delimiter(',');
+        command->add_option("--record", options->record,
+                            "Write a capture of what --a does to this file, and compare nothing");
+    command->add_option("--revision", options->revision, "With --record: what it is recorded from")
+        ->capture_default_str();
+    command
+        ->add_option("--methods", options->methods,
+                     fmt::format("{}", fmt::join(method_names(), ",")))
+        ->delimiter(',');
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command->add_option("--spp", options->settings.samples, "Eye paths per pixel")
         ->capture_default_str()
@@ -201,11 +216,15 @@ void add_compare_backends_command(CLI::App& app) {
         golden->excludes(held);
     }
     command->footer(
-        "Isolated: every stage of B starts from what A had before it; integers must be equal to the bit, and of floats one "
-        "item in 10,000 may differ by more than 1e-5. End to end: B goes on with its own results, and of the items one in "
-        "100 may have diverged, as paths do that one rounding sends another way. Exit status 1 if they differ by more.\n\n"
+        "Isolated: every stage of B starts from what A had before it; integers must be equal to "
+        "the bit, and of floats one "
+        "item in 10,000 may differ by more than 1e-5. End to end: B goes on with its own results, "
+        "and of the items one in "
+        "100 may have diverged, as paths do that one rounding sends another way. Exit status 1 if "
+        "they differ by more.\n\n"
         "Example:\n  argand compare-backends assets/cornell_glass.glb --a vulkan --b cpu\n"
-        "  argand compare-backends assets/cornell_glass.glb --a cuda --record glass.golden --size 8x8 --spp 1 --photons 200");
+        "  argand compare-backends assets/cornell_glass.glb --a cuda --record glass.golden --size "
+        "8x8 --spp 1 --photons 200");
     command->callback([options] { run(*options); });
 }
 

@@ -20,7 +20,8 @@ struct CompareOptions {
     bool json = false;
 };
 
-const Image& layer_of(const std::vector<Layer>& layers, const std::string& path, const std::string& name) {
+const Image& layer_of(const std::vector<Layer>& layers, const std::string& path,
+                      const std::string& name) {
     const Image* image = find_layer(layers, name);
     if (!image) {
         std::string names;
@@ -32,8 +33,8 @@ const Image& layer_of(const std::vector<Layer>& layers, const std::string& path,
     return *image;
 }
 
-/// relMSE against the two halves that the reference of a sweep (`argand tradeoff`) has as layers, whose noise then does not
-/// count; null if it is no such reference.
+/// relMSE against the two halves that the reference of a sweep (`argand tradeoff`) has as layers,
+/// whose noise then does not count; null if it is no such reference.
 Json rel_mse_of_pair(const Image& a, const std::vector<Layer>& reference) {
     const Image* first = find_layer(reference, "a");
     const Image* second = find_layer(reference, "b");
@@ -51,42 +52,48 @@ void compare_files(const CompareOptions& options) {
     const Image& b = layer_of(layers_b, options.b, options.layer);
     const Metrics metrics = compare(a, b, options.a, options.b);
     if (!options.output.empty()) {
-        const std::array<Layer, 1> picture{Layer{"", difference_picture(a, b, options.a, options.b)}};
+        const std::array<Layer, 1> picture{
+            Layer{"", difference_picture(a, b, options.a, options.b)}};
         write_image(options.output, picture);
     }
     const Json of_pair = options.layer.empty() ? rel_mse_of_pair(a, layers_b) : Json(nullptr);
     if (options.json) {
-        fmt::print("{}", json_text({{"a", options.a},
-                                    {"b", options.b},
-                                    {"layer", options.layer},
-                                    {"relMSE", metrics.rel_mse},
-                                    {"relMSE_without_reference_noise", of_pair},
-                                    {"RMSE", metrics.rmse},
-                                    {"MAE", metrics.mae},
-                                    {"PSNR", metrics.psnr},
-                                    {"SSIM", metrics.ssim},
-                                    {"mean_a", {metrics.mean_a.r, metrics.mean_a.g, metrics.mean_a.b}},
-                                    {"mean_b", {metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b}}}));
+        fmt::print("{}",
+                   json_text({{"a", options.a},
+                              {"b", options.b},
+                              {"layer", options.layer},
+                              {"relMSE", metrics.rel_mse},
+                              {"relMSE_without_reference_noise", of_pair},
+                              {"RMSE", metrics.rmse},
+                              {"MAE", metrics.mae},
+                              {"PSNR", metrics.psnr},
+                              {"SSIM", metrics.ssim},
+                              {"mean_a", {metrics.mean_a.r, metrics.mean_a.g, metrics.mean_a.b}},
+                              {"mean_b", {metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b}}}));
         return;
     }
-    fmt::print("relMSE {:.6g}\nRMSE   {:.6g}\nMAE    {:.6g}\nPSNR   {:.4g} dB\nSSIM   {:.5f}\n", metrics.rel_mse,
-               metrics.rmse, metrics.mae, metrics.psnr, metrics.ssim);
+    fmt::print("relMSE {:.6g}\nRMSE   {:.6g}\nMAE    {:.6g}\nPSNR   {:.4g} dB\nSSIM   {:.5f}\n",
+               metrics.rel_mse, metrics.rmse, metrics.mae, metrics.psnr, metrics.ssim);
     if (!of_pair.is_null()) {
         fmt::print("relMSE without the reference's noise {:.6g}\n", of_pair.get<double>());
     }
-    fmt::print("mean A {:.6g} {:.6g} {:.6g}\nmean B {:.6g} {:.6g} {:.6g}\n", metrics.mean_a.r, metrics.mean_a.g,
-               metrics.mean_a.b, metrics.mean_b.r, metrics.mean_b.g, metrics.mean_b.b);
+    fmt::print("mean A {:.6g} {:.6g} {:.6g}\nmean B {:.6g} {:.6g} {:.6g}\n", metrics.mean_a.r,
+               metrics.mean_a.g, metrics.mean_a.b, metrics.mean_b.r, metrics.mean_b.g,
+               metrics.mean_b.b);
 }
 
 } // namespace
 
 void add_compare_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
+    CLI::App* command =
+        app.add_subcommand("compare", "Measure how far a picture is from a reference");
     auto options = std::make_shared<CompareOptions>();
     command->add_option("a", options->a, "Picture (.exr, .png, .hdr)")->required();
     command->add_option("b", options->b, "Reference of the same size")->required();
-    command->add_option("--layer", options->layer, "Compare this layer of both: direct, indirect or caustic");
-    command->add_option("-o,--output", options->output, "Write a picture of the difference (.png, .exr)");
+    command->add_option("--layer", options->layer,
+                        "Compare this layer of both: direct, indirect or caustic");
+    command->add_option("-o,--output", options->output,
+                        "Write a picture of the difference (.png, .exr)");
     command->add_flag("--json", options->json, "Print JSON");
     command->footer("relMSE = mean((a - b)^2 / (b^2 + 0.01 mean(b)^2)).\n\n"
                     "Example:\n  argand compare photons.exr path.exr -o difference.png");

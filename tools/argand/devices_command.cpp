@@ -11,8 +11,10 @@ namespace {
 void list() {
     const std::vector<DeviceInfo> devices = list_devices();
     for (const DeviceInfo& device : devices) {
-        fmt::print("{}: {} ({}, {}, backend {}{}, {} MiB){}\n", device.index, device.name, to_string(device.kind),
-                   device.driver, device.backend, device.api_version.empty() ? "" : " " + device.api_version, device.limits.memory >> 20,
+        fmt::print("{}: {} ({}, {}, backend {}{}, {} MiB){}\n", device.index, device.name,
+                   to_string(device.kind), device.driver, device.backend,
+                   device.api_version.empty() ? "" : " " + device.api_version,
+                   device.limits.memory >> 20,
                    device.unsuitable.empty() ? "" : "; cannot be used: " + device.unsuitable);
     }
     for (const std::string& backend : backend_names()) {
@@ -27,7 +29,8 @@ void list() {
 
 void add_devices_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("devices", "List the devices that can render");
-    command->footer("Example:\n  argand devices\n\n`argand render --device` takes an index or a part of a name.");
+    command->footer("Example:\n  argand devices\n\n`argand render --device` takes an index or a "
+                    "part of a name.");
     command->callback(list);
 }
 

@@ -28,7 +28,8 @@ nlohmann::ordered_json plan_json(const Scene& scene) {
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
     for (const auto& [feature, by] : plan.required) {
         const FeatureText text = text_of(feature);
-        features.push_back({{"feature", text.key}, {"name", text.name}, {"required_by", by}, {"cost", text.cost}});
+        features.push_back(
+            {{"feature", text.key}, {"name", text.name}, {"required_by", by}, {"cost", text.cost}});
     }
     std::vector<std::string> left_out;
     for (const Feature feature : all_features()) {
@@ -43,19 +44,22 @@ nlohmann::ordered_json plan_json(const Scene& scene) {
 }
 
 std::string plan_text(const nlohmann::ordered_json& plan) {
-    std::string text = fmt::format("{:<12}{} (default)\n{:<12}{}\n", "method", plan["method"].get<std::string>(), "requires",
-                                   plan["features"].size());
+    std::string text =
+        fmt::format("{:<12}{} (default)\n{:<12}{}\n", "method", plan["method"].get<std::string>(),
+                    "requires", plan["features"].size());
     for (const nlohmann::ordered_json& feature : plan["features"]) {
         const auto cost = feature["cost"].get<std::string>();
-        fmt::format_to(std::back_inserter(text), "  {}: {}{}{}\n", feature["name"].get<std::string>(),
+        fmt::format_to(std::back_inserter(text), "  {}: {}{}{}\n",
+                       feature["name"].get<std::string>(),
                        feature["required_by"].get<std::string>(), cost.empty() ? "" : "; ", cost);
     }
     std::vector<std::string> names;
     for (const nlohmann::ordered_json& key : plan["left_out"]) {
         names.push_back(key.get<std::string>());
     }
-    return text + fmt::format("{:<12}{}\n", "left out",
-                              names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", ")));
+    return text +
+           fmt::format("{:<12}{}\n", "left out",
+                       names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", ")));
 }
 
 void inspect(const InspectOptions& options) {
@@ -74,7 +78,8 @@ void inspect(const InspectOptions& options) {
 
 void add_inspect_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "inspect", "Say what is in a scene, what of it is not understood, and what would be done with it");
+        "inspect",
+        "Say what is in a scene, what of it is not understood, and what would be done with it");
     auto options = std::make_shared<InspectOptions>();
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_flag("--json", options->json, "Print JSON");

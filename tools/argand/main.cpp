@@ -23,7 +23,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
         return fmt::format("there is no {} '{}'; `argand --help` lists the commands",
                            unknown.front().front() == '-' ? "option" : "command", unknown.front());
     }
-    const std::string command = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
+    const std::string command =
+        app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
     return fmt::format("{}; `argand {}--help` says what there is", error.what(), command);
 }
 
@@ -32,8 +33,8 @@ void complain(const std::string& message) {
     std::fputs(("argand: " + message + "\n").c_str(), stderr);
 }
 
-/// Whether all that was printed has gone out; often that shows only when the buffer is emptied. `code`: the errno of what
-/// failed before, if anything.
+/// Whether all that was printed has gone out; often that shows only when the buffer is emptied.
+/// `code`: the errno of what failed before, if anything.
 bool printed(int code) {
     if (std::fflush(stdout) != 0 && code == 0) {
         code = errno;
@@ -56,7 +57,8 @@ bool validated() {
 }
 
 int parse_and_run(int argc, char** argv) {
-    CLI::App app("Argand: a photon-mapping renderer for any Vulkan GPU. Reads glTF 2.0, writes PNG and OpenEXR.");
+    CLI::App app("Argand: a photon-mapping renderer for any Vulkan GPU. Reads glTF 2.0, writes PNG "
+                 "and OpenEXR.");
     app.name("argand");
     app.set_version_flag("--version", "argand " ARGAND_VERSION);
     app.require_subcommand(1);

@@ -8,16 +8,17 @@ namespace argand {
 namespace {
 
 // CLI11's own ranges let NaN pass, and what is no number at all is reported without its range.
-template <class T>
-CLI::Validator between(T low, T high, const char* what) {
+template <class T> CLI::Validator between(T low, T high, const char* what) {
     const std::string range = fmt::format("from {} to {}", low, high);
     return CLI::Validator(
         [=](const std::string& text) -> std::string {
             T value{};
-            const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+            const char* begin =
+                text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
             const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
             // Not `value < low`: NaN is to fail.
-            if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high) {
+            if (error == std::errc() && end == text.data() + text.size() && value >= low &&
+                value <= high) {
                 return "";
             }
             return fmt::format("'{}' is not {} {}", text, what, range);
@@ -31,8 +32,6 @@ CLI::Validator integer_between(std::uint64_t low, std::uint64_t high) {
     return between(low, high, "an integer");
 }
 
-CLI::Validator number_between(double low, double high) {
-    return between(low, high, "a number");
-}
+CLI::Validator number_between(double low, double high) { return between(low, high, "a number"); }
 
 } // namespace argand

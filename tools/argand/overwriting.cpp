@@ -21,7 +21,8 @@ std::filesystem::path resolved(const std::string& path) {
 void check_overwrites_none(const std::string& target, const std::vector<std::string>& others) {
     for (const std::string& other : others) {
         if (resolved(target) == resolved(other)) {
-            throw UsageError(fmt::format("writing '{}': it would replace '{}'; name another file", target, other));
+            throw UsageError(fmt::format("writing '{}': it would replace '{}'; name another file",
+                                         target, other));
         }
     }
 }

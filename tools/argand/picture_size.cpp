@@ -15,8 +15,10 @@ constexpr int largest_side = 32768;
 int parse_side(std::string_view text, const std::string& size) {
     int side = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-    if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > largest_side) {
-        throw UsageError(fmt::format("reading --size {}: it must be WIDTHxHEIGHT, each from 1 to {}", size, largest_side));
+    if (error != std::errc() || end != text.data() + text.size() || side < 1 ||
+        side > largest_side) {
+        throw UsageError(fmt::format(
+            "reading --size {}: it must be WIDTHxHEIGHT, each from 1 to {}", size, largest_side));
     }
     return side;
 }

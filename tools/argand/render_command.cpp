@@ -26,7 +26,8 @@ namespace argand {
 
 namespace {
 
-const std::map<std::string, Sampling> samplings{{"sobol", Sampling::sobol}, {"random", Sampling::random}};
+const std::map<std::string, Sampling> samplings{{"sobol", Sampling::sobol},
+                                                {"random", Sampling::random}};
 
 struct RenderOptions {
     std::string scene;
@@ -61,16 +62,19 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
     }
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-    if (error == std::errc() && end == choice.data() + choice.size() && index < scene.cameras.size()) {
+    if (error == std::errc() && end == choice.data() + choice.size() &&
+        index < scene.cameras.size()) {
         return index;
     }
-    fail("choosing camera '{}' of '{}': there is none of that name or index; `argand inspect` lists its {} cameras",
+    fail("choosing camera '{}' of '{}': there is none of that name or index; `argand inspect` "
+         "lists its {} cameras",
          choice, scene.name, scene.cameras.size());
 }
 
 /// Whether the method or the numbers of photons and samples are for Argand to choose.
 bool is_aimed(const RenderOptions& options, const CLI::App& command) {
-    return options.target_error || (options.settings.budget && command.get_option("--method")->count() == 0);
+    return options.target_error ||
+           (options.settings.budget && command.get_option("--method")->count() == 0);
 }
 
 /// Options that decide what Argand is asked to choose.
@@ -85,12 +89,15 @@ void check_aimed(const RenderOptions& options, const CLI::App& command) {
     }
     for (const char* name : {"--radius", "--k", "--fixed-smoothing"}) {
         if (command.get_option(name)->count() > 0) {
-            throw UsageError(fmt::format("reading {}: with --target-error, or --budget without --method, widths of estimation "
-                                         "follow from the aim; leave one of the two out", name));
+            throw UsageError(fmt::format("reading {}: with --target-error, or --budget without "
+                                         "--method, widths of estimation "
+                                         "follow from the aim; leave one of the two out",
+                                         name));
         }
     }
     if (command.get_option("--photons")->count() > 0 && options.settings.photons == 0) {
-        throw UsageError("reading --photons 0: without photons the error of indirect light does not fall; leave it out");
+        throw UsageError("reading --photons 0: without photons the error of indirect light does "
+                         "not fall; leave it out");
     }
 }
 
@@ -112,7 +119,8 @@ void check(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
-Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, const CLI::App& command) {
+Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
+                   const CLI::App& command) {
     std::optional<Progress> progress;
     const OnProgress on_progress = [&](double done) {
         progress->update(done);
@@ -127,18 +135,23 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, c
     bool picked_one = false;
     const Aim aim{.error = options.target_error, .seconds = options.settings.budget};
     const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
-    const Chosen chosen{.method = is_given("--method"), .samples = is_given("--spp"), .photons = is_given("--photons")};
+    const Chosen chosen{.method = is_given("--method"),
+                        .samples = is_given("--spp"),
+                        .photons = is_given("--photons")};
     const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
-        return render(device, scene, settings, [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass);
+        return render(
+            device, scene, settings,
+            [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass);
     };
-    AimedRender aimed = render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
-        progress.reset();
-        if (!options.quiet) {
-            fmt::print(stderr, "argand: picked {}\n", describe_pick(picked));
-        }
-        progress.emplace("rendering", options.quiet);
-        picked_one = true;
-    });
+    AimedRender aimed =
+        render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
+            progress.reset();
+            if (!options.quiet) {
+                fmt::print(stderr, "argand: picked {}\n", describe_pick(picked));
+            }
+            progress.emplace("rendering", options.quiet);
+            picked_one = true;
+        });
     options.settings = aimed.settings;
     options.settings.budget = aim.seconds;
     RenderResult result = std::move(aimed.result);
@@ -146,7 +159,8 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options, c
 }
 
 /// What the user should know of how the render went. seconds: that it took.
-std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& rendered, double seconds) {
+std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& rendered,
+                                  double seconds) {
     constexpr double clearly_more = 1.2;
     const RenderSettings& settings = options.settings;
     const std::uint64_t passes = rendered.result.statistics.passes;
@@ -155,8 +169,10 @@ std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& 
         notes.push_back(describe_outcome(*rendered.aimed));
     }
     if (settings.budget && seconds > clearly_more * *settings.budget) {
-        notes.push_back(fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of --budget; passes are shorter "
-                                    "with a lower --spp{}", seconds, passes, passes == 1 ? "" : "es", *settings.budget,
+        notes.push_back(fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of "
+                                    "--budget; passes are shorter "
+                                    "with a lower --spp{}",
+                                    seconds, passes, passes == 1 ? "" : "es", *settings.budget,
                                     settings.method == "path" ? "" : " or fewer --photons"));
     }
     return notes;
@@ -171,7 +187,8 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         options.settings.radius = options.radius;
     }
     if (options.outputs.empty()) {
-        options.outputs.push_back(std::filesystem::path(options.scene).filename().replace_extension(".png").string());
+        options.outputs.push_back(
+            std::filesystem::path(options.scene).filename().replace_extension(".png").string());
     }
     check(options, command);
     catch_interrupts();
@@ -204,7 +221,9 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     const std::vector<std::string> notes = notes_on(options, rendered, times.render);
     if (result.statistics.samples == 0) {
         fail("rendering '{}': interrupted {}; nothing is written", options.scene,
-             rendered.aimed && rendered.aimed->prospects.empty() ? "while methods were tried" : "before the first pass was finished");
+             rendered.aimed && rendered.aimed->prospects.empty()
+                 ? "while methods were tried"
+                 : "before the first pass was finished");
     }
     const Clock::time_point writing = Clock::now();
     for (const std::string& output : options.outputs) {
@@ -212,8 +231,9 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     }
     times.write = seconds_since(writing);
     if (!options.report.empty()) {
-        nlohmann::ordered_json report = render_report(*device, scene, options.settings, options.exposure,
-                                                      options.outputs, result.statistics, times);
+        nlohmann::ordered_json report =
+            render_report(*device, scene, options.settings, options.exposure, options.outputs,
+                          result.statistics, times);
         for (const std::string& note : notes) {
             report["notes"].push_back(note);
         }
@@ -223,16 +243,19 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         write_json(options.report, report);
     }
     if (result.statistics.non_finite > 0) {
-        fmt::print(stderr, "argand: note: {} samples were not finite and are left out; please report the scene\n",
-                   result.statistics.non_finite);
+        fmt::print(
+            stderr,
+            "argand: note: {} samples were not finite and are left out; please report the scene\n",
+            result.statistics.non_finite);
     }
     if (!options.quiet) {
         for (const std::string& note : notes) {
             fmt::print(stderr, "argand: note: {}\n", note);
         }
-        fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "), options.settings.method,
-                   options.settings.width, options.settings.height, device->info().name,
-                   seconds_since(start), result.statistics.interrupted ? " (interrupted: the passes so far)" : "");
+        fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "),
+                   options.settings.method, options.settings.width, options.settings.height,
+                   device->info().name, seconds_since(start),
+                   result.statistics.interrupted ? " (interrupted: the passes so far)" : "");
     }
 }
 
@@ -243,13 +266,20 @@ void add_render_command(CLI::App& app) {
     auto options = std::make_shared<RenderOptions>();
     RenderSettings& settings = options->settings;
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
-    command->add_option("-o,--output", options->outputs,
-                        "Picture to write, .png or .exr; may be given several times (default: SCENE's name with .png)")
+    command
+        ->add_option("-o,--output", options->outputs,
+                     "Picture to write, .png or .exr; may be given several times (default: SCENE's "
+                     "name with .png)")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--method", options->method, fmt::format("{}", fmt::join(method_names(), ", ")))->capture_default_str();
+    command
+        ->add_option("--method", options->method,
+                     fmt::format("{}", fmt::join(method_names(), ", ")))
+        ->capture_default_str();
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
-    command->add_option("--spp", settings.samples, "Eye paths per pixel; at least one for each pass of 262,144 photons")
+    command
+        ->add_option("--spp", settings.samples,
+                     "Eye paths per pixel; at least one for each pass of 262,144 photons")
         ->capture_default_str()
         ->check(integer_between(1, 1 << 24));
     command->add_option("--photons", settings.photons, "Photons emitted")
@@ -257,57 +287,75 @@ void add_render_command(CLI::App& app) {
         ->check(integer_between(0, 4'000'000'000));
     command
         ->add_option("--budget", settings.budget,
-                     "Seconds to render in: with --method, so many photons and eye paths again and again, as often as there "
-                     "is time for; without, the method and the numbers that come nearest to the truth, told from pilots")
+                     "Seconds to render in: with --method, so many photons and eye paths again and "
+                     "again, as often as there "
+                     "is time for; without, the method and the numbers that come nearest to the "
+                     "truth, told from pilots")
         ->check(number_between(1e-3, 1e7));
     command
         ->add_option("--target-error", options->target_error,
-                     "relMSE to render to (see `argand compare`), with the method and the numbers that get there soonest; with "
+                     "relMSE to render to (see `argand compare`), with the method and the numbers "
+                     "that get there soonest; with "
                      "--budget, as near as there is time for")
         ->check(number_between(1e-9, 1e3));
     command
-        ->add_option("--bounces", settings.bounces,
-                     "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
+        ->add_option(
+            "--bounces", settings.bounces,
+            "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
         ->check(integer_between(0, 0xffff));
-    command->add_option("--radius", options->radius,
-                        "Radius of density estimation; of knn, the largest; of footprints, what bounds their size and the "
-                        "cells of sharing follow from (default: from the scene)")
-        ->check(number_between(1e-18, 1e18));   // its square and the inverse of that are finite
+    command
+        ->add_option("--radius", options->radius,
+                     "Radius of density estimation; of knn, the largest; of footprints, what "
+                     "bounds their size and the "
+                     "cells of sharing follow from (default: from the scene)")
+        ->check(number_between(1e-18, 1e18)); // its square and the inverse of that are finite
     command
         ->add_option("--k", settings.neighbours,
-                     "Photons that an estimate of method knn takes, the nearest (default: from the photons stored)")
+                     "Photons that an estimate of method knn takes, the nearest (default: from the "
+                     "photons stored)")
         ->check(integer_between(1, 0xffffffff));
     command
         ->add_option("--query-cell", settings.query_cell,
-                     "Edge of the cells in which eye paths share one estimate, in radii of estimation; 0: none shared")
+                     "Edge of the cells in which eye paths share one estimate, in radii of "
+                     "estimation; 0: none shared")
         ->capture_default_str()
         ->check(number_between(0, 10));
-    command->add_flag("--wide-codes", settings.wide_codes,
-                      "Morton codes of 63 bits for photons, not of 30: for scenes much larger than what is seen");
-    command->add_option("--follow-roughness", settings.follow_roughness,
-                        "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
+    command->add_flag(
+        "--wide-codes", settings.wide_codes,
+        "Morton codes of 63 bits for photons, not of 30: for scenes much larger than what is seen");
+    command
+        ->add_option(
+            "--follow-roughness", settings.follow_roughness,
+            "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
         ->capture_default_str()
         ->check(number_between(0, 1));
-    command->add_flag("--final-gather", settings.final_gather,
-                      "Ask the photon map one bounce later, but for caustics: noise instead of blotches");
-    command->add_option("--photon-sampling", settings.photon_sampling, "Numbers that photons take: sobol, random")
+    command->add_flag(
+        "--final-gather", settings.final_gather,
+        "Ask the photon map one bounce later, but for caustics: noise instead of blotches");
+    command
+        ->add_option("--photon-sampling", settings.photon_sampling,
+                     "Numbers that photons take: sobol, random")
         ->transform(CLI::CheckedTransformer(samplings))
         ->default_str("sobol");
     command->add_option("--seed", settings.seed, "Seed of the random numbers")
         ->capture_default_str()
         ->check(integer_between(0, 0xffffffff));
-    command->add_option("--camera", options->camera, "Name or index of the camera (default: the first)");
+    command->add_option("--camera", options->camera,
+                        "Name or index of the camera (default: the first)");
     command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")
         ->capture_default_str()
         ->check(number_between(-100, 100));
     command->add_flag("--everything", settings.everything,
-                      "Also compile and run what the scene does not require: the same picture, to measure what that"
+                      "Also compile and run what the scene does not require: the same picture, to "
+                      "measure what that"
                       " costs");
     add_backend_options(*command, options->backend, options->device);
-    command->add_option("--json", options->report, "Write a report of parameters, times and memory to this file");
+    command->add_option("--json", options->report,
+                        "Write a report of parameters, times and memory to this file");
     add_footprint_options(*command, settings.footprints);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");
-    command->footer("Example:\n  argand render assets/cornell_glass.glb -o glass.png -o glass.exr --size 256x256");
+    command->footer("Example:\n  argand render assets/cornell_glass.glb -o glass.png -o glass.exr "
+                    "--size 256x256");
     command->callback([options, command] { render_file(*options, *command); });
 }
 

@@ -36,9 +36,9 @@ Json footprints_json(const FootprintSettings& settings, const FootprintScale& sc
 
 } // namespace
 
-Json render_report(Device& device, const Scene& scene, const RenderSettings& settings, float exposure,
-                   const std::vector<std::string>& outputs, const RenderStatistics& statistics,
-                   const ReportTimes& times) {
+Json render_report(Device& device, const Scene& scene, const RenderSettings& settings,
+                   float exposure, const std::vector<std::string>& outputs,
+                   const RenderStatistics& statistics, const ReportTimes& times) {
     const DeviceInfo& info = device.info();
     const std::uint32_t unlimited_bounces = RenderSettings().bounces;
     Json stages = Json::array();
@@ -47,27 +47,28 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
                           {"gpu_seconds", info.features.timestamps ? Json(stage.seconds) : Json()},
                           {"runs", stage.runs}});
     }
-    Json parameters = {{"method", settings.method},
-                       {"width", settings.width},
-                       {"height", settings.height},
-                       {"spp", settings.samples},
-                       {"photons", settings.photons},
-                       {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
-                       {"radius", statistics.radius},
-                       {"caustic_radius", statistics.caustic_radius},
-                       {"k", statistics.neighbours},
-                       {"smoothing", statistics.smoothing},
-                       {"leaf_size", statistics.leaf_size},
-                       {"budget", settings.budget ? Json(*settings.budget) : Json()},
-                       {"query_cell", settings.query_cell},
-                       {"wide_codes", settings.wide_codes},
-                       {"follow_roughness", settings.follow_roughness},
-                       {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
-                       {"final_gather", settings.final_gather},
-                       {"everything", settings.everything},
-                       {"seed", settings.seed},
-                       {"camera", scene.cameras[settings.camera].name},
-                       {"exposure", exposure}};
+    Json parameters = {
+        {"method", settings.method},
+        {"width", settings.width},
+        {"height", settings.height},
+        {"spp", settings.samples},
+        {"photons", settings.photons},
+        {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
+        {"radius", statistics.radius},
+        {"caustic_radius", statistics.caustic_radius},
+        {"k", statistics.neighbours},
+        {"smoothing", statistics.smoothing},
+        {"leaf_size", statistics.leaf_size},
+        {"budget", settings.budget ? Json(*settings.budget) : Json()},
+        {"query_cell", settings.query_cell},
+        {"wide_codes", settings.wide_codes},
+        {"follow_roughness", settings.follow_roughness},
+        {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
+        {"final_gather", settings.final_gather},
+        {"everything", settings.everything},
+        {"seed", settings.seed},
+        {"camera", scene.cameras[settings.camera].name},
+        {"exposure", exposure}};
     if (statistics.footprint_scale) {
         parameters.update(footprints_json(settings.footprints, *statistics.footprint_scale));
     }
@@ -82,7 +83,10 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
               {"kind", to_string(info.kind)},
               {"subgroup_size", info.subgroup_size}}},
             {"wall_seconds",
-             {{"load", times.load}, {"open_device", times.open}, {"render", times.render}, {"write", times.write}}},
+             {{"load", times.load},
+              {"open_device", times.open},
+              {"render", times.render},
+              {"write", times.write}}},
             {"stages", stages},
             {"samples_per_pixel", statistics.samples},
             {"passes", statistics.passes},
@@ -104,13 +108,14 @@ Json aim_report(const AimedRender& render) {
     const Aim& aim = render.aim;
     Json ways = Json::array();
     for (const Prospect& p : render.prospects) {
-        ways.push_back({{"method", p.settings.method},
-                        {"spp_a_pass", p.settings.samples},
-                        {"photons_a_pass", p.settings.method == "path" ? Json() : Json(p.settings.photons)},
-                        {"passes", p.passes},
-                        {"seconds", p.seconds},
-                        {"relMSE", p.error},
-                        {"squared_bias", bias_after(p.model, p.passes).value}});
+        ways.push_back(
+            {{"method", p.settings.method},
+             {"spp_a_pass", p.settings.samples},
+             {"photons_a_pass", p.settings.method == "path" ? Json() : Json(p.settings.photons)},
+             {"passes", p.passes},
+             {"seconds", p.seconds},
+             {"relMSE", p.error},
+             {"squared_bias", bias_after(p.model, p.passes).value}});
     }
     return {{"target_error", aim.error ? Json(*aim.error) : Json()},
             {"budget", aim.seconds ? Json(*aim.seconds) : Json()},

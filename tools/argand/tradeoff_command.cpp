@@ -35,21 +35,24 @@ struct TradeoffOptions {
 void check(const TradeoffOptions& options) {
     check_methods(options.request.methods);
     if (options.reference.empty() && !options.second_reference.empty()) {
-        throw UsageError("reading --reference-2: it goes with --reference, the other picture of the pair");
+        throw UsageError(
+            "reading --reference-2: it goes with --reference, the other picture of the pair");
     }
 }
 
 void summarise(const Results& results, const std::filesystem::path& folder) {
-    fmt::print("{:<11} {:<26} {:>8} {:>10}  {}\n", "method", "knob", "wall, s", "relMSE", "argand render ...");
+    fmt::print("{:<11} {:<26} {:>8} {:>10}  {}\n", "method", "knob", "wall, s", "relMSE",
+               "argand render ...");
     for (const std::size_t i : front_of(results)) {
         const Measurement& m = results.measurements[i];
-        const std::string error = m.rel_mse.mean < results.least_error ? fmt::format("<{:.2g}", results.least_error)
-                                                                       : fmt::format("{:.3g}", m.rel_mse.mean);
-        fmt::print("{:<11} {:<26} {:>8.3g} {:>10}  {}\n", m.method, m.knob + " " + m.value, m.wall_seconds, error,
-                   m.options);
+        const std::string error = m.rel_mse.mean < results.least_error
+                                      ? fmt::format("<{:.2g}", results.least_error)
+                                      : fmt::format("{:.3g}", m.rel_mse.mean);
+        fmt::print("{:<11} {:<26} {:>8.3g} {:>10}  {}\n", m.method, m.knob + " " + m.value,
+                   m.wall_seconds, error, m.options);
     }
-    fmt::print("{}: {} settings measured, those on the Pareto front above\n", (folder / "tradeoff.html").string(),
-               results.measurements.size());
+    fmt::print("{}: {} settings measured, those on the Pareto front above\n",
+               (folder / "tradeoff.html").string(), results.measurements.size());
 }
 
 /// Tells builds of the program apart, of which each may compute something else.
@@ -70,37 +73,37 @@ void run(TradeoffOptions& options) {
             request.reference_files.emplace_back(file);
         }
     }
-    request.folder = options.folder.empty()
-                         ? std::filesystem::path(options.scene).filename().replace_extension(".tradeoff")
-                         : std::filesystem::path(options.folder);
+    request.folder =
+        options.folder.empty()
+            ? std::filesystem::path(options.scene).filename().replace_extension(".tradeoff")
+            : std::filesystem::path(options.folder);
     catch_interrupts();
     const Scene scene = load_gltf(options.scene);
     const std::vector<std::uint8_t> file = read_file(options.scene);
     const std::uint64_t contents = fingerprint(scene, fingerprint(std::as_bytes(std::span(file))));
     const DeviceInfo device = open_backend(options.backend, options.device, options.quiet)->info();
-    request.run = {{"scene", scene.name},
-                   {"contents", fmt::format("{:016x}", contents)},
-                   {"argand", ARGAND_VERSION},
-                   {"build", build_name()},
-                   {"backend", device.backend},
-                   {"device", device.name},
+    request.run = {{"scene", scene.name},       {"contents", fmt::format("{:016x}", contents)},
+                   {"argand", ARGAND_VERSION},  {"build", build_name()},
+                   {"backend", device.backend}, {"device", device.name},
                    {"driver", device.driver}};
-    const RenderTrials render = trials_on_device([&] { return open_backend(options.backend, options.device, true); },
-                                                 scene, [] { return !interrupted(); });
+    const RenderTrials render =
+        trials_on_device([&] { return open_backend(options.backend, options.device, true); }, scene,
+                         [] { return !interrupted(); });
     std::optional<Progress> progress;
     std::string shown;
-    const Results results = measure_tradeoff(request, scene, render, [&](std::string_view work, double done) {
-        if (work != shown) {
-            progress.reset();
-            progress.emplace(std::string(work), options.quiet);
-            shown = work;
-        }
-        progress->update(done);
-    });
+    const Results results =
+        measure_tradeoff(request, scene, render, [&](std::string_view work, double done) {
+            if (work != shown) {
+                progress.reset();
+                progress.emplace(std::string(work), options.quiet);
+                shown = work;
+            }
+            progress->update(done);
+        });
     progress.reset();
     if (!results.complete) {
-        fail("measuring '{}': interrupted; {} settings are measured, and the same command goes on", options.scene,
-             results.measurements.size());
+        fail("measuring '{}': interrupted; {} settings are measured, and the same command goes on",
+             options.scene, results.measurements.size());
     }
     for (const Failure& failure : results.failures) {
         fmt::print(stderr, "argand: note: not rendered: {}: {}\n", failure.options, failure.why);
@@ -113,31 +116,42 @@ void run(TradeoffOptions& options) {
 } // namespace
 
 void add_tradeoff_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("tradeoff", "Measure error against time of every method and knob on a scene");
+    CLI::App* command = app.add_subcommand(
+        "tradeoff", "Measure error against time of every method and knob on a scene");
     auto options = std::make_shared<TradeoffOptions>();
     TradeoffRequest& request = options->request;
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("-o,--output", options->folder,
-                        "Folder for tradeoff.html, .png, .csv and .json, the reference and all pictures; what is measured "
+                        "Folder for tradeoff.html, .png, .csv and .json, the reference and all "
+                        "pictures; what is measured "
                         "there is not measured again (default: SCENE's name with .tradeoff)");
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
-    command->add_option("--seeds", request.seeds, "Renders of each setting; bias and variance are told apart from 2 on")
+    command
+        ->add_option("--seeds", request.seeds,
+                     "Renders of each setting; bias and variance are told apart from 2 on")
         ->capture_default_str()
         ->check(integer_between(1, 1000));
-    command->add_option("--reference", options->reference,
-                        "Picture that counts as true (.exr) (default: two renders by the method path)");
-    command->add_option("--reference-2", options->second_reference,
-                        "Another one with independent noise, so that the noise of neither counts as error");
+    command->add_option(
+        "--reference", options->reference,
+        "Picture that counts as true (.exr) (default: two renders by the method path)");
+    command->add_option(
+        "--reference-2", options->second_reference,
+        "Another one with independent noise, so that the noise of neither counts as error");
     command
-        ->add_option("--reference-seconds", request.reference_seconds,
-                     "Time for rendering the reference, at most about so long; one that is there stays")
+        ->add_option(
+            "--reference-seconds", request.reference_seconds,
+            "Time for rendering the reference, at most about so long; one that is there stays")
         ->capture_default_str()
         ->check(number_between(0, 1e7));
-    command->add_option("--methods", request.methods, fmt::format("{}", fmt::join(method_names(), ",")))->delimiter(',');
+    command
+        ->add_option("--methods", request.methods,
+                     fmt::format("{}", fmt::join(method_names(), ",")))
+        ->delimiter(',');
     command->add_flag("--quick", options->quick, "Numbers of photons and samples, and widths only");
     add_backend_options(*command, options->backend, options->device);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");
-    command->footer("docs/tradeoff.md says how to read the plot. An interrupted sweep goes on where it stopped.\n\n"
+    command->footer("docs/tradeoff.md says how to read the plot. An interrupted sweep goes on "
+                    "where it stopped.\n\n"
                     "Example:\n  argand tradeoff assets/cornell_area.glb -o sweep --quick");
     command->callback([options] { run(*options); });
 }

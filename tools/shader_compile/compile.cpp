@@ -26,10 +26,13 @@ struct Messages {
 
 std::string trimmed(const std::string& text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+    return first == std::string::npos
+               ? ""
+               : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
-/// glslang's log in the form that editors understand: "ERROR: FILE:LINE: ..." becomes "FILE:LINE: error:
+/// glslang's log in the form that editors understand: "ERROR: FILE:LINE: ..." becomes "FILE:LINE:
+/// error:
 /// ...".
 Messages messages(const std::string& log, const std::string& kernel) {
     static const std::regex located(R"((ERROR|WARNING): (.+?):(\d+): (.*))");
@@ -106,7 +109,8 @@ Compiled compile(const std::string& kernel, const std::vector<std::string>& incl
     glslang::SpvOptions options;
     options.disableOptimizer = true;
     spv::SpvBuildLogger logger;
-    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &logger, &options);
+    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &logger,
+                          &options);
     result.warnings = said.warnings;
     return result;
 }

@@ -31,7 +31,8 @@ bool is_float_arithmetic(spv::Op op) {
     }
 }
 
-/// Debug instructions precede annotations, annotations precede types: where a decoration may be inserted.
+/// Debug instructions precede annotations, annotations precede types: where a decoration may be
+/// inserted.
 bool is_before_annotations(spv::Op op) {
     switch (op) {
     case spv::OpCapability:
@@ -73,15 +74,17 @@ Spirv forbid_contraction(const Spirv& spirv) {
             decorated.insert(spirv[i + 1]);
         } else if (is_float_arithmetic(op) ||
                    (op == spv::OpExtInst && float_types.count(spirv[i + 1]) != 0)) {
-            // Extended instructions too: mix, length, cross and their like are made of products and sums.
+            // Extended instructions too: mix, length, cross and their like are made of products and
+            // sums.
             results.push_back(spirv[i + 2]);
         }
     }
     Spirv decorations;
     for (const std::uint32_t id : results) {
         if (decorated.count(id) == 0) {
-            decorations.insert(decorations.end(), {(3u << spv::WordCountShift) | spv::OpDecorate, id,
-                                                   static_cast<std::uint32_t>(spv::DecorationNoContraction)});
+            decorations.insert(decorations.end(),
+                               {(3u << spv::WordCountShift) | spv::OpDecorate, id,
+                                static_cast<std::uint32_t>(spv::DecorationNoContraction)});
         }
     }
     Spirv result = spirv;

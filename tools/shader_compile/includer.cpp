@@ -40,10 +40,12 @@ Result* Includer::includeSystem(const char* header, const char* includer, std::s
         return owning_result("", fmt::format("it is neither beside the including file nor in {}",
                                              fmt::join(directories_, ", ")));
     }
-    if (path == sources_.front().path || std::find(open_.begin(), open_.end(), path) != open_.end()) {
-        return owning_result("", open_.empty() || open_.back() == path
-                                     ? "it includes itself"
-                                     : fmt::format("it includes itself, by way of {}", open_.back()));
+    if (path == sources_.front().path ||
+        std::find(open_.begin(), open_.end(), path) != open_.end()) {
+        return owning_result("",
+                             open_.empty() || open_.back() == path
+                                 ? "it includes itself"
+                                 : fmt::format("it includes itself, by way of {}", open_.back()));
     }
     std::string text;
     try {
@@ -52,8 +54,8 @@ Result* Includer::includeSystem(const char* header, const char* includer, std::s
         return owning_result("", error.what());
     }
     open_.push_back(path);
-    const bool known =
-        std::any_of(sources_.begin(), sources_.end(), [&](const Source& s) { return s.path == path; });
+    const bool known = std::any_of(sources_.begin(), sources_.end(),
+                                   [&](const Source& s) { return s.path == path; });
     if (!known) {
         sources_.push_back({path, text});
     }

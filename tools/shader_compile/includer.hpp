@@ -6,15 +6,17 @@
 
 namespace argand::shader_compile {
 
-/// Resolves #include first beside the including file, then in the include directories, and records every file
-/// in `sources`. A file that includes itself, directly or not, is an error.
+/// Resolves #include first beside the including file, then in the include directories, and records
+/// every file in `sources`. A file that includes itself, directly or not, is an error.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(const std::vector<std::string>& directories, Sources& sources)
         : directories_(directories), sources_(sources) {}
 
-    // glslang asks this for "..." too, as includeLocal finds nothing; only this one's reasons reach its log.
-    IncludeResult* includeSystem(const char* header, const char* includer, std::size_t depth) override;
+    // glslang asks this for "..." too, as includeLocal finds nothing; only this one's reasons reach
+    // its log.
+    IncludeResult* includeSystem(const char* header, const char* includer,
+                                 std::size_t depth) override;
     void releaseInclude(IncludeResult* result) override;
 
 private:

@@ -24,8 +24,8 @@ struct Options {
 Options parse(const std::vector<std::string>& words) {
     Options options;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        const bool is_option =
-            words[i] == "-I" || words[i] == "--out" || words[i] == "--depfile" || words[i] == "--twin";
+        const bool is_option = words[i] == "-I" || words[i] == "--out" || words[i] == "--depfile" ||
+                               words[i] == "--twin";
         if (is_option && i + 1 == words.size()) {
             throw UsageError(fmt::format("shader_compile: {} needs a value", words[i]));
         }
@@ -44,7 +44,8 @@ Options parse(const std::vector<std::string>& words) {
         }
     }
     if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
-        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME] KERNEL.comp");
+        throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE "
+                         "[--twin NAME] KERNEL.comp");
     }
     return options;
 }
@@ -52,8 +53,9 @@ Options parse(const std::vector<std::string>& words) {
 void run(const Options& options) {
     const std::string name = fs::path(options.kernel).stem().string();
     if (!is_cpp_name(name)) {
-        fail("{}:1: error: the file's name becomes the name of a C++ struct, and '{}' cannot be one",
-             options.kernel, name);
+        fail(
+            "{}:1: error: the file's name becomes the name of a C++ struct, and '{}' cannot be one",
+            options.kernel, name);
     }
     const Compiled compiled = compile(options.kernel, options.include_directories);
     std::fputs(compiled.warnings.c_str(), stderr);

@@ -40,7 +40,8 @@ bool is_cpp_name(std::string_view name) {
     };
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     return !name.empty() && is_letter(name.front()) &&
-           std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || is_digit(c); }) &&
+           std::all_of(name.begin(), name.end(),
+                       [&](char c) { return is_letter(c) || is_digit(c); }) &&
            std::find(keywords.begin(), keywords.end(), name) == keywords.end();
 }
 

@@ -10,7 +10,8 @@ namespace argand::shader_compile {
 namespace {
 
 spvtools::MessageConsumer append_to(std::string& text) {
-    return [&text](spv_message_level_t level, const char*, const spv_position_t&, const char* message) {
+    return [&text](spv_message_level_t level, const char*, const spv_position_t&,
+                   const char* message) {
         if (level <= SPV_MSG_ERROR) {
             text += text.empty() ? message : fmt::format("; {}", message);
         }

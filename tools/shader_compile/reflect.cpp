@@ -34,8 +34,9 @@ struct Reader {
     std::optional<std::string> shared_header(const std::string& name) const {
         for (const Source& source : sources) {
             for (const std::string& directory : include_directories) {
-                const std::string path =
-                    std::filesystem::path(source.path).lexically_relative(directory).generic_string();
+                const std::string path = std::filesystem::path(source.path)
+                                             .lexically_relative(directory)
+                                             .generic_string();
                 if (path.rfind("shared/", 0) == 0 &&
                     line_of(without_comments(source.text), {"struct", name, "{"})) {
                     return path;
@@ -49,9 +50,9 @@ struct Reader {
         Record result{spirv.get_name(type.self), std::move(header), size, {}};
         for (std::uint32_t i = 0; i < type.member_types.size(); ++i) {
             const bool is_array = !spirv.get_type(type.member_types[i]).array.empty();
-            result.members.push_back({spirv.get_member_name(type.self, i),
-                                      spirv.type_struct_member_offset(type, i),
-                                      is_array ? spirv.type_struct_member_array_stride(type, i) : 0});
+            result.members.push_back(
+                {spirv.get_member_name(type.self, i), spirv.type_struct_member_offset(type, i),
+                 is_array ? spirv.type_struct_member_array_stride(type, i) : 0});
         }
         return result;
     }
@@ -65,10 +66,12 @@ bool is_texels(const Reader& reader, const Resource& image) {
 }
 
 void refuse_other_resources(const Reader& reader) {
-    const auto refuse = [&](const spirv_cross::SmallVector<Resource>& found, std::string_view what) {
+    const auto refuse = [&](const spirv_cross::SmallVector<Resource>& found,
+                            std::string_view what) {
         for (const Resource& resource : found) {
             if (!is_texels(reader, resource)) {
-                fail("{}{} '{}': a kernel takes storage buffers, utextureBuffers, push constants and "
+                fail("{}{} '{}': a kernel takes storage buffers, utextureBuffers, push constants "
+                     "and "
                      "specialization constants only",
                      error_at(reader.sources, {resource.name}), what, resource.name);
             }
@@ -89,15 +92,16 @@ Access access_of(const Reader& reader, const Resource& buffer) {
     const bool no_write = flags.get(spv::DecorationNonWritable);
     const bool no_read = flags.get(spv::DecorationNonReadable);
     if (no_write && no_read) {
-        fail("{}buffer {} is both readonly and writeonly", error_at(reader.sources, {"buffer", buffer.name}),
-             buffer.name);
+        fail("{}buffer {} is both readonly and writeonly",
+             error_at(reader.sources, {"buffer", buffer.name}), buffer.name);
     }
     return no_write ? Access::read : no_read ? Access::write : Access::read_write;
 }
 
 /// The C++ type of a storage buffer's elements.
 std::string element_type(const Reader& reader, const SPIRType& block) {
-    const SPIRType& element = reader.without_array(reader.spirv.get_type(block.member_types.back()));
+    const SPIRType& element =
+        reader.without_array(reader.spirv.get_type(block.member_types.back()));
     const std::string vector = element.vecsize > 1 ? fmt::format("vec{}", element.vecsize) : "";
     switch (element.basetype) {
     case SPIRType::Struct: {
@@ -127,13 +131,15 @@ void append_words(const Reader& reader, const SPIRType& type, std::string& words
             append_words(reader, reader.spirv.get_type(type.member_types[i]), words);
         }
     } else {
-        words.append(std::size_t(type.vecsize) * type.columns, type.basetype == SPIRType::Float ? 'f' : 'u');
+        words.append(std::size_t(type.vecsize) * type.columns,
+                     type.basetype == SPIRType::Float ? 'f' : 'u');
     }
 }
 
 std::string element_words(const Reader& reader, const SPIRType& block) {
     std::string words;
-    append_words(reader, reader.without_array(reader.spirv.get_type(block.member_types.back())), words);
+    append_words(reader, reader.without_array(reader.spirv.get_type(block.member_types.back())),
+                 words);
     const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
     if (!reader.spirv.get_type(block.member_types.back()).array.empty()) {
         words.resize(reader.spirv.type_struct_member_array_stride(block, last) / 4, 'u');
@@ -146,7 +152,8 @@ std::vector<std::string> shared_headers(const Reader& reader) {
     std::vector<std::string> headers;
     for (const Source& source : reader.sources) {
         for (const std::string& directory : reader.include_directories) {
-            const std::string path = std::filesystem::path(source.path).lexically_relative(directory).generic_string();
+            const std::string path =
+                std::filesystem::path(source.path).lexically_relative(directory).generic_string();
             if (path.starts_with("shared/") && !path.starts_with("shared/kernels/")) {
                 headers.push_back(path);
             }
@@ -168,15 +175,16 @@ void add_record(const Reader& reader, const SPIRType& block, Reflection& result)
                                    [&](const Record& r) { return r.name == name; });
     const std::optional<std::string> header = reader.shared_header(name);
     if (header && !known) {
-        result.records.push_back(
-            reader.record(element, *header, reader.spirv.type_struct_member_array_stride(block, last)));
+        result.records.push_back(reader.record(
+            element, *header, reader.spirv.type_struct_member_array_stride(block, last)));
     }
 }
 
 void read_buffers(const Reader& reader, Reflection& result) {
     std::map<std::uint32_t, const Resource*> by_binding;
     std::vector<const Resource*> buffers;
-    for (const auto* found : {&reader.resources.storage_buffers, &reader.resources.separate_images}) {
+    for (const auto* found :
+         {&reader.resources.storage_buffers, &reader.resources.separate_images}) {
         for (const Resource& buffer : *found) {
             buffers.push_back(&buffer);
         }
@@ -184,11 +192,15 @@ void read_buffers(const Reader& reader, Reflection& result) {
     for (const Resource* found : buffers) {
         const Resource& buffer = *found;
         const bool image = reader.spirv.get_type(buffer.type_id).basetype == SPIRType::Image;
-        const std::string at = error_at(reader.sources, {image ? "utextureBuffer" : "buffer", buffer.name});
-        const std::uint32_t set = reader.spirv.get_decoration(buffer.id, spv::DecorationDescriptorSet);
-        const std::uint32_t binding = reader.spirv.get_decoration(buffer.id, spv::DecorationBinding);
+        const std::string at =
+            error_at(reader.sources, {image ? "utextureBuffer" : "buffer", buffer.name});
+        const std::uint32_t set =
+            reader.spirv.get_decoration(buffer.id, spv::DecorationDescriptorSet);
+        const std::uint32_t binding =
+            reader.spirv.get_decoration(buffer.id, spv::DecorationBinding);
         if (set != 0) {
-            fail("{}buffer {} is in set {}; every buffer of a kernel is in set 0", at, buffer.name, set);
+            fail("{}buffer {} is in set {}; every buffer of a kernel is in set 0", at, buffer.name,
+                 set);
         }
         if (!reader.spirv.get_type(buffer.type_id).array.empty()) {
             fail("{}buffer {} is an array of buffers; declare each with a binding of its own", at,
@@ -196,18 +208,20 @@ void read_buffers(const Reader& reader, Reflection& result) {
         }
         const auto [other, is_new] = by_binding.emplace(binding, &buffer);
         if (!is_new) {
-            fail("{}buffers {} and {} both have binding {}", at, other->second->name, buffer.name, binding);
+            fail("{}buffers {} and {} both have binding {}", at, other->second->name, buffer.name,
+                 binding);
         }
     }
     for (const auto& [binding, buffer] : by_binding) {
         const std::string at = error_at(reader.sources, {"buffer", buffer->name});
         if (binding != result.bindings.size()) {
-            fail(
-                "{}buffer {} has binding {} but none has binding {}; bindings are 0, 1, 2, ... without a gap",
-                at, buffer->name, binding, result.bindings.size());
+            fail("{}buffer {} has binding {} but none has binding {}; bindings are 0, 1, 2, ... "
+                 "without a gap",
+                 at, buffer->name, binding, result.bindings.size());
         }
         if (result.bindings.size() == max_bindings) {
-            fail("{}buffer {} is one too many: a kernel has at most {}", at, buffer->name, max_bindings);
+            fail("{}buffer {} is one too many: a kernel has at most {}", at, buffer->name,
+                 max_bindings);
         }
         const SPIRType& block = reader.spirv.get_type(buffer->base_type_id);
         if (block.basetype == SPIRType::Image) {
@@ -215,8 +229,9 @@ void read_buffers(const Reader& reader, Reflection& result) {
             continue;
         }
         const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
-        result.bindings.push_back(
-            {reader.spirv.get_member_name(block.self, last), access_of(reader, *buffer), false, element_type(reader, block), element_words(reader, block)});
+        result.bindings.push_back({reader.spirv.get_member_name(block.self, last),
+                                   access_of(reader, *buffer), false, element_type(reader, block),
+                                   element_words(reader, block)});
         add_record(reader, block, result);
     }
 }
@@ -226,11 +241,12 @@ void read_push(const Reader& reader, Reflection& result) {
         return;
     }
     const Resource& push = reader.resources.push_constant_buffers.front();
-    const std::string at = error_at(reader.sources, {"uniform", reader.spirv.get_name(push.base_type_id)});
+    const std::string at =
+        error_at(reader.sources, {"uniform", reader.spirv.get_name(push.base_type_id)});
     const SPIRType& block = reader.spirv.get_type(push.base_type_id);
     const SPIRType& type = reader.spirv.get_type(block.member_types.front());
-    if (block.member_types.size() != 1 || type.basetype != SPIRType::Struct || !type.array.empty() ||
-        reader.spirv.type_struct_member_offset(block, 0) != 0) {
+    if (block.member_types.size() != 1 || type.basetype != SPIRType::Struct ||
+        !type.array.empty() || reader.spirv.type_struct_member_offset(block, 0) != 0) {
         fail("{}the push constant block has exactly one member, of a struct type declared under "
              "shaders/shared/, at "
              "offset 0",
@@ -239,13 +255,15 @@ void read_push(const Reader& reader, Reflection& result) {
     const std::string name = reader.spirv.get_name(type.self);
     const std::size_t size = reader.spirv.get_declared_struct_size(type);
     if (size > max_push_bytes) {
-        fail("{}push constants {} take {} bytes; every device has room for {}: move some to a buffer", at,
-             name, size, max_push_bytes);
+        fail("{}push constants {} take {} bytes; every device has room for {}: move some to a "
+             "buffer",
+             at, name, size, max_push_bytes);
     }
     const std::optional<std::string> header = reader.shared_header(name);
     if (!header) {
-        fail("{}no included header under shaders/shared/ declares struct {}, which C++ needs to see", at,
-             name);
+        fail(
+            "{}no included header under shaders/shared/ declares struct {}, which C++ needs to see",
+            at, name);
     }
     result.push = reader.record(type, *header, static_cast<std::uint32_t>(size));
     result.push_name = reader.spirv.get_member_name(block.self, 0);
@@ -262,7 +280,8 @@ std::string float_literal(float value) {
 }
 
 void read_constants(const Reader& reader, Reflection& result) {
-    for (const spirv_cross::SpecializationConstant& found : reader.spirv.get_specialization_constants()) {
+    for (const spirv_cross::SpecializationConstant& found :
+         reader.spirv.get_specialization_constants()) {
         const std::string name = reader.spirv.get_name(found.id);
         const spirv_cross::SPIRConstant& constant = reader.spirv.get_constant(found.id);
         const SPIRType& type = reader.spirv.get_type(constant.constant_type);
@@ -301,14 +320,16 @@ void read_constants(const Reader& reader, Reflection& result) {
 
 void read_local_size(const Reader& reader, Reflection& result) {
     std::array<spirv_cross::SpecializationConstant, 3> specialized;
-    reader.spirv.get_work_group_size_specialization_constants(specialized[0], specialized[1], specialized[2]);
+    reader.spirv.get_work_group_size_specialization_constants(specialized[0], specialized[1],
+                                                              specialized[2]);
     for (std::uint32_t i = 0; i < 3; ++i) {
         if (static_cast<std::uint32_t>(specialized[i].id) != 0) {
             const std::string name = fmt::format("local_size_{}_id", "xyz"[i]);
             fail("{}{}: the local size cannot be specialized; write it as a number",
                  error_at(reader.sources, {name}), name);
         }
-        result.local_size[i] = reader.spirv.get_execution_mode_argument(spv::ExecutionModeLocalSize, i);
+        result.local_size[i] =
+            reader.spirv.get_execution_mode_argument(spv::ExecutionModeLocalSize, i);
     }
 }
 
@@ -322,11 +343,13 @@ bool uses_subgroups(const Compiler& spirv) {
 
 /// The names become members of one C++ struct.
 void check_names(const Reader& reader, const Reflection& result) {
-    std::vector<std::string> taken{"info", "arguments", "constants", "Constants",
-                                   std::filesystem::path(reader.sources.front().path).stem().string()};
+    std::vector<std::string> taken{
+        "info", "arguments", "constants", "Constants",
+        std::filesystem::path(reader.sources.front().path).stem().string()};
     const auto take = [&](const std::string& name) {
         if (!is_cpp_name(name) || std::find(taken.begin(), taken.end(), name) != taken.end()) {
-            fail("{}the name '{}' cannot be a member of the kernel's C++ struct: it is a keyword or taken; "
+            fail("{}the name '{}' cannot be a member of the kernel's C++ struct: it is a keyword "
+                 "or taken; "
                  "choose another",
                  error_at(reader.sources, {name}), name);
         }
@@ -361,7 +384,8 @@ Reflection reflect(const Compiled& compiled, const std::vector<std::string>& inc
         result.headers = shared_headers(reader);
         return result;
     } catch (const spirv_cross::CompilerError& error) {
-        fail("{}:1: error: cannot reflect the SPIR-V: {}", compiled.sources.front().path, error.what());
+        fail("{}:1: error: cannot reflect the SPIR-V: {}", compiled.sources.front().path,
+             error.what());
     }
 }
 

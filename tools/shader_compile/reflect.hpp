@@ -41,15 +41,16 @@ struct Reflection {
     std::optional<Record> push;
     std::string push_name;           ///< of the push constant block's one member
     std::vector<Constant> constants; ///< in the order of their ids
-    std::vector<Record> records;     ///< elements of the storage buffers that C++ sees too, each once
-    std::vector<std::string> headers; ///< all included headers under shared/, as C++ includes them, but shared/kernels/
+    std::vector<Record> records; ///< elements of the storage buffers that C++ sees too, each once
+    std::vector<std::string>
+        headers; ///< all included headers under shared/, as C++ includes them, but shared/kernels/
     std::array<std::uint32_t, 3> local_size;
     bool uses_subgroups;
 };
 
-/// Reads the interface of a kernel from its SPIR-V (with names). `include_directories`: how the shared
-/// headers' paths become what C++ includes. Throws Error "file:line: error: ..." for what Argand's devices do
-/// not take.
+/// Reads the interface of a kernel from its SPIR-V (with names). `include_directories`: how the
+/// shared headers' paths become what C++ includes. Throws Error "file:line: error: ..." for what
+/// Argand's devices do not take.
 Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories);
 
 } // namespace argand::shader_compile

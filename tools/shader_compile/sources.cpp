@@ -9,13 +9,9 @@
 namespace argand::shader_compile {
 namespace {
 
-bool is_word(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-bool is_blank(char c) {
-    return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
+bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
 /// Whether `word` stands at `at`, not as a part of a longer word.
 bool stands_at(std::string_view text, std::size_t at, std::string_view word) {
@@ -28,7 +24,8 @@ bool stands_at(std::string_view text, std::size_t at, std::string_view word) {
     return !open_left && !open_right;
 }
 
-bool all_stand_at(std::string_view text, std::size_t at, std::initializer_list<std::string_view> words) {
+bool all_stand_at(std::string_view text, std::size_t at,
+                  std::initializer_list<std::string_view> words) {
     for (const std::string_view word : words) {
         while (at < text.size() && is_blank(text[at])) {
             ++at;
@@ -72,10 +69,11 @@ std::string without_comments(std::string_view text) {
 
 std::optional<int> line_of(std::string_view text, std::initializer_list<std::string_view> words) {
     const std::string_view first = *words.begin();
-    for (std::size_t at = text.find(first); at != std::string_view::npos; at = text.find(first, at + 1)) {
+    for (std::size_t at = text.find(first); at != std::string_view::npos;
+         at = text.find(first, at + 1)) {
         if (stands_at(text, at, first) && all_stand_at(text, at, words)) {
-            return 1 + static_cast<int>(
-                           std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+            return 1 + static_cast<int>(std::count(
+                           text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
         }
     }
     return std::nullopt;

@@ -24,10 +24,12 @@ std::string read_text(const std::filesystem::path& path);
 /// The text with comments replaced by blanks, lines kept.
 std::string without_comments(std::string_view text);
 
-/// The line (from 1) on which these words and symbols first stand in this order, only blanks between them.
+/// The line (from 1) on which these words and symbols first stand in this order, only blanks
+/// between them.
 std::optional<int> line_of(std::string_view text, std::initializer_list<std::string_view> words);
 
-/// "file:line: error: " of the first source in which the words stand; of the kernel's first line if in none.
+/// "file:line: error: " of the first source in which the words stand; of the kernel's first line if
+/// in none.
 std::string error_at(const Sources& sources, std::initializer_list<std::string_view> words);
 
 } // namespace argand::shader_compile

@@ -12,7 +12,8 @@ namespace {
 
 // Runs of stages whose events are kept before they are added up.
 constexpr std::size_t most_runs = 512;
-// Threads that are launched where only the device knows the count; kernels go on in strides of as many.
+// Threads that are launched where only the device knows the count; kernels go on in strides of as
+// many.
 constexpr std::uint64_t indirect_threads = 1u << 20;
 
 CudaBuffer& cuda(const Buffer& buffer) { return static_cast<CudaBuffer&>(*buffer.storage()); }
@@ -32,19 +33,24 @@ std::string driver_version() {
     return "";
 }
 
-std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size : view.buffer->size() - view.offset; }
+std::uint64_t size_of(const BufferView& view) {
+    return view.size > 0 ? view.size : view.buffer->size() - view.offset;
+}
 
 } // namespace
 
 void check(cudaError_t result, const std::string& doing, const std::string& device) {
     if (result != cudaSuccess) {
-        throw DeviceFault("cuda", fmt::format("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver", doing, device,
-                                      cudaGetErrorString(result)));
+        throw DeviceFault(
+            "cuda",
+            fmt::format("{} on '{}': CUDA says '{}'; try --backend vulkan, or update the driver",
+                        doing, device, cudaGetErrorString(result)));
     }
 }
 
 CudaBuffer::~CudaBuffer() {
-    // cudaFree waits for what is under way. It fails where a kernel did, which has been said already.
+    // cudaFree waits for what is under way. It fails where a kernel did, which has been said
+    // already.
     cudaSetDevice(device);
     cudaFree(pointer);
     if (allocated > 0) {
@@ -54,7 +60,8 @@ CudaBuffer::~CudaBuffer() {
 
 CudaDevice::CudaDevice(DeviceInfo info, int ordinal) : info_(std::move(info)), ordinal_(ordinal) {
     check(cudaSetDevice(ordinal_), "opening a device", info_.name);
-    check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "creating a stream", info_.name);
+    check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "creating a stream",
+          info_.name);
     primitives_ = make_primitives(*this, stream_);
 }
 
@@ -71,7 +78,9 @@ CudaDevice::~CudaDevice() {
     cudaStreamDestroy(stream_);
 }
 
-void CudaDevice::make_current() const { check(cudaSetDevice(ordinal_), "turning to a device", info_.name); }
+void CudaDevice::make_current() const {
+    check(cudaSetDevice(ordinal_), "turning to a device", info_.name);
+}
 
 Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
     make_current();
@@ -85,7 +94,7 @@ Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
     const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     const cudaError_t result = cudaMalloc(&storage->pointer, rounded);
     if (result == cudaErrorMemoryAllocation) {
-        cudaGetLastError();     // this one is not for the next call to report
+        cudaGetLastError(); // this one is not for the next call to report
         fail_out_of_memory(*ledger_, storage->name, bytes);
     }
     check(result, fmt::format("allocating '{}'", storage->name), info_.name);
@@ -96,14 +105,16 @@ Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
 
 void CudaDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
     make_current();
-    check(cudaMemcpyAsync(pointer_of(to, offset), data.data(), data.size(), cudaMemcpyHostToDevice, stream_), "uploading",
-          info_.name);
-    wait();     // the caller may change the data next
+    check(cudaMemcpyAsync(pointer_of(to, offset), data.data(), data.size(), cudaMemcpyHostToDevice,
+                          stream_),
+          "uploading", info_.name);
+    wait(); // the caller may change the data next
 }
 
 void CudaDevice::fill(const BufferView& to, std::uint32_t value) {
     make_current();
-    fill_words(pointer_of(*to.buffer, to.offset), size_of(to) / sizeof(std::uint32_t), value, stream_);
+    fill_words(pointer_of(*to.buffer, to.offset), size_of(to) / sizeof(std::uint32_t), value,
+               stream_);
     check(cudaGetLastError(), "filling a buffer", info_.name);
 }
 
@@ -114,8 +125,8 @@ void CudaDevice::copy(const BufferView& from, const BufferView& to) {
           "copying", info_.name);
 }
 
-void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads,
-                        const std::uint32_t* count) {
+void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& arguments,
+                        std::uint64_t threads, const std::uint32_t* count) {
     if (kernel.cuda == nullptr) {
         fail("running kernel {}: it has no twin for backend cuda; please report this", kernel.name);
     }
@@ -134,12 +145,13 @@ void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& argumen
     check(cudaGetLastError(), fmt::format("running kernel {}", kernel.name), info_.name);
 }
 
-void CudaDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
+void CudaDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                          std::uint64_t threads) {
     launch(kernel, arguments, threads, nullptr);
 }
 
-void CudaDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                                   std::uint32_t count_index) {
+void CudaDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                                   const Buffer& counts, std::uint32_t count_index) {
     const auto* count = reinterpret_cast<const std::uint32_t*>(pointer_of(counts, 0)) + count_index;
     launch(kernel, arguments, indirect_threads, count);
 }
@@ -148,7 +160,8 @@ void CudaDevice::wait() { check(cudaStreamSynchronize(stream_), "running kernels
 
 void CudaDevice::download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
     make_current();
-    check(cudaMemcpyAsync(data.data(), pointer_of(from, offset), data.size(), cudaMemcpyDeviceToHost, stream_),
+    check(cudaMemcpyAsync(data.data(), pointer_of(from, offset), data.size(),
+                          cudaMemcpyDeviceToHost, stream_),
           "downloading", info_.name);
     wait();
 }
@@ -167,7 +180,8 @@ cudaEvent_t CudaDevice::stamp() {
 }
 
 void CudaDevice::begin_stage(std::string_view name) {
-    auto found = std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.name == name; });
+    auto found = std::find_if(times_.begin(), times_.end(),
+                              [&](const StageTime& time) { return time.name == name; });
     if (found == times_.end()) {
         found = times_.insert(times_.end(), {std::string(name), 0, 0});
     }
@@ -191,7 +205,8 @@ void CudaDevice::collect() {
     for (const StageRun& run : runs_) {
         if (run.end != nullptr) {
             float milliseconds = 0;
-            check(cudaEventElapsedTime(&milliseconds, run.begin, run.end), "timing a stage", info_.name);
+            check(cudaEventElapsedTime(&milliseconds, run.begin, run.end), "timing a stage",
+                  info_.name);
             times_[run.stage].seconds += milliseconds * 1e-3;
             idle_events_.push_back(run.end);
         }
@@ -216,7 +231,8 @@ std::vector<DeviceInfo> list_devices(std::string& missing) {
     if (result != cudaSuccess) {
         cudaGetLastError();
         missing = result == cudaErrorInsufficientDriver
-                      ? "there is no NVIDIA driver, or it is older than CUDA " + std::to_string(CUDART_VERSION / 1000)
+                      ? "there is no NVIDIA driver, or it is older than CUDA " +
+                            std::to_string(CUDART_VERSION / 1000)
                       : fmt::format("CUDA says '{}'", cudaGetErrorString(result));
         return {};
     }
@@ -227,7 +243,8 @@ std::vector<DeviceInfo> list_devices(std::string& missing) {
         cudaDeviceProp properties{};
         DeviceInfo info;
         info.backend = "cuda";
-        if (const cudaError_t described = cudaGetDeviceProperties(&properties, i); described != cudaSuccess) {
+        if (const cudaError_t described = cudaGetDeviceProperties(&properties, i);
+            described != cudaSuccess) {
             cudaGetLastError();
             info.name = fmt::format("CUDA device {}", i);
             info.unsuitable = fmt::format("CUDA says '{}'", cudaGetErrorString(described));
@@ -235,13 +252,15 @@ std::vector<DeviceInfo> list_devices(std::string& missing) {
             continue;
         }
         info.name = properties.name;
-        info.driver = fmt::format("NVIDIA {}for CUDA {}.{}", driver_version(), driver / 1000, driver % 1000 / 10);
+        info.driver = fmt::format("NVIDIA {}for CUDA {}.{}", driver_version(), driver / 1000,
+                                  driver % 1000 / 10);
         info.api_version = fmt::format("{}.{}", CUDART_VERSION / 1000, CUDART_VERSION % 1000 / 10);
         info.kind = properties.integrated != 0 ? DeviceKind::integrated : DeviceKind::discrete;
         info.subgroup_size = static_cast<std::uint32_t>(properties.warpSize);
         info.features.timestamps = true;
         info.limits.memory = properties.totalGlobalMem;
-        info.limits.storage_range = std::min<std::uint64_t>(properties.totalGlobalMem, most_addressable);
+        info.limits.storage_range =
+            std::min<std::uint64_t>(properties.totalGlobalMem, most_addressable);
         info.limits.invocations = static_cast<std::uint32_t>(properties.maxThreadsPerBlock);
         info.limits.shared_memory = static_cast<std::uint32_t>(properties.sharedMemPerBlock);
         info.limits.storage_buffers = max_bindings;
@@ -249,8 +268,9 @@ std::vector<DeviceInfo> list_devices(std::string& missing) {
         constexpr int least_major = 7;
         constexpr int least_minor = 5;
         if (std::pair(properties.major, properties.minor) < std::pair(least_major, least_minor)) {
-            info.unsuitable = fmt::format("its compute capability is {}.{}, Argand needs {}.{}", properties.major,
-                                          properties.minor, least_major, least_minor);
+            info.unsuitable =
+                fmt::format("its compute capability is {}.{}, Argand needs {}.{}", properties.major,
+                            properties.minor, least_major, least_minor);
         }
         devices.push_back(std::move(info));
     }
@@ -260,6 +280,8 @@ std::vector<DeviceInfo> list_devices(std::string& missing) {
     return devices;
 }
 
-std::unique_ptr<Device> open(DeviceInfo info, int ordinal) { return std::make_unique<CudaDevice>(std::move(info), ordinal); }
+std::unique_ptr<Device> open(DeviceInfo info, int ordinal) {
+    return std::make_unique<CudaDevice>(std::move(info), ordinal);
+}
 
 } // namespace argand::cuda

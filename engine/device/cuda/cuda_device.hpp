@@ -16,13 +16,14 @@ void check(cudaError_t result, const std::string& doing, const std::string& devi
 struct CudaBuffer final : BufferStorage {
     void* pointer = nullptr;
     int device = 0;
-    std::uint64_t allocated = 0;        ///< bytes counted in the ledger
+    std::uint64_t allocated = 0; ///< bytes counted in the ledger
     std::shared_ptr<MemoryLedger> ledger;
 
     ~CudaBuffer() override;
 };
 
-/// CUDA's devices, in its own order; empty if there is no driver. `missing`: why there are none. Never throws.
+/// CUDA's devices, in its own order; empty if there is no driver. `missing`: why there are none.
+/// Never throws.
 std::vector<DeviceInfo> list_devices(std::string& missing);
 
 /// Runs the kernels' twins on an NVIDIA GPU, in the order of one stream.
@@ -37,9 +38,10 @@ public:
     void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
     void fill(const BufferView& to, std::uint32_t value) override;
     void copy(const BufferView& from, const BufferView& to) override;
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
-    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                           std::uint32_t count_index) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                           const Buffer& counts, std::uint32_t count_index) override;
     Primitives* primitives() override { return primitives_.get(); }
     void submit() override {}
     void wait() override;
@@ -48,7 +50,9 @@ public:
     void end_stage() override;
     std::vector<StageTime> stage_times() override;
     void reset_stage_times() override;
-    const std::map<std::string, MemoryUse>& memory_by_name() const override { return ledger_->by_name; }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override {
+        return ledger_->by_name;
+    }
     MemoryUse memory() const override { return ledger_->total; }
     std::vector<std::string> validation_messages() const override { return {}; }
 
@@ -56,7 +60,7 @@ private:
     /// Events around one run of a stage.
     struct StageRun {
         std::size_t stage;
-        cudaEvent_t begin, end;         ///< end: null if a fault came first
+        cudaEvent_t begin, end; ///< end: null if a fault came first
     };
 
     void make_current() const;

@@ -12,8 +12,7 @@ namespace argand::cuda {
 
 namespace {
 
-template <class T>
-T* pointer_of(const Buffer& buffer) {
+template <class T> T* pointer_of(const Buffer& buffer) {
     return static_cast<T*>(static_cast<CudaBuffer&>(*buffer.storage()).pointer);
 }
 
@@ -26,7 +25,9 @@ struct SegmentSum {
 struct ReadSegmentSum {
     const uint* in;
     const uint* heads;
-    __device__ SegmentSum operator()(std::uint64_t i) const { return {in[i], heads[i] != 0 ? 1u : 0u}; }
+    __device__ SegmentSum operator()(std::uint64_t i) const {
+        return {in[i], heads[i] != 0 ? 1u : 0u};
+    }
 };
 
 struct AddSegmentSums {
@@ -66,19 +67,23 @@ public:
     void scan(const Buffer& in, const Buffer& out, const Count& count, bool inclusive) override {
         const std::uint64_t n = number_of(count);
         with_storage("scanning", [&](void* storage, std::size_t& bytes) {
-            return inclusive
-                       ? cub::DeviceScan::InclusiveSum(storage, bytes, pointer_of<uint>(in), pointer_of<uint>(out), n, stream_)
-                       : cub::DeviceScan::ExclusiveSum(storage, bytes, pointer_of<uint>(in), pointer_of<uint>(out), n, stream_);
+            return inclusive ? cub::DeviceScan::InclusiveSum(storage, bytes, pointer_of<uint>(in),
+                                                             pointer_of<uint>(out), n, stream_)
+                             : cub::DeviceScan::ExclusiveSum(storage, bytes, pointer_of<uint>(in),
+                                                             pointer_of<uint>(out), n, stream_);
         });
     }
 
-    void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out, const Count& count) override {
+    void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out,
+                        const Count& count) override {
         const std::uint64_t n = number_of(count);
-        const auto from = thrust::make_transform_iterator(thrust::counting_iterator<std::uint64_t>(0),
-                                                          ReadSegmentSum{pointer_of<uint>(in), pointer_of<uint>(heads)});
+        const auto from = thrust::make_transform_iterator(
+            thrust::counting_iterator<std::uint64_t>(0),
+            ReadSegmentSum{pointer_of<uint>(in), pointer_of<uint>(heads)});
         const auto to = thrust::make_transform_output_iterator(pointer_of<uint>(out), OnlySum{});
         with_storage("scanning segments", [&](void* storage, std::size_t& bytes) {
-            return cub::DeviceScan::InclusiveScan(storage, bytes, from, to, AddSegmentSums{}, n, stream_);
+            return cub::DeviceScan::InclusiveScan(storage, bytes, from, to, AddSegmentSums{}, n,
+                                                  stream_);
         });
     }
 
@@ -88,19 +93,24 @@ public:
         const uint* from = pointer_of<uint>(in);
         uint* to = pointer_of<uint>(out) + out_index;
         with_storage("reducing", [&](void* storage, std::size_t& bytes) {
-            return op == reduce_op_min   ? cub::DeviceReduce::Min(storage, bytes, from, to, n, stream_)
-                   : op == reduce_op_max ? cub::DeviceReduce::Max(storage, bytes, from, to, n, stream_)
-                                         : cub::DeviceReduce::Sum(storage, bytes, from, to, n, stream_);
+            return op == reduce_op_min
+                       ? cub::DeviceReduce::Min(storage, bytes, from, to, n, stream_)
+                   : op == reduce_op_max
+                       ? cub::DeviceReduce::Max(storage, bytes, from, to, n, stream_)
+                       : cub::DeviceReduce::Sum(storage, bytes, from, to, n, stream_);
         });
     }
 
-    void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index, const Count& count) override {
+    void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index,
+                    const Count& count) override {
         const std::uint64_t n = number_of(count);
         constexpr float infinity = ::cuda::std::numeric_limits<float>::infinity();
-        const BoxRecord nothing{infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0};
+        const BoxRecord nothing{infinity,  infinity,  infinity,  0,
+                                -infinity, -infinity, -infinity, 0};
         with_storage("reducing boxes", [&](void* storage, std::size_t& bytes) {
             return cub::DeviceReduce::Reduce(storage, bytes, pointer_of<BoxRecord>(boxes),
-                                             pointer_of<BoxRecord>(out) + out_index, n, UniteBoxes{}, nothing, stream_);
+                                             pointer_of<BoxRecord>(out) + out_index, n,
+                                             UniteBoxes{}, nothing, stream_);
         });
     }
 
@@ -109,7 +119,8 @@ public:
         const std::uint64_t n = number_of(count);
         const auto kept = thrust::make_transform_iterator(pointer_of<uint>(flags), NotZero{});
         with_storage("compacting", [&](void* storage, std::size_t& bytes) {
-            return cub::DeviceSelect::Flagged(storage, bytes, pointer_of<uint>(values), kept, pointer_of<uint>(out),
+            return cub::DeviceSelect::Flagged(storage, bytes, pointer_of<uint>(values), kept,
+                                              pointer_of<uint>(out),
                                               pointer_of<uint>(counts) + count_index, n, stream_);
         });
     }
@@ -125,8 +136,7 @@ private:
     }
 
     /// Calls for the bytes of temporary storage, and again with them.
-    template <class Call>
-    void with_storage(const char* doing, const Call& call) {
+    template <class Call> void with_storage(const char* doing, const Call& call) {
         std::size_t bytes = 0;
         check(call(nullptr, bytes), doing, device_.info().name);
         const Buffer storage = device_.scratch("cub: temporary storage", bytes);
@@ -134,7 +144,8 @@ private:
     }
 
     template <class Key>
-    void sort_keys(const Buffer& keys, const Buffer& values, const Count& count, std::uint32_t bits) {
+    void sort_keys(const Buffer& keys, const Buffer& values, const Count& count,
+                   std::uint32_t bits) {
         const std::uint64_t n = number_of(count);
         if (n < 2) {
             return;
@@ -144,13 +155,16 @@ private:
         cub::DoubleBuffer<Key> key_sides(pointer_of<Key>(keys), pointer_of<Key>(other_keys));
         if (!values) {
             with_storage("sorting", [&](void* storage, std::size_t& bytes) {
-                return cub::DeviceRadixSort::SortKeys(storage, bytes, key_sides, n, 0, end_bit, stream_);
+                return cub::DeviceRadixSort::SortKeys(storage, bytes, key_sides, n, 0, end_bit,
+                                                      stream_);
             });
         } else {
             const Buffer other_values = device_.scratch("sort: values", n * sizeof(uint));
-            cub::DoubleBuffer<uint> value_sides(pointer_of<uint>(values), pointer_of<uint>(other_values));
+            cub::DoubleBuffer<uint> value_sides(pointer_of<uint>(values),
+                                                pointer_of<uint>(other_values));
             with_storage("sorting", [&](void* storage, std::size_t& bytes) {
-                return cub::DeviceRadixSort::SortPairs(storage, bytes, key_sides, value_sides, n, 0, end_bit, stream_);
+                return cub::DeviceRadixSort::SortPairs(storage, bytes, key_sides, value_sides, n, 0,
+                                                       end_bit, stream_);
             });
             if (value_sides.Current() != pointer_of<uint>(values)) {
                 device_.copy(BufferView(other_values, 0, n * sizeof(uint)), values);

@@ -19,7 +19,9 @@ constexpr std::uint64_t chunk = 64;
 
 HostBuffer& host(const Buffer& buffer) { return static_cast<HostBuffer&>(*buffer.storage()); }
 
-std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size : view.buffer->size() - view.offset; }
+std::uint64_t size_of(const BufferView& view) {
+    return view.size > 0 ? view.size : view.buffer->size() - view.offset;
+}
 
 TwinArguments twin_arguments(const KernelArguments& arguments) {
     TwinArguments result;
@@ -34,7 +36,8 @@ TwinArguments twin_arguments(const KernelArguments& arguments) {
 } // namespace
 
 std::span<std::uint32_t> words_of(const BufferView& view) {
-    return {reinterpret_cast<std::uint32_t*>(host(*view.buffer).bytes + view.offset), size_of(view) / sizeof(std::uint32_t)};
+    return {reinterpret_cast<std::uint32_t*>(host(*view.buffer).bytes + view.offset),
+            size_of(view) / sizeof(std::uint32_t)};
 }
 
 DeviceInfo describe() {
@@ -92,7 +95,8 @@ void HostDevice::copy(const BufferView& from, const BufferView& to) {
                  std::min(size_of(from), size_of(to)));
 }
 
-void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
+void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                          std::uint64_t threads) {
     if (kernel.host == nullptr) {
         fail("running kernel {}: it has no twin for backend cpu; please report this", kernel.name);
     }
@@ -106,10 +110,11 @@ void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& argum
     }
 }
 
-void HostDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                                   std::uint32_t count_index) {
+void HostDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                                   const Buffer& counts, std::uint32_t count_index) {
     std::uint32_t threads = 0;
-    std::memcpy(&threads, host(counts).bytes + count_index * sizeof(std::uint32_t), sizeof(threads));
+    std::memcpy(&threads, host(counts).bytes + count_index * sizeof(std::uint32_t),
+                sizeof(threads));
     dispatch(kernel, arguments, threads);
 }
 
@@ -127,7 +132,8 @@ void HostDevice::end_stage() {
         return;
     }
     const double spent = seconds_since(stage_start_);
-    auto found = std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.name == stage_; });
+    auto found = std::find_if(times_.begin(), times_.end(),
+                              [&](const StageTime& time) { return time.name == stage_; });
     if (found == times_.end()) {
         found = times_.insert(times_.end(), {stage_, 0, 0});
     }

@@ -12,7 +12,7 @@ namespace argand::host {
 /// Memory of the host, aligned to a cache line.
 struct HostBuffer final : BufferStorage {
     std::byte* bytes = nullptr;
-    std::uint64_t allocated = 0;        ///< bytes counted in the ledger
+    std::uint64_t allocated = 0; ///< bytes counted in the ledger
     std::shared_ptr<MemoryLedger> ledger;
 
     ~HostBuffer() override;
@@ -34,9 +34,10 @@ public:
     void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
     void fill(const BufferView& to, std::uint32_t value) override;
     void copy(const BufferView& from, const BufferView& to) override;
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
-    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                           std::uint32_t count_index) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                           const Buffer& counts, std::uint32_t count_index) override;
     Primitives* primitives() override { return &primitives_; }
     void submit() override {}
     void wait() override {}
@@ -45,7 +46,9 @@ public:
     void end_stage() override;
     std::vector<StageTime> stage_times() override { return times_; }
     void reset_stage_times() override { times_.clear(); }
-    const std::map<std::string, MemoryUse>& memory_by_name() const override { return ledger_->by_name; }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override {
+        return ledger_->by_name;
+    }
     MemoryUse memory() const override { return ledger_->total; }
     std::vector<std::string> validation_messages() const override { return {}; }
 

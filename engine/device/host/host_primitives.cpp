@@ -18,18 +18,18 @@ namespace argand::host {
 
 namespace {
 
-template <class T>
-std::span<T> elements(const Buffer& buffer, std::uint64_t count) {
+template <class T> std::span<T> elements(const Buffer& buffer, std::uint64_t count) {
     return {reinterpret_cast<T*>(static_cast<HostBuffer&>(*buffer.storage()).bytes), count};
 }
 
 std::uint64_t number_of(const Count& count) {
-    return count.on_device() ? std::min<std::uint64_t>(elements<uint>(count.buffer, count.index + 1)[count.index], count.bound)
-                             : count.bound;
+    return count.on_device()
+               ? std::min<std::uint64_t>(elements<uint>(count.buffer, count.index + 1)[count.index],
+                                         count.bound)
+               : count.bound;
 }
 
-template <class Elements, class Less>
-void stable_sort(Elements& elements, Less less) {
+template <class Elements, class Less> void stable_sort(Elements& elements, Less less) {
 #ifdef __GLIBCXX__
     __gnu_parallel::stable_sort(elements.begin(), elements.end(), less);
 #else
@@ -38,8 +38,7 @@ void stable_sort(Elements& elements, Less less) {
 }
 
 /// Sorts by the lowest bits of keys of type Key.
-template <class Key>
-void sort_pairs(std::span<Key> keys, std::span<uint> values, Key mask) {
+template <class Key> void sort_pairs(std::span<Key> keys, std::span<uint> values, Key mask) {
     struct Pair {
         Key key;
         uint value;
@@ -48,32 +47,35 @@ void sort_pairs(std::span<Key> keys, std::span<uint> values, Key mask) {
     for (std::size_t i = 0; i < keys.size(); ++i) {
         pairs[i] = {keys[i], values[i]};
     }
-    stable_sort(pairs, [mask](const Pair& a, const Pair& b) { return (a.key & mask) < (b.key & mask); });
+    stable_sort(pairs,
+                [mask](const Pair& a, const Pair& b) { return (a.key & mask) < (b.key & mask); });
     for (std::size_t i = 0; i < keys.size(); ++i) {
         keys[i] = pairs[i].key;
         values[i] = pairs[i].value;
     }
 }
 
-template <class Key>
-Key lowest_bits(std::uint32_t bits) {
+template <class Key> Key lowest_bits(std::uint32_t bits) {
     constexpr std::uint32_t all = std::numeric_limits<Key>::digits;
     return bits >= all ? std::numeric_limits<Key>::max() : static_cast<Key>((Key(1) << bits) - 1);
 }
 
 } // namespace
 
-void HostPrimitives::sort(const Buffer& keys, const Buffer& values, const Count& count, std::uint32_t bits,
-                          std::uint32_t key_words) {
+void HostPrimitives::sort(const Buffer& keys, const Buffer& values, const Count& count,
+                          std::uint32_t bits, std::uint32_t key_words) {
     const std::uint64_t n = number_of(count);
     if (key_words == 2) {
         // A low word before a high one, as on all hosts that Vulkan knows, is a 64-bit word.
-        sort_pairs(elements<std::uint64_t>(keys, n), elements<uint>(values, n), lowest_bits<std::uint64_t>(bits));
+        sort_pairs(elements<std::uint64_t>(keys, n), elements<uint>(values, n),
+                   lowest_bits<std::uint64_t>(bits));
     } else if (values) {
         sort_pairs(elements<uint>(keys, n), elements<uint>(values, n), lowest_bits<uint>(bits));
     } else {
         std::span<uint> all = elements<uint>(keys, n);
-        stable_sort(all, [mask = lowest_bits<uint>(bits)](uint a, uint b) { return (a & mask) < (b & mask); });
+        stable_sort(all, [mask = lowest_bits<uint>(bits)](uint a, uint b) {
+            return (a & mask) < (b & mask);
+        });
     }
 }
 
@@ -87,7 +89,8 @@ void HostPrimitives::scan(const Buffer& in, const Buffer& out, const Count& coun
     }
 }
 
-void HostPrimitives::segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out, const Count& count) {
+void HostPrimitives::segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out,
+                                    const Count& count) {
     const std::span<const uint> from = elements<const uint>(in, number_of(count));
     const std::span<const uint> head = elements<const uint>(heads, from.size());
     const std::span<uint> to = elements<uint>(out, from.size());
@@ -98,8 +101,8 @@ void HostPrimitives::segmented_scan(const Buffer& in, const Buffer& heads, const
     }
 }
 
-void HostPrimitives::reduce(const Buffer& in, const Buffer& out, std::uint32_t out_index, const Count& count,
-                            std::uint32_t op) {
+void HostPrimitives::reduce(const Buffer& in, const Buffer& out, std::uint32_t out_index,
+                            const Count& count, std::uint32_t op) {
     const std::span<const uint> from = elements<const uint>(in, number_of(count));
     uint result = 0;
     switch (op) {
@@ -115,7 +118,8 @@ void HostPrimitives::reduce(const Buffer& in, const Buffer& out, std::uint32_t o
     elements<uint>(out, out_index + 1)[out_index] = result;
 }
 
-void HostPrimitives::reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index, const Count& count) {
+void HostPrimitives::reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index,
+                                const Count& count) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     BoxRecord all{infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0};
     for (const BoxRecord& box : elements<const BoxRecord>(boxes, number_of(count))) {
@@ -129,8 +133,8 @@ void HostPrimitives::reduce_box(const Buffer& boxes, const Buffer& out, std::uin
     elements<BoxRecord>(out, out_index + 1)[out_index] = all;
 }
 
-void HostPrimitives::compact(const Buffer& flags, const Buffer& values, const Buffer& out, const Buffer& counts,
-                             std::uint32_t count_index, const Count& count) {
+void HostPrimitives::compact(const Buffer& flags, const Buffer& values, const Buffer& out,
+                             const Buffer& counts, std::uint32_t count_index, const Count& count) {
     const std::uint64_t n = number_of(count);
     const std::span<const uint> flag = elements<const uint>(flags, n);
     const std::span<const uint> from = elements<const uint>(values, n);

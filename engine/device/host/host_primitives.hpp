@@ -10,10 +10,12 @@ public:
     void sort(const Buffer& keys, const Buffer& values, const Count& count, std::uint32_t bits,
               std::uint32_t key_words) override;
     void scan(const Buffer& in, const Buffer& out, const Count& count, bool inclusive) override;
-    void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out, const Count& count) override;
+    void segmented_scan(const Buffer& in, const Buffer& heads, const Buffer& out,
+                        const Count& count) override;
     void reduce(const Buffer& in, const Buffer& out, std::uint32_t out_index, const Count& count,
                 std::uint32_t op) override;
-    void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index, const Count& count) override;
+    void reduce_box(const Buffer& boxes, const Buffer& out, std::uint32_t out_index,
+                    const Count& count) override;
     void compact(const Buffer& flags, const Buffer& values, const Buffer& out, const Buffer& counts,
                  std::uint32_t count_index, const Count& count) override;
 };

@@ -8,7 +8,8 @@ namespace argand::vulkan {
 
 std::vector<std::string> device_extensions(VkPhysicalDevice physical) {
     std::uint32_t count = 0;
-    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), "listing device extensions");
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr),
+          "listing device extensions");
     std::vector<VkExtensionProperties> properties(count);
     check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, properties.data()),
           "listing device extensions");
@@ -42,11 +43,16 @@ namespace {
 
 DeviceKind kind_of(VkPhysicalDeviceType type) {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return DeviceKind::discrete;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return DeviceKind::integrated;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return DeviceKind::virtual_gpu;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return DeviceKind::cpu;
-    default: return DeviceKind::other;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return DeviceKind::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return DeviceKind::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return DeviceKind::virtual_gpu;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return DeviceKind::cpu;
+    default:
+        return DeviceKind::other;
     }
 }
 
@@ -65,7 +71,8 @@ std::uint64_t largest_local_heap(VkPhysicalDevice physical) {
 } // namespace
 
 DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
-    VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceSubgroupProperties subgroup{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &subgroup;
@@ -83,30 +90,34 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
     info.index = index;
     info.name = basic.deviceName;
     info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
-    info.api_version = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(basic.apiVersion),
-                                   VK_API_VERSION_MINOR(basic.apiVersion), VK_API_VERSION_PATCH(basic.apiVersion));
+    info.api_version =
+        fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(basic.apiVersion),
+                    VK_API_VERSION_MINOR(basic.apiVersion), VK_API_VERSION_PATCH(basic.apiVersion));
     info.kind = kind_of(basic.deviceType);
     info.subgroup_size = std::max(subgroup.subgroupSize, 1u);
 
-    constexpr VkSubgroupFeatureFlags needed =
-        VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    constexpr VkSubgroupFeatureFlags needed = VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
+                                              VK_SUBGROUP_FEATURE_BALLOT_BIT |
+                                              VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
     const std::vector<std::string> extensions = device_extensions(physical);
     info.features.subgroups = (subgroup.supportedOperations & needed) == needed &&
                               (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
     info.features.push_descriptors =
-        std::find(extensions.begin(), extensions.end(), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) != extensions.end();
+        std::find(extensions.begin(), extensions.end(), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) !=
+        extensions.end();
     info.features.timestamps = basic.limits.timestampComputeAndGraphics;
     info.features.lane_serial = info.kind == DeviceKind::cpu;
 
     info.limits.storage_range = basic.limits.maxStorageBufferRange;
     info.limits.memory = largest_local_heap(physical);
-    info.limits.invocations =
-        std::min(basic.limits.maxComputeWorkGroupInvocations, basic.limits.maxComputeWorkGroupSize[0]);
+    info.limits.invocations = std::min(basic.limits.maxComputeWorkGroupInvocations,
+                                       basic.limits.maxComputeWorkGroupSize[0]);
     info.limits.shared_memory = basic.limits.maxComputeSharedMemorySize;
-    info.limits.storage_buffers =
-        std::min(basic.limits.maxPerStageDescriptorStorageBuffers, basic.limits.maxDescriptorSetStorageBuffers);
+    info.limits.storage_buffers = std::min(basic.limits.maxPerStageDescriptorStorageBuffers,
+                                           basic.limits.maxDescriptorSetStorageBuffers);
     info.limits.texels = basic.limits.maxTexelBufferElements;
-    info.limits.groups = std::min({basic.limits.maxComputeWorkGroupCount[0], basic.limits.maxComputeWorkGroupCount[1],
+    info.limits.groups = std::min({basic.limits.maxComputeWorkGroupCount[0],
+                                   basic.limits.maxComputeWorkGroupCount[1],
                                    basic.limits.maxComputeWorkGroupCount[2]});
 
     if (basic.apiVersion < VK_API_VERSION_1_2) {

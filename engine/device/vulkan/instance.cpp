@@ -29,8 +29,9 @@ bool has_layer(const char* name) {
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
+    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
 }
 
 bool has_instance_extension(const char* name) {
@@ -38,12 +39,14 @@ bool has_instance_extension(const char* name) {
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, name) == 0;
-    });
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const VkExtensionProperties& extension) {
+                           return std::strcmp(extension.extensionName, name) == 0;
+                       });
 }
 
-/// Of the whole process: an instance gives messages until it is destroyed, and there may be several in turn.
+/// Of the whole process: an instance gives messages until it is destroyed, and there may be several
+/// in turn.
 ValidationLog& process_log() {
     static ValidationLog log;
     return log;
@@ -54,8 +57,10 @@ void append(ValidationLog& log, const char* message) {
     log.messages.emplace_back(message);
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* log) {
     append(*static_cast<ValidationLog*>(log), data->pMessage);
     append(process_log(), data->pMessage);
     return VK_FALSE;
@@ -65,13 +70,15 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 
 Instance::Instance() {
     if (const std::filesystem::path cache = cache_directory(); !cache.empty()) {
-        // Mesa keeps compiled shaders in a cache of its own; beside ours they are found and cleared together.
-        std::error_code unwritable;     // then Mesa keeps none
+        // Mesa keeps compiled shaders in a cache of its own; beside ours they are found and cleared
+        // together.
+        std::error_code unwritable; // then Mesa keeps none
         std::filesystem::create_directories(cache, unwritable);
         set_default_environment("MESA_SHADER_CACHE_DIR", (cache / "mesa").string());
     }
     if (volkInitialize() != VK_SUCCESS) {
-        fail("starting Vulkan: no Vulkan loader was found; install libvulkan1 and a driver, for instance "
+        fail("starting Vulkan: no Vulkan loader was found; install libvulkan1 and a driver, for "
+             "instance "
              "mesa-vulkan-drivers");
     }
     if (volkGetInstanceVersion() < VK_API_VERSION_1_2) {
@@ -81,14 +88,16 @@ Instance::Instance() {
 
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
-    VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
-    messenger.messageSeverity =
-        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    messenger.messageType =
-        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    VkDebugUtilsMessengerCreateInfoEXT messenger{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     messenger.pfnUserCallback = on_message;
     messenger.pUserData = &validation_;
-    const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeatureEnableEXT synchronization =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
@@ -122,7 +131,8 @@ Instance::Instance() {
     volkLoadInstance(instance_);
     if (validate) {
         messenger.pNext = nullptr;
-        check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_), "starting validation");
+        check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+              "starting validation");
     }
 }
 

@@ -16,7 +16,8 @@ struct ValidationLog {
     std::vector<std::string> messages;
 };
 
-/// The Vulkan loader, an instance, and validation where it is on. Shared by all devices of the process.
+/// The Vulkan loader, an instance, and validation where it is on. Shared by all devices of the
+/// process.
 class Instance {
 public:
     /// Throws Error if there is no loader or no Vulkan 1.2.
@@ -44,8 +45,8 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index);
 /// Names of the extensions that a physical device offers.
 std::vector<std::string> device_extensions(VkPhysicalDevice physical);
 
-/// Index of the queue family to compute on: one without graphics is not preferred, for its queues can be slower to
-/// start. UINT32_MAX if there is none.
+/// Index of the queue family to compute on: one without graphics is not preferred, for its queues
+/// can be slower to start. UINT32_MAX if there is none.
 std::uint32_t compute_queue_family(VkPhysicalDevice physical);
 
 } // namespace argand::vulkan

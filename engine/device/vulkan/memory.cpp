@@ -9,14 +9,16 @@ namespace argand::vulkan {
 
 namespace {
 
-/// Index of the memory type with the wanted properties, or with the required ones alone; UINT32_MAX if there is none.
-std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed, VkMemoryPropertyFlags required,
-                          VkMemoryPropertyFlags wanted) {
+/// Index of the memory type with the wanted properties, or with the required ones alone; UINT32_MAX
+/// if there is none.
+std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed,
+                          VkMemoryPropertyFlags required, VkMemoryPropertyFlags wanted) {
     VkPhysicalDeviceMemoryProperties properties;
     vkGetPhysicalDeviceMemoryProperties(physical, &properties);
     for (const VkMemoryPropertyFlags flags : {required | wanted, required}) {
         for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
-            if ((allowed & (1u << i)) && (properties.memoryTypes[i].propertyFlags & flags) == flags) {
+            if ((allowed & (1u << i)) &&
+                (properties.memoryTypes[i].propertyFlags & flags) == flags) {
                 return i;
             }
         }
@@ -48,24 +50,28 @@ VkBufferView VulkanBuffer::texels(std::uint64_t offset, std::uint64_t bytes) {
     if (!view) {
         VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
         create.buffer = buffer;
-        create.format = VK_FORMAT_R32G32B32A32_UINT;    // every device has it for such buffers
+        create.format = VK_FORMAT_R32G32B32A32_UINT; // every device has it for such buffers
         create.offset = offset;
         create.range = bytes / 16 * 16;
-        check(vkCreateBufferView(device->handle, &create, nullptr, &view), "creating a view of a buffer");
+        check(vkCreateBufferView(device->handle, &create, nullptr, &view),
+              "creating a view of a buffer");
     }
     return view;
 }
 
-std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const std::shared_ptr<LogicalDevice>& device,
-                                              const std::shared_ptr<MemoryLedger>& ledger, std::string name,
-                                              std::uint64_t bytes, MemoryKind kind) {
+std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
+                                              const std::shared_ptr<LogicalDevice>& device,
+                                              const std::shared_ptr<MemoryLedger>& ledger,
+                                              std::string name, std::uint64_t bytes,
+                                              MemoryKind kind) {
     auto storage = std::make_shared<VulkanBuffer>();
     storage->name = std::move(name);
     storage->size = bytes;
     storage->device = device;
     storage->ledger = ledger;
 
-    // Buffers of no elements are bound too, and Vulkan has none of size 0; kernels read fours of 32-bit words.
+    // Buffers of no elements are bound too, and Vulkan has none of size 0; kernels read fours of
+    // 32-bit words.
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     create.usage = kind == MemoryKind::device
@@ -81,11 +87,13 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const s
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const std::uint32_t type =
         kind == MemoryKind::device
-            ? memory_type(physical, requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
+            ? memory_type(physical, requirements.memoryTypeBits, 0,
+                          VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
             : memory_type(physical, requirements.memoryTypeBits, host,
                           kind == MemoryKind::download ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : 0);
     if (type == UINT32_MAX) {
-        fail("allocating '{}': the device has no memory of the kind needed; try another with --device",
+        fail("allocating '{}': the device has no memory of the kind needed; try another with "
+             "--device",
              storage->name);
     }
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
@@ -96,10 +104,12 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const s
         fail_out_of_memory(*ledger, storage->name, bytes);
     }
     check(result, "allocating memory");
-    check(vkBindBufferMemory(device->handle, storage->buffer, storage->memory, 0), "binding memory");
+    check(vkBindBufferMemory(device->handle, storage->buffer, storage->memory, 0),
+          "binding memory");
     if (kind != MemoryKind::device) {
         void* mapped = nullptr;
-        check(vkMapMemory(device->handle, storage->memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping memory");
+        check(vkMapMemory(device->handle, storage->memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+              "mapping memory");
         storage->mapped = static_cast<std::byte*>(mapped);
     }
     storage->allocated = requirements.size;

@@ -11,7 +11,8 @@
 
 namespace argand::vulkan {
 
-/// Owner of the VkDevice; buffers share it, so that they may outlive the Device that allocated them.
+/// Owner of the VkDevice; buffers share it, so that they may outlive the Device that allocated
+/// them.
 struct LogicalDevice {
     std::shared_ptr<Instance> instance;
     VkDevice handle = VK_NULL_HANDLE;
@@ -25,8 +26,8 @@ struct VulkanBuffer final : BufferStorage {
     std::shared_ptr<LogicalDevice> device;
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    std::byte* mapped = nullptr;        ///< upload and download buffers only
-    std::uint64_t allocated = 0;        ///< bytes counted in the ledger
+    std::byte* mapped = nullptr; ///< upload and download buffers only
+    std::uint64_t allocated = 0; ///< bytes counted in the ledger
     std::shared_ptr<MemoryLedger> ledger;
     std::map<std::pair<std::uint64_t, std::uint64_t>, VkBufferView> views; ///< by offset and size
 
@@ -37,8 +38,10 @@ struct VulkanBuffer final : BufferStorage {
 };
 
 /// Throws Error if the device has not got the memory.
-std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical, const std::shared_ptr<LogicalDevice>& device,
-                                              const std::shared_ptr<MemoryLedger>& ledger, std::string name,
-                                              std::uint64_t bytes, MemoryKind kind);
+std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
+                                              const std::shared_ptr<LogicalDevice>& device,
+                                              const std::shared_ptr<MemoryLedger>& ledger,
+                                              std::string name, std::uint64_t bytes,
+                                              MemoryKind kind);
 
 } // namespace argand::vulkan

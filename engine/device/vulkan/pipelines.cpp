@@ -19,10 +19,12 @@ std::filesystem::path cache_file_of(const VkPhysicalDeviceProperties& properties
     for (const std::uint8_t byte : properties.pipelineCacheUUID) {
         id += fmt::format("{:02x}", byte);
     }
-    return directory / fmt::format("pipelines-{:x}-{:x}-{}.bin", properties.vendorID, properties.deviceID, id);
+    return directory /
+           fmt::format("pipelines-{:x}-{:x}-{}.bin", properties.vendorID, properties.deviceID, id);
 }
 
-/// The cache is only a help: a file that cannot be read counts as empty, and drivers reject one that is not theirs.
+/// The cache is only a help: a file that cannot be read counts as empty, and drivers reject one
+/// that is not theirs.
 std::vector<std::uint8_t> read_if_there(const std::filesystem::path& file) {
     try {
         return read_file(file);
@@ -33,7 +35,8 @@ std::vector<std::uint8_t> read_if_there(const std::filesystem::path& file) {
 
 } // namespace
 
-Pipelines::Pipelines(VkDevice device, bool push_descriptors, const VkPhysicalDeviceProperties& properties)
+Pipelines::Pipelines(VkDevice device, bool push_descriptors,
+                     const VkPhysicalDeviceProperties& properties)
     : device_(device), push_descriptors_(push_descriptors), cache_file_(cache_file_of(properties)) {
     const std::vector<std::uint8_t> data = read_if_there(cache_file_);
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
@@ -84,15 +87,18 @@ VkDescriptorSetLayout Pipelines::set_layout(Slots slots) {
     if (!layout) {
         std::vector<VkDescriptorSetLayoutBinding> bindings(slots.count);
         for (std::uint32_t i = 0; i < slots.count; ++i) {
-            const VkDescriptorType type = (slots.texels >> i & 1) != 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                                                       : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+            const VkDescriptorType type = (slots.texels >> i & 1) != 0
+                                              ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                              : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
             bindings[i] = {i, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
         }
         VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-        create.flags = push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
+        create.flags =
+            push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
         create.bindingCount = slots.count;
         create.pBindings = bindings.data();
-        check(vkCreateDescriptorSetLayout(device_, &create, nullptr, &layout), "creating a descriptor set layout");
+        check(vkCreateDescriptorSetLayout(device_, &create, nullptr, &layout),
+              "creating a descriptor set layout");
     }
     return layout;
 }
@@ -107,7 +113,8 @@ VkPipelineLayout Pipelines::pipeline_layout(Slots slots, std::uint32_t push_byte
         create.pSetLayouts = &set;
         create.pushConstantRangeCount = push_bytes > 0 ? 1 : 0;
         create.pPushConstantRanges = &range;
-        check(vkCreatePipelineLayout(device_, &create, nullptr, &layout), "creating a pipeline layout");
+        check(vkCreatePipelineLayout(device_, &create, nullptr, &layout),
+              "creating a pipeline layout");
     }
     return layout;
 }
@@ -125,8 +132,9 @@ const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& 
     for (std::uint32_t i = 0; i < arguments.constant_count; ++i) {
         entries.push_back({kernel.constants[i].id, i * 4, 4});
     }
-    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              arguments.constant_count * 4, arguments.constants.data()};
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
+                                              entries.data(), arguments.constant_count * 4,
+                                              arguments.constants.data()};
 
     VkShaderModuleCreateInfo module_create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     module_create.codeSize = kernel.spirv.size_bytes();
@@ -147,7 +155,8 @@ const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& 
     create.stage.pName = "main";
     create.stage.pSpecializationInfo = &specialization;
     create.layout = pipeline.layout;
-    const VkResult result = vkCreateComputePipelines(device_, cache_, 1, &create, nullptr, &pipeline.pipeline);
+    const VkResult result =
+        vkCreateComputePipelines(device_, cache_, 1, &create, nullptr, &pipeline.pipeline);
     vkDestroyShaderModule(device_, module, nullptr);
     check(result, doing);
     return pipeline;

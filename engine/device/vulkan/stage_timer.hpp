@@ -14,14 +14,16 @@ struct StageQueries {
     static constexpr std::uint32_t capacity = 512;
 
     VkQueryPool pool = VK_NULL_HANDLE;
-    std::vector<std::size_t> stages;    ///< stage of each pair
+    std::vector<std::size_t> stages; ///< stage of each pair
     std::uint32_t used = 0;
 };
 
-/// Sums GPU time by stage. A stage that is open when commands are submitted goes on in the next submission.
+/// Sums GPU time by stage. A stage that is open when commands are submitted goes on in the next
+/// submission.
 class StageTimer {
 public:
-    StageTimer(VkDevice device, bool enabled, double nanoseconds_per_tick, std::uint32_t valid_bits);
+    StageTimer(VkDevice device, bool enabled, double nanoseconds_per_tick,
+               std::uint32_t valid_bits);
 
     void reset(StageQueries& queries, VkCommandBuffer commands) const;
     void begin(std::string_view name);

@@ -14,15 +14,18 @@ namespace {
 constexpr std::size_t max_in_flight = 4;
 constexpr std::uint32_t indirect_slots = 1024;
 constexpr std::uint64_t indirect_slot_bytes = 16;
-constexpr std::uint64_t inline_upload_bytes = 65536;    // the most vkCmdUpdateBuffer takes
+constexpr std::uint64_t inline_upload_bytes = 65536; // the most vkCmdUpdateBuffer takes
 
 VulkanBuffer& vulkan(const Buffer& buffer) { return static_cast<VulkanBuffer&>(*buffer.storage()); }
 
-std::uint64_t size_of(const BufferView& view) { return view.size > 0 ? view.size : view.buffer->size() - view.offset; }
+std::uint64_t size_of(const BufferView& view) {
+    return view.size > 0 ? view.size : view.buffer->size() - view.offset;
+}
 
 } // namespace
 
-VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice physical, DeviceInfo info)
+VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice physical,
+                           DeviceInfo info)
     : instance_(std::move(instance)), physical_(physical), info_(std::move(info)),
       device_(std::make_shared<LogicalDevice>()) {
     device_->instance = instance_;
@@ -38,7 +41,8 @@ VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice 
         extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     }
     const std::vector<std::string> offered = device_extensions(physical_);
-    constexpr const char* portability = "VK_KHR_portability_subset";    // must be enabled where it is offered
+    constexpr const char* portability =
+        "VK_KHR_portability_subset"; // must be enabled where it is offered
     if (std::find(offered.begin(), offered.end(), portability) != offered.end()) {
         extensions.push_back(portability);
     }
@@ -53,7 +57,8 @@ VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice 
 
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical_, &properties);
-    pipelines_ = std::make_unique<Pipelines>(device_->handle, info_.features.push_descriptors, properties);
+    pipelines_ =
+        std::make_unique<Pipelines>(device_->handle, info_.features.push_descriptors, properties);
 
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
@@ -80,12 +85,14 @@ Submission VulkanDevice::make_submission() {
     Submission submission;
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = queue_family_;
-    check(vkCreateCommandPool(device_->handle, &pool, nullptr, &submission.command_pool), "creating a command pool");
+    check(vkCreateCommandPool(device_->handle, &pool, nullptr, &submission.command_pool),
+          "creating a command pool");
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = submission.command_pool;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device_->handle, &allocate, &submission.commands), "allocating a command buffer");
+    check(vkAllocateCommandBuffers(device_->handle, &allocate, &submission.commands),
+          "allocating a command buffer");
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device_->handle, &fence, nullptr, &submission.fence), "creating a fence");
     return submission;
@@ -110,7 +117,8 @@ VkCommandBuffer VulkanDevice::commands() {
     } else {
         recording_ = std::move(idle_.back());
         idle_.pop_back();
-        check(vkResetCommandPool(device_->handle, recording_->command_pool, 0), "resetting a command pool");
+        check(vkResetCommandPool(device_->handle, recording_->command_pool, 0),
+              "resetting a command pool");
         check(vkResetFences(device_->handle, 1, &recording_->fence), "resetting a fence");
     }
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -125,21 +133,27 @@ VkCommandBuffer VulkanDevice::commands() {
 
 Buffer VulkanDevice::allocate(std::string name, std::uint64_t bytes) {
     check_allocation(info_, *ledger_, name, bytes);
-    return Buffer(allocate_buffer(physical_, device_, ledger_, std::move(name), bytes, MemoryKind::device));
+    return Buffer(
+        allocate_buffer(physical_, device_, ledger_, std::move(name), bytes, MemoryKind::device));
 }
 
 void VulkanDevice::barrier_for(std::span<const Use> uses) {
     const VkCommandBuffer recording = commands();
-    if (std::any_of(uses.begin(), uses.end(),
-                    [&](const Use& use) { return hazards_.conflicts(*use.buffer->storage(), use.access); })) {
+    if (std::any_of(uses.begin(), uses.end(), [&](const Use& use) {
+            return hazards_.conflicts(*use.buffer->storage(), use.access);
+        })) {
         VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
         barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-        barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                                VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
-        constexpr VkPipelineStageFlags work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-        // Indirect counts are read by a stage of their own: it is waited for as well, for the next may overwrite them.
+        barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
+                                VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+        constexpr VkPipelineStageFlags work =
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+        // Indirect counts are read by a stage of their own: it is waited for as well, for the next
+        // may overwrite them.
         vkCmdPipelineBarrier(recording, work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                             work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+                             work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &barrier, 0, nullptr,
+                             0, nullptr);
         hazards_.barrier();
     }
     for (const Use& use : uses) {
@@ -158,8 +172,8 @@ void VulkanDevice::upload(const Buffer& to, std::uint64_t offset, std::span<cons
         vkCmdUpdateBuffer(commands(), vulkan(to).buffer, offset, data.size(), data.data());
         return;
     }
-    const std::shared_ptr<VulkanBuffer> staging =
-        allocate_buffer(physical_, device_, ledger_, "upload staging", data.size(), MemoryKind::upload);
+    const std::shared_ptr<VulkanBuffer> staging = allocate_buffer(
+        physical_, device_, ledger_, "upload staging", data.size(), MemoryKind::upload);
     std::memcpy(staging->mapped, data.data(), data.size());
     barrier_for({&use, 1});
     const VkBufferCopy region{0, offset, data.size()};
@@ -181,7 +195,8 @@ void VulkanDevice::copy(const BufferView& from, const BufferView& to) {
     const VkBufferCopy region{from.offset, to.offset, std::min(size_of(from), size_of(to))};
     if (region.size > 0) {
         barrier_for(uses);
-        vkCmdCopyBuffer(commands(), vulkan(*from.buffer).buffer, vulkan(*to.buffer).buffer, 1, &region);
+        vkCmdCopyBuffer(commands(), vulkan(*from.buffer).buffer, vulkan(*to.buffer).buffer, 1,
+                        &region);
     }
 }
 
@@ -197,7 +212,8 @@ VkDescriptorSet VulkanDevice::allocate_set(VkDescriptorSetLayout layout) {
         create.poolSizeCount = sizes.size();
         create.pPoolSizes = sizes.data();
         VkDescriptorPool pool = VK_NULL_HANDLE;
-        check(vkCreateDescriptorPool(device_->handle, &create, nullptr, &pool), "creating a descriptor pool");
+        check(vkCreateDescriptorPool(device_->handle, &create, nullptr, &pool),
+              "creating a descriptor pool");
         recording_->descriptor_pools.push_back(pool);
         recording_->descriptor_sets_left = sets_a_pool;
     }
@@ -206,29 +222,34 @@ VkDescriptorSet VulkanDevice::allocate_set(VkDescriptorSetLayout layout) {
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    check(vkAllocateDescriptorSets(device_->handle, &allocate, &set), "allocating a descriptor set");
+    check(vkAllocateDescriptorSets(device_->handle, &allocate, &set),
+          "allocating a descriptor set");
     --recording_->descriptor_sets_left;
     return set;
 }
 
 void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& arguments) {
     if (kernel.uses_subgroups && !info_.features.subgroups) {
-        fail("running kernel {}: it uses subgroups, which '{}' lacks or ARGAND_DISABLE turned off; please report this",
+        fail("running kernel {}: it uses subgroups, which '{}' lacks or ARGAND_DISABLE turned off; "
+             "please report this",
              kernel.name, info_.name);
     }
     if (arguments.buffer_count > info_.limits.storage_buffers ||
-        kernel.local_size[0] * kernel.local_size[1] * kernel.local_size[2] > info_.limits.invocations) {
-        fail("running kernel {}: it needs {} storage buffers and {} invocations a group, '{}' allows {} and {}; try "
+        kernel.local_size[0] * kernel.local_size[1] * kernel.local_size[2] >
+            info_.limits.invocations) {
+        fail("running kernel {}: it needs {} storage buffers and {} invocations a group, '{}' "
+             "allows {} and {}; try "
              "another device with --device",
-             kernel.name, arguments.buffer_count, kernel.local_size[0], info_.name, info_.limits.storage_buffers,
-             info_.limits.invocations);
+             kernel.name, arguments.buffer_count, kernel.local_size[0], info_.name,
+             info_.limits.storage_buffers, info_.limits.invocations);
     }
     std::array<VkDescriptorBufferInfo, max_bindings> infos;
     std::array<VkBufferView, max_bindings> views;
     std::array<VkWriteDescriptorSet, max_bindings> writes;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
         VulkanBuffer& buffer = vulkan(*arguments.buffers[i]);
-        infos[i] = {buffer.buffer, arguments.offsets[i], arguments.sizes[i] > 0 ? arguments.sizes[i] : VK_WHOLE_SIZE};
+        infos[i] = {buffer.buffer, arguments.offsets[i],
+                    arguments.sizes[i] > 0 ? arguments.sizes[i] : VK_WHOLE_SIZE};
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
@@ -236,11 +257,12 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
         writes[i].pBufferInfo = &infos[i];
         if (kernel.bindings[i].texels) {
             if (buffer.size / 16 > info_.limits.texels) {
-                fail("running kernel {}: '{}' has {} texels, '{}' allows {}; please report this", kernel.name,
-                     buffer.name, buffer.size / 16, info_.name, info_.limits.texels);
+                fail("running kernel {}: '{}' has {} texels, '{}' allows {}; please report this",
+                     kernel.name, buffer.name, buffer.size / 16, info_.name, info_.limits.texels);
             }
-            views[i] = buffer.texels(arguments.offsets[i], arguments.sizes[i] > 0 ? arguments.sizes[i]
-                                                                                  : buffer.size - arguments.offsets[i]);
+            views[i] = buffer.texels(arguments.offsets[i],
+                                     arguments.sizes[i] > 0 ? arguments.sizes[i]
+                                                            : buffer.size - arguments.offsets[i]);
             writes[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             writes[i].pTexelBufferView = &views[i];
         }
@@ -257,15 +279,17 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
             writes[i].dstSet = set;
         }
         vkUpdateDescriptorSets(device_->handle, arguments.buffer_count, writes.data(), 0, nullptr);
-        vkCmdBindDescriptorSets(recording, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0, nullptr);
+        vkCmdBindDescriptorSets(recording, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1,
+                                &set, 0, nullptr);
     }
     if (kernel.push_bytes > 0) {
-        vkCmdPushConstants(recording, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.push_bytes,
-                           arguments.push.data());
+        vkCmdPushConstants(recording, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                           kernel.push_bytes, arguments.push.data());
     }
 }
 
-void VulkanDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) {
+void VulkanDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                            std::uint64_t threads) {
     if (threads == 0) {
         return;
     }
@@ -284,8 +308,8 @@ void VulkanDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arg
                   static_cast<std::uint32_t>(z));
 }
 
-void VulkanDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                                     std::uint32_t count_index) {
+void VulkanDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                                     const Buffer& counts, std::uint32_t count_index) {
     if (!group_counts_) {
         group_counts_ = allocate("indirect group counts", indirect_slots * indirect_slot_bytes);
     }
@@ -311,7 +335,8 @@ void VulkanDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArgum
 void VulkanDevice::finish_oldest() {
     Submission submission = std::move(in_flight_.front());
     in_flight_.pop_front();
-    check(vkWaitForFences(device_->handle, 1, &submission.fence, VK_TRUE, UINT64_MAX), "waiting for the device");
+    check(vkWaitForFences(device_->handle, 1, &submission.fence, VK_TRUE, UINT64_MAX),
+          "waiting for the device");
     timer_->collect(submission.queries);
     submission.keep_alive.clear();
     for (const VkDescriptorPool pool : submission.descriptor_pools) {
@@ -355,15 +380,15 @@ void VulkanDevice::download(const Buffer& from, std::uint64_t offset, std::span<
     }
     if (download_staging_.size() < data.size()) {
         wait();
-        download_staging_ = Buffer(allocate_buffer(physical_, device_, ledger_, "download staging", data.size(),
-                                                   MemoryKind::download));
+        download_staging_ = Buffer(allocate_buffer(physical_, device_, ledger_, "download staging",
+                                                   data.size(), MemoryKind::download));
     }
     copy(BufferView(from, offset, data.size()), BufferView(download_staging_, 0, data.size()));
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(commands(), VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
-                         nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(commands(), VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0,
+                         1, &barrier, 0, nullptr, 0, nullptr);
     wait();
     std::memcpy(data.data(), vulkan(download_staging_).mapped, data.size());
 }

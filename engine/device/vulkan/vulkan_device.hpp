@@ -34,9 +34,10 @@ public:
     void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override;
     void fill(const BufferView& to, std::uint32_t value) override;
     void copy(const BufferView& from, const BufferView& to) override;
-    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments, std::uint64_t threads) override;
-    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments, const Buffer& counts,
-                           std::uint32_t count_index) override;
+    void dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
+                  std::uint64_t threads) override;
+    void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
+                           const Buffer& counts, std::uint32_t count_index) override;
     void submit() override;
     void wait() override;
     void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override;
@@ -44,7 +45,9 @@ public:
     void end_stage() override;
     std::vector<StageTime> stage_times() override;
     void reset_stage_times() override;
-    const std::map<std::string, MemoryUse>& memory_by_name() const override { return ledger_->by_name; }
+    const std::map<std::string, MemoryUse>& memory_by_name() const override {
+        return ledger_->by_name;
+    }
     MemoryUse memory() const override { return ledger_->total; }
     std::vector<std::string> validation_messages() const override;
 
@@ -75,7 +78,7 @@ private:
     std::optional<Submission> recording_;
     std::deque<Submission> in_flight_;
     std::vector<Submission> idle_;
-    Buffer group_counts_;               ///< ring of indirect group counts
+    Buffer group_counts_; ///< ring of indirect group counts
     std::uint32_t next_group_count_ = 0;
     Buffer download_staging_;
 };

@@ -3,11 +3,12 @@ FN vec3 scene_center() { return vec3(scene[0].center_x, scene[0].center_y, scene
 FN Surface load_surface(HitRecord hit, vec3 ray_direction) {
     uvec4 t = triangles[hit.triangle];
     if (!smooth_normals) {
-        return make_flat_surface(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), hit.u, hit.v,
-                                 ray_direction);
+        return make_flat_surface(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]),
+                                 hit.u, hit.v, ray_direction);
     }
-    return make_surface(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), vec3(normals[t.x]), vec3(normals[t.y]),
-                        vec3(normals[t.z]), hit.u, hit.v, ray_direction);
+    return make_surface(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]),
+                        vec3(normals[t.x]), vec3(normals[t.y]), vec3(normals[t.z]), hit.u, hit.v,
+                        ray_direction);
 }
 
 // Index of a light chosen in proportion to its weight (Walker 1977); u in [0,1).

@@ -21,8 +21,8 @@ struct BenchRow {
     double peer_rate = 0; ///< items per second
 };
 
-/// Median time in seconds of what `work` records, by the device's time stamps if it has them, else by the
-/// clock. `prepare` is recorded before each run and not timed.
+/// Median time in seconds of what `work` records, by the device's time stamps if it has them, else
+/// by the clock. `prepare` is recorded before each run and not timed.
 double median_device_seconds(Device& device, const std::function<void()>& prepare,
                              const std::function<void()>& work);
 
@@ -34,8 +34,8 @@ double median(std::vector<double> values);
 /// Bytes per second that the device reads and writes while it copies a buffer too large for caches.
 double copy_rate(Device& device);
 
-/// Reductions, scans, compaction and sorts of 2^10 to 2^24 elements, as far as the device can address them, beside the
-/// standard library's on one thread.
+/// Reductions, scans, compaction and sorts of 2^10 to 2^24 elements, as far as the device can
+/// address them, beside the standard library's on one thread.
 std::vector<BenchRow> bench_parallel(Device& device);
 
 } // namespace argand

@@ -12,10 +12,11 @@
 
 namespace argand {
 
-std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
-                                    const StoredPhotons& stored) {
+std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
+                                    PhotonWorkspace& workspace, const StoredPhotons& stored) {
     const PhotonMap map = build_photon_map(device, scene, workspace, stored);
-    const std::vector<PhotonRecord> photons = download<PhotonRecord>(device, map.photons, stored.photons);
+    const std::vector<PhotonRecord> photons =
+        download<PhotonRecord>(device, map.photons, stored.photons);
     std::vector<glm::vec3> points;
     std::vector<glm::vec3> asked;
     std::vector<QueryRecord> records;
@@ -31,25 +32,31 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene, Ph
         }
     }
     const std::uint64_t n = asked.size();
-    const GatherTarget target{.slots = upload(device, "bench slots", slots),
-                              .counts = upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)}),
-                              .queries = upload(device, "bench queries", records),
-                              .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
-                              .partial = Buffer()};
+    const GatherTarget target{
+        .slots = upload(device, "bench slots", slots),
+        .counts = upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)}),
+        .queries = upload(device, "bench queries", records),
+        .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
+        .partial = Buffer()};
     Traversal traversal = make_traversal(device, n);
     device.fill(traversal.unfinished, 0);
     const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
     std::vector<BenchRow> rows;
     for (const std::uint32_t k : {50u, 150u, 500u}) {
-        const double radius = 2.5 * median_radius(photons, std::span(asked).subspan(0, std::min<std::size_t>(n, 2000)),
-                                                  center - scene.record.radius, center + scene.record.radius, k);
-        const double seconds = median_host_seconds([&] { device.wait(); }, [&] {
-            gather_nearest(device, scene, map, target, traversal, {.neighbours = k, .radius = radius},
-                           Count(target.counts, 0, n));
-            device.wait();
-        });
+        const double radius =
+            2.5 * median_radius(photons,
+                                std::span(asked).subspan(0, std::min<std::size_t>(n, 2000)),
+                                center - scene.record.radius, center + scene.record.radius, k);
+        const double seconds = median_host_seconds(
+            [&] { device.wait(); },
+            [&] {
+                gather_nearest(device, scene, map, target, traversal,
+                               {.neighbours = k, .radius = radius}, Count(target.counts, 0, n));
+                device.wait();
+            });
         const double peer = nanoflann_rate(points, asked, k);
-        rows.push_back({fmt::format("{} nearest photons", k), n, seconds, static_cast<double>(n) / seconds, "queries/s", 0,
+        rows.push_back({fmt::format("{} nearest photons", k), n, seconds,
+                        static_cast<double>(n) / seconds, "queries/s", 0,
                         peer > 0 ? nanoflann_name : "", peer});
     }
     return rows;

@@ -6,9 +6,9 @@
 
 namespace argand {
 
-/// Estimates over the k nearest photons per second, for several k, at points spread like the photons are, beside nanoflann
-/// finding the same neighbours.
-std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
-                                    const StoredPhotons& stored);
+/// Estimates over the k nearest photons per second, for several k, at points spread like the
+/// photons are, beside nanoflann finding the same neighbours.
+std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
+                                    PhotonWorkspace& workspace, const StoredPhotons& stored);
 
 } // namespace argand

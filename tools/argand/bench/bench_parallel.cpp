@@ -22,8 +22,7 @@ struct Pair64 {
     std::uint32_t value;
 };
 
-template <class T>
-std::vector<T> random_data(std::size_t n) {
+template <class T> std::vector<T> random_data(std::size_t n) {
     std::mt19937_64 random(n);
     std::vector<T> data(n);
     for (T& element : data) {
@@ -58,43 +57,44 @@ void nothing() {}
 void bench_reduce(const Bench& bench, const std::vector<std::uint32_t>& data, const Buffer& in) {
     const Buffer out = bench.device.allocate("bench: result", sizeof(std::uint32_t));
     volatile std::uint32_t sum = 0; // so that the peer's work is not optimised away
-    bench.add(
-        "reduce_sum", 4,
-        median_device_seconds(bench.device, nothing, [&] { reduce_sum(bench.device, in, out, 0, bench.n); }),
-        "std::reduce",
-        median_host_seconds(nothing, [&] { sum = std::reduce(data.begin(), data.end(), 0u); }));
+    bench.add("reduce_sum", 4,
+              median_device_seconds(bench.device, nothing,
+                                    [&] { reduce_sum(bench.device, in, out, 0, bench.n); }),
+              "std::reduce", median_host_seconds(nothing, [&] {
+                  sum = std::reduce(data.begin(), data.end(), 0u);
+              }));
 }
 
 void bench_scan(const Bench& bench, const std::vector<std::uint32_t>& data, const Buffer& in) {
     const Buffer out = bench.device.allocate("bench: scanned", bench.n * sizeof(std::uint32_t));
     std::vector<std::uint32_t> host(bench.n);
-    bench.add(
-        "exclusive_scan", 12,
-        median_device_seconds(bench.device, nothing, [&] { exclusive_scan(bench.device, in, out, bench.n); }),
-        "std::exclusive_scan", median_host_seconds(nothing, [&] {
-            std::exclusive_scan(data.begin(), data.end(), host.begin(), 0u);
-        }));
+    bench.add("exclusive_scan", 12,
+              median_device_seconds(bench.device, nothing,
+                                    [&] { exclusive_scan(bench.device, in, out, bench.n); }),
+              "std::exclusive_scan", median_host_seconds(nothing, [&] {
+                  std::exclusive_scan(data.begin(), data.end(), host.begin(), 0u);
+              }));
 }
 
 void bench_compact(const Bench& bench, const std::vector<std::uint32_t>& data, const Buffer& in) {
     std::vector<std::uint32_t> flags(bench.n);
-    std::transform(data.begin(), data.end(), flags.begin(), [](std::uint32_t x) { return x >> 16 & 1u; });
+    std::transform(data.begin(), data.end(), flags.begin(),
+                   [](std::uint32_t x) { return x >> 16 & 1u; });
     const Buffer device_flags = upload(bench.device, "bench: flags", flags);
     const Buffer out = bench.device.allocate("bench: kept", bench.n * sizeof(std::uint32_t));
     const Buffer counts = bench.device.allocate("bench: counts", sizeof(std::uint32_t));
     std::vector<std::uint32_t> host(bench.n);
-    bench.add(
-        "compact", 14,
-        median_device_seconds(bench.device, nothing,
-                              [&] { compact(bench.device, device_flags, in, out, counts, 0, bench.n); }),
-        "std::copy_if", median_host_seconds(nothing, [&] {
-            std::copy_if(data.begin(), data.end(), host.begin(),
-                         [](std::uint32_t x) { return (x >> 16 & 1u) != 0; });
-        }));
+    bench.add("compact", 14,
+              median_device_seconds(
+                  bench.device, nothing,
+                  [&] { compact(bench.device, device_flags, in, out, counts, 0, bench.n); }),
+              "std::copy_if", median_host_seconds(nothing, [&] {
+                  std::copy_if(data.begin(), data.end(), host.begin(),
+                               [](std::uint32_t x) { return (x >> 16 & 1u) != 0; });
+              }));
 }
 
-template <class Element>
-double sort_seconds(const std::vector<Element>& data) {
+template <class Element> double sort_seconds(const std::vector<Element>& data) {
     std::vector<Element> host;
     return median_host_seconds([&] { host = data; },
                                [&] {
@@ -127,13 +127,15 @@ void bench_sorts(const Bench& bench, const std::vector<std::uint32_t>& data, con
         pairs64[i] = {data64[i], static_cast<std::uint32_t>(i)};
     }
     bench.add("radix_sort", 4 * 12,
-              median_device_seconds(device, reset, [&] { radix_sort(device, keys, n); }), "std::sort",
-              sort_seconds(data));
-    bench.add("radix_sort_pairs", 4 * 20,
-              median_device_seconds(device, reset, [&] { radix_sort_pairs(device, keys, values, n); }),
-              "std::sort", sort_seconds(pairs));
+              median_device_seconds(device, reset, [&] { radix_sort(device, keys, n); }),
+              "std::sort", sort_seconds(data));
+    bench.add(
+        "radix_sort_pairs", 4 * 20,
+        median_device_seconds(device, reset, [&] { radix_sort_pairs(device, keys, values, n); }),
+        "std::sort", sort_seconds(pairs));
     bench.add("radix_sort_pairs64", 8 * 32,
-              median_device_seconds(device, reset64, [&] { radix_sort_pairs64(device, keys, values, n); }),
+              median_device_seconds(device, reset64,
+                                    [&] { radix_sort_pairs64(device, keys, values, n); }),
               "std::sort", sort_seconds(pairs64));
 }
 

@@ -24,15 +24,16 @@ std::vector<BenchRow> bench_photons(Device& device) {
     constexpr std::uint64_t photons = 1 << 18;
     constexpr float follow_roughness = 0.25f;
     const Scene room = cornell_scene();
-    const DeviceScene scene = upload_scene(device, room, make_plan(room, {.follow_roughness = follow_roughness}));
+    const DeviceScene scene =
+        upload_scene(device, room, make_plan(room, {.follow_roughness = follow_roughness}));
     PhotonWorkspace workspace = make_photon_workspace(device, photons);
     const PhotonPass pass{.seed = 1, .first = 0, .count = photons, .bounces = 0xffff};
     const double copied = copy_rate(device);
 
     StoredPhotons left;
-    const double traced =
-        median_host_seconds([&] { device.wait(); },
-                            [&] { left = trace_photons(device, scene, workspace, pass, 1e-6f).value_or(left); });
+    const double traced = median_host_seconds(
+        [&] { device.wait(); },
+        [&] { left = trace_photons(device, scene, workspace, pass, 1e-6f).value_or(left); });
     const auto stored = static_cast<double>(left.slots);
     const double built = median_host_seconds([&] { device.wait(); },
                                              [&] {
@@ -44,9 +45,11 @@ std::vector<BenchRow> bench_photons(Device& device) {
     // A photon's ray, hit, path and ledger are written and read once a bounce, and the record once.
     const double bounces = 1 + stored / photons;
     const double traced_bytes = bounces * 2 * (32 + 16 + 16) + 64 + stored / photons * 32;
-    rows.push_back({"photons, Cornell box", photons, traced, photons / traced, "photons/s", copied / traced_bytes, "", 0});
+    rows.push_back({"photons, Cornell box", photons, traced, photons / traced, "photons/s",
+                    copied / traced_bytes, "", 0});
     // Codes and order pass through four passes of the sort, records are read and written once.
-    rows.push_back({"photon map", left.slots, built, stored / built, "photons/s", copied / (4 * 2 * 8 + 2 * 32 + 16), "", 0});
+    rows.push_back({"photon map", left.slots, built, stored / built, "photons/s",
+                    copied / (4 * 2 * 8 + 2 * 32 + 16), "", 0});
 
     for (BenchRow& row : bench_nearest(device, scene, workspace, left)) {
         rows.push_back(std::move(row));
@@ -71,7 +74,8 @@ std::vector<BenchRow> bench_photons(Device& device) {
         times.push_back(stage_seconds(device, "gather photons"));
     }
     const double gathered = median(times);
-    rows.push_back({"photon map queries", queries, gathered, queries / gathered, "queries/s", 0, "", 0});
+    rows.push_back(
+        {"photon map queries", queries, gathered, queries / gathered, "queries/s", 0, "", 0});
     return rows;
 }
 

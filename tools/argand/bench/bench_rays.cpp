@@ -14,7 +14,7 @@ namespace argand {
 
 namespace {
 
-constexpr std::uint32_t edge = 1024;    // of the square picture
+constexpr std::uint32_t edge = 1024; // of the square picture
 
 void nothing() {}
 
@@ -29,7 +29,11 @@ std::vector<RayRecord> records(const BenchRays& rays) {
 }
 
 BenchRow make_row(std::string name, std::uint64_t n, double seconds, std::string unit) {
-    return {.name = std::move(name), .n = n, .seconds = seconds, .rate = double(n) / seconds, .unit = std::move(unit)};
+    return {.name = std::move(name),
+            .n = n,
+            .seconds = seconds,
+            .rate = double(n) / seconds,
+            .unit = std::move(unit)};
 }
 
 struct RayBench {
@@ -43,21 +47,24 @@ struct RayBench {
         const std::uint64_t n = rays.origins.size();
         const Buffer uploaded = upload(device, "bench rays", records(rays));
         const Buffer occluded = device.allocate("bench occluded", n * sizeof(std::uint32_t));
-        const double seconds =
-            median_device_seconds(device, nothing,
-                                  [&] { trace_any(device, bvh, traversal, uploaded, active, occluded, n); });
-        return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::occluded_name, peer.occluded_rate(rays));
+        const double seconds = median_device_seconds(device, nothing, [&] {
+            trace_any(device, bvh, traversal, uploaded, active, occluded, n);
+        });
+        return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::occluded_name,
+                         peer.occluded_rate(rays));
     }
 
-    BenchRow closest(const std::string& name, const BenchRays& rays, std::vector<HitRecord>& found) {
+    BenchRow closest(const std::string& name, const BenchRays& rays,
+                     std::vector<HitRecord>& found) {
         const std::uint64_t n = rays.origins.size();
         const Buffer uploaded = upload(device, "bench rays", records(rays));
         const Buffer hits = device.allocate("bench hits", n * sizeof(HitRecord));
-        const double seconds =
-            median_device_seconds(device, nothing,
-                                  [&] { trace_closest(device, bvh, traversal, uploaded, active, hits, n); });
+        const double seconds = median_device_seconds(device, nothing, [&] {
+            trace_closest(device, bvh, traversal, uploaded, active, hits, n);
+        });
         found = download<HitRecord>(device, hits, n);
-        return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::closest_name, peer.closest_rate(rays));
+        return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::closest_name,
+                         peer.closest_rate(rays));
     }
 
     static BenchRow with_peer(BenchRow row, const char* name, double rate) {
@@ -85,17 +92,20 @@ Bounces bounce(const BenchScene& scene, const BenchRays& rays, const std::vector
         glm::vec3 origin = rays.origins[i];
         glm::vec3 direction = rays.directions[i];
         glm::vec3 to_light(0, 0, 1);
-        float end = -1;                 // no hit, no ray
+        float end = -1; // no hit, no ray
         if (hits[i].triangle != no_triangle) {
             const glm::uvec4 triangle = scene.triangles[hits[i].triangle];
             const glm::vec3 a(scene.positions[triangle.x]);
-            glm::vec3 normal = glm::normalize(glm::cross(glm::vec3(scene.positions[triangle.y]) - a,
-                                                         glm::vec3(scene.positions[triangle.z]) - a));
+            glm::vec3 normal =
+                glm::normalize(glm::cross(glm::vec3(scene.positions[triangle.y]) - a,
+                                          glm::vec3(scene.positions[triangle.z]) - a));
             normal *= glm::dot(normal, direction) > 0 ? -1.0f : 1.0f;
-            const glm::vec3 side = glm::normalize(
-                std::abs(normal.x) > 0.5f ? glm::vec3(normal.y, -normal.x, 0) : glm::vec3(0, normal.z, -normal.y));
+            const glm::vec3 side =
+                glm::normalize(std::abs(normal.x) > 0.5f ? glm::vec3(normal.y, -normal.x, 0)
+                                                         : glm::vec3(0, normal.z, -normal.y));
             origin += hits[i].t * direction + 1e-4f * normal;
-            direction = std::sqrt(square) * (std::cos(azimuth) * side + std::sin(azimuth) * glm::cross(normal, side)) +
+            direction = std::sqrt(square) * (std::cos(azimuth) * side +
+                                             std::sin(azimuth) * glm::cross(normal, side)) +
                         std::sqrt(1 - square) * normal;
             to_light = scene.light - origin;
             end = 1;
@@ -121,13 +131,14 @@ std::vector<BenchRow> bench_rays(Device& device) {
     std::vector<BenchRow> rows;
 
     TriangleBvh bvh;
-    const double seconds =
-        median_device_seconds(device, nothing, [&] { bvh = build_triangle_bvh(device, positions, triangles, count); });
+    const double seconds = median_device_seconds(
+        device, nothing, [&] { bvh = build_triangle_bvh(device, positions, triangles, count); });
     rows.push_back(make_row("bvh build", count, seconds, "triangles/s"));
 
     std::vector<std::uint32_t> everyone(std::uint64_t(edge) * edge);
     std::iota(everyone.begin(), everyone.end(), 0u);
-    RayBench bench{device, peer, bvh, make_traversal(device, everyone.size()), upload(device, "bench active", everyone)};
+    RayBench bench{device, peer, bvh, make_traversal(device, everyone.size()),
+                   upload(device, "bench active", everyone)};
     device.fill(bench.traversal.unfinished, 0);
     const BenchRays primary = primary_rays(scene, edge);
     std::vector<HitRecord> hits;

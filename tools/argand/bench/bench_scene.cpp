@@ -7,7 +7,7 @@ namespace argand {
 
 namespace {
 
-constexpr float room = 5;               // half the edge
+constexpr float room = 5; // half the edge
 
 void add_grid(BenchScene& scene, std::uint32_t rows, std::uint32_t columns, auto&& point) {
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
@@ -40,8 +40,10 @@ void add_bumpy_sphere(BenchScene& scene, glm::vec3 centre, double radius) {
     add_grid(scene, 32, 64, [&](double u, double v) {
         const double theta = M_PI * u;
         const double phi = 2 * M_PI * v;
-        const double r = radius * (1 + 0.1 * std::sin(9 * theta) * std::sin(theta) * std::cos(8 * phi));
-        return centre + glm::vec3(r * std::sin(theta) * std::cos(phi), r * std::cos(theta), r * std::sin(theta) * std::sin(phi));
+        const double r =
+            radius * (1 + 0.1 * std::sin(9 * theta) * std::sin(theta) * std::cos(8 * phi));
+        return centre + glm::vec3(r * std::sin(theta) * std::cos(phi), r * std::cos(theta),
+                                  r * std::sin(theta) * std::sin(phi));
     });
 }
 
@@ -61,7 +63,9 @@ BenchScene make_bench_scene() {
         const double angle = 2.4 * i;
         const double distance = 0.95 * std::sqrt(i + 0.3);
         const double height = -3.6 + 0.38 * i;
-        add_bumpy_sphere(scene, glm::vec3(distance * std::cos(angle), height, distance * std::sin(angle)), 1.1 - 0.03 * i);
+        add_bumpy_sphere(scene,
+                         glm::vec3(distance * std::cos(angle), height, distance * std::sin(angle)),
+                         1.1 - 0.03 * i);
     }
     return scene;
 }

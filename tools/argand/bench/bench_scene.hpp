@@ -21,7 +21,7 @@ BenchScene make_bench_scene();
 struct BenchRays {
     std::vector<glm::vec3> origins;
     std::vector<glm::vec3> directions;
-    std::vector<float> ends;            ///< t_max
+    std::vector<float> ends; ///< t_max
 };
 
 BenchRays primary_rays(const BenchScene& scene, std::uint32_t edge);

@@ -27,7 +27,8 @@ void add_quad(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 
 }
 
 /// A closed box that stands on the floor, turned around the vertical.
-void add_box(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 u, glm::vec3 v, float height) {
+void add_box(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 u, glm::vec3 v,
+             float height) {
     const glm::vec3 up(0, height, 0);
     add_quad(scene, material, corner, up, u);
     add_quad(scene, material, corner + u, up, v);

@@ -24,14 +24,16 @@ struct EmbreePeer::State {
 
 EmbreePeer::EmbreePeer(const BenchScene& scene) : state_(std::make_unique<State>()) {
     const RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.positions.size()));
+    auto* positions = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), scene.positions.size()));
     for (const glm::vec4& position : scene.positions) {
         std::memcpy(positions, &position, 3 * sizeof(float));
         positions += 3;
     }
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.triangles.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), scene.triangles.size()));
     for (const glm::uvec4& triangle : scene.triangles) {
         std::memcpy(indices, &triangle, 3 * sizeof(std::uint32_t));
         indices += 3;
@@ -59,20 +61,21 @@ RTCRay make_ray(const BenchRays& rays, std::size_t i) {
 }
 
 /// Runs of trace(i) for all rays per second, in chunks that the threads take as they come to them.
-template <class Function>
-double rate(std::size_t count, Function&& trace) {
+template <class Function> double rate(std::size_t count, Function&& trace) {
     constexpr std::size_t chunk = 4096;
     const auto trace_all = [&] {
         std::atomic<std::size_t> next = 0;
         const auto work = [&] {
-            for (std::size_t first = next.fetch_add(chunk); first < count; first = next.fetch_add(chunk)) {
+            for (std::size_t first = next.fetch_add(chunk); first < count;
+                 first = next.fetch_add(chunk)) {
                 for (std::size_t ray = first; ray < std::min(count, first + chunk); ++ray) {
                     trace(ray);
                 }
             }
         };
         std::vector<std::jthread> threads;
-        for (unsigned thread = 0; thread < std::max(1u, std::thread::hardware_concurrency()); ++thread) {
+        for (unsigned thread = 0; thread < std::max(1u, std::thread::hardware_concurrency());
+             ++thread) {
             threads.emplace_back(work);
         }
     };

@@ -6,8 +6,8 @@
 
 namespace argand {
 
-/// Embree on the same scene and rays, one ray at a time, on all of the machine's threads. Rates are 0 where the build
-/// did not find it.
+/// Embree on the same scene and rays, one ray at a time, on all of the machine's threads. Rates are
+/// 0 where the build did not find it.
 class EmbreePeer {
 public:
     explicit EmbreePeer(const BenchScene& scene);

@@ -10,8 +10,9 @@ namespace argand {
 
 namespace {
 
-constexpr const char* own_scenes[] = {"cornell_point", "cornell_area", "cornell_mirror", "cornell_glass",
-                                      "ring",          "courtyard",    "glossy",         "spot"};
+constexpr const char* own_scenes[] = {"cornell_point", "cornell_area", "cornell_mirror",
+                                      "cornell_glass", "ring",         "courtyard",
+                                      "glossy",        "spot"};
 constexpr std::uint32_t bounces = 2;
 
 /// As many as the paper emits in the scene of that name, else in its small ones.
@@ -25,7 +26,8 @@ std::vector<std::string> files(const Fd09Settings& settings) {
         for (const char* name : own_scenes) {
             const std::string file = fmt::format("assets/{}.glb", name);
             if (!std::filesystem::exists(file)) {
-                fail("measuring '{}': there is no such file here; run in the project's folder, or name scenes by --scene",
+                fail("measuring '{}': there is no such file here; run in the project's folder, or "
+                     "name scenes by --scene",
                      file);
             }
             found.push_back(file);
@@ -48,8 +50,8 @@ std::vector<std::string> fd09_parts() {
 
 std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings) {
     const auto wanted = [&](const char* part) {
-        return settings.parts.empty() ||
-               std::find(settings.parts.begin(), settings.parts.end(), part) != settings.parts.end();
+        return settings.parts.empty() || std::find(settings.parts.begin(), settings.parts.end(),
+                                                   part) != settings.parts.end();
     };
     PaperTable linear{"Table 1: linear build, 10^3 queries/s over leaf sizes"};
     PaperTable heuristic{"Table 1: voxel volume heuristic, 10^3 queries/s over leaf sizes"};
@@ -79,17 +81,19 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
         if (wanted("budgets")) {
             RenderSettings whole;
             whole.width = whole.height = settings.size;
-            measure_budgets(device, scene, whole, settings.budgets, settings.reference_samples, budgets);
+            measure_budgets(device, scene, whole, settings.budgets, settings.reference_samples,
+                            budgets);
         }
         if (wanted("table2") || wanted("figure4")) {
             render.width = render.height = settings.error_size;
             render.samples = 8;
-            render.query_cell = 0;      // estimators are compared, so everybody asks
+            render.query_cell = 0; // estimators are compared, so everybody asks
             measure_errors(device, scene, render, settings.reference_samples, estimators, kernels);
         }
     }
     std::vector<PaperTable> tables;
-    for (PaperTable* table : {&linear, &heuristic, &builds, &estimators, &radii, &kernels, &shares, &budgets}) {
+    for (PaperTable* table :
+         {&linear, &heuristic, &builds, &estimators, &radii, &kernels, &shares, &budgets}) {
         if (!table->rows.empty()) {
             tables.push_back(std::move(*table));
         }

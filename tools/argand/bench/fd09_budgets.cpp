@@ -7,15 +7,16 @@
 
 namespace argand {
 
-void measure_budgets(Device& device, const Scene& scene, RenderSettings settings, const std::vector<double>& budgets,
-                     std::uint32_t reference_samples, PaperTable& table) {
+void measure_budgets(Device& device, const Scene& scene, RenderSettings settings,
+                     const std::vector<double>& budgets, std::uint32_t reference_samples,
+                     PaperTable& table) {
     constexpr int runs = 3;
     const References references = trace_references(device, scene, settings, reference_samples);
     for (const double budget : budgets) {
         for (const std::string& method : method_names()) {
             settings.method = method;
             settings.budget.reset();
-            render_all(device, scene, settings);    // so that no run waits for kernels to be compiled
+            render_all(device, scene, settings); // so that no run waits for kernels to be compiled
             settings.budget = budget;
             std::vector<double> seconds;
             double error = 0;

@@ -11,7 +11,7 @@ namespace argand {
 namespace {
 
 constexpr int runs = 3;
-constexpr double ladder[] = {0.25, 0.5, 1, 2, 4};   // photons of the methods that are compared with
+constexpr double ladder[] = {0.25, 0.5, 1, 2, 4}; // photons of the methods that are compared with
 
 /// A picture's time [s], its error, and what the map was like.
 struct Point {
@@ -19,16 +19,19 @@ struct Point {
     RenderStatistics statistics;
 };
 
-/// One more measurement of a point: medians are taken at the end, so that runs of several can be interleaved.
+/// One more measurement of a point: medians are taken at the end, so that runs of several can be
+/// interleaved.
 struct Series {
     RenderSettings settings;
     std::vector<double> seconds, errors;
     RenderStatistics statistics;
 
-    void add_run(Device& device, const Scene& scene, const References& references, std::uint32_t seed) {
+    void add_run(Device& device, const Scene& scene, const References& references,
+                 std::uint32_t seed) {
         settings.seed = seed;
         RenderResult result;
-        seconds.push_back(seconds_of(device, [&] { result = render_all(device, scene, settings); }));
+        seconds.push_back(
+            seconds_of(device, [&] { result = render_all(device, scene, settings); }));
         errors.push_back(rel_mse(result, references, "indirect"));
         statistics = result.statistics;
     }
@@ -42,8 +45,9 @@ struct Series {
     }
 };
 
-/// Time at which the error is as given, interpolated in logarithms between points of growing number of photons. If it is
-/// never reached or always undercut, that at the nearest end, marked as a bound.
+/// Time at which the error is as given, interpolated in logarithms between points of growing number
+/// of photons. If it is never reached or always undercut, that at the nearest end, marked as a
+/// bound.
 nlohmann::ordered_json time_at(const std::vector<Point>& points, double error) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const Point& a = points[i - 1];
@@ -69,8 +73,8 @@ std::vector<std::string> peers() {
 
 } // namespace
 
-void measure_errors(Device& device, const Scene& scene, const RenderSettings& settings, std::uint32_t reference_samples,
-                    PaperTable& estimators, PaperTable& kernels) {
+void measure_errors(Device& device, const Scene& scene, const RenderSettings& settings,
+                    std::uint32_t reference_samples, PaperTable& estimators, PaperTable& kernels) {
     const References references = trace_references(device, scene, settings, reference_samples);
     Series footprints{.settings = settings};
     footprints.settings.method = "footprints";
@@ -102,7 +106,9 @@ void measure_errors(Device& device, const Scene& scene, const RenderSettings& se
                                {"emitted", settings.photons},
                                {"hits", ours.statistics.photons_stored},
                                {"s", ours.statistics.smoothing},
-                               {"r_max", ours.statistics.footprint_scale ? ours.statistics.footprint_scale->radius_max : 0.0f},
+                               {"r_max", ours.statistics.footprint_scale
+                                             ? ours.statistics.footprint_scale->radius_max
+                                             : 0.0f},
                                {"footprints a point", ours.statistics.mean_footprints},
                                {"relMSE, indirect", ours.error},
                                {"footprints [s]", ours.seconds}};
@@ -120,8 +126,11 @@ void measure_errors(Device& device, const Scene& scene, const RenderSettings& se
         row[names[i] + ", equal error [s]"] = equal;
         row[names[i] + " / footprints"] =
             equal.is_number() ? nlohmann::ordered_json(equal.get<double>() / ours.seconds)
-            : points.front().error < ours.error ? nlohmann::ordered_json(fmt::format("< {:.3g}", points.front().seconds / ours.seconds))
-                                                : nlohmann::ordered_json(fmt::format("> {:.3g}", points.back().seconds / ours.seconds));
+            : points.front().error < ours.error
+                ? nlohmann::ordered_json(
+                      fmt::format("< {:.3g}", points.front().seconds / ours.seconds))
+                : nlohmann::ordered_json(
+                      fmt::format("> {:.3g}", points.back().seconds / ours.seconds));
     }
     estimators.rows.push_back(row);
     const Point flat = uniform.point();

@@ -14,26 +14,34 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
     paper.render = render;
     paper.render.method = "footprints";
     paper.render.photons = std::min(render.photons, max_photons_per_pass(device));
-    paper.render.photons_per_pass = std::max<std::uint64_t>(paper.render.photons, 1);    // one map of all
-    paper.statistics = argand::render(device, scene, paper.render, [](double) { return true; }).statistics;
+    paper.render.photons_per_pass =
+        std::max<std::uint64_t>(paper.render.photons, 1); // one map of all
+    paper.statistics =
+        argand::render(device, scene, paper.render, [](double) { return true; }).statistics;
     if (!paper.statistics.footprint_scale || paper.statistics.photons_stored == 0) {
-        fail("measuring '{}': no photon is stored; choose a scene with a light and a surface that scatters it twice",
+        fail("measuring '{}': no photon is stored; choose a scene with a light and a surface that "
+             "scatters it twice",
              scene.name);
     }
     paper.scene = upload_scene(device, scene, plan_render(scene, paper.render));
     paper.workspace = make_photon_workspace(device, paper.render.photons, true);
-    const PhotonPass pass{.seed = render.seed, .first = 0, .count = paper.render.photons, .bounces = render.bounces};
-    const std::optional<StoredPhotons> stored = trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f);
+    const PhotonPass pass{
+        .seed = render.seed, .first = 0, .count = paper.render.photons, .bounces = render.bounces};
+    const std::optional<StoredPhotons> stored =
+        trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f);
     if (!stored) {
-        fail("measuring '{}': the photons that are stored exceed what '{}' can address; use fewer photons", scene.name,
-             device.info().name);
+        fail("measuring '{}': the photons that are stored exceed what '{}' can address; use fewer "
+             "photons",
+             scene.name, device.info().name);
     }
     paper.stored = *stored;
-    paper.settings = {.area_samples = area_samples(paper.scene.surface_area, paper.statistics.radius),
+    paper.settings = {.area_samples =
+                          area_samples(paper.scene.surface_area, paper.statistics.radius),
                       .seed = render.seed,
                       .footprints = paper.statistics.footprint_scale};
-    paper.eye = make_eye_workspace(device, paper.scene.plan, paper.render,
-                                   camera_record(scene.cameras[render.camera], render.width, render.height));
+    paper.eye = make_eye_workspace(
+        device, paper.scene.plan, paper.render,
+        camera_record(scene.cameras[render.camera], render.width, render.height));
     return paper;
 }
 
@@ -42,7 +50,8 @@ PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size) {
     settings.leaf_size = leaf_size;
     PhotonMap map = build_photon_map(device, paper.scene, paper.workspace, paper.stored, settings);
     const Buffer counters = device.allocate("photon counters of a map", counter_count * 4);
-    device.copy(BufferView(map.counters, 0, counter_count * 4), BufferView(counters, 0, counter_count * 4));
+    device.copy(BufferView(map.counters, 0, counter_count * 4),
+                BufferView(counters, 0, counter_count * 4));
     map.counters = counters;
     return map;
 }

@@ -11,13 +11,14 @@ namespace argand {
 
 namespace {
 
-constexpr std::size_t bins = 21;        // of 0.05, and one for all that are larger
-constexpr double paper_largest = 0.7;   // the paper's r_max, in its units
+constexpr std::size_t bins = 21;      // of 0.05, and one for all that are larger
+constexpr double paper_largest = 0.7; // the paper's r_max, in its units
 constexpr float beyond_any = 1e6f;
 
 } // namespace
 
-void measure_radii(Device& device, const Scene& scene, const RenderSettings& render, PaperTable& radii) {
+void measure_radii(Device& device, const Scene& scene, const RenderSettings& render,
+                   PaperTable& radii) {
     PaperMap paper = trace_paper_map(device, scene, render);
     // As the differentials give them, before they are clamped.
     FootprintScale& scale = *paper.settings.footprints;
@@ -35,21 +36,25 @@ void measure_radii(Device& device, const Scene& scene, const RenderSettings& ren
             continue;
         }
         const glm::uvec4 packed = footprints[i];
-        const FootprintDuals duals{unpack_dual(packed.x, packed.y), unpack_dual(packed.z, packed.w)};
-        const Footprint f = footprint_of_duals(duals, unpack_photon_normal(photons[i].normal), map.flatness);
+        const FootprintDuals duals{unpack_dual(packed.x, packed.y),
+                                   unpack_dual(packed.z, packed.w)};
+        const Footprint f =
+            footprint_of_duals(duals, unpack_photon_normal(photons[i].normal), map.flatness);
         const double radius = parallelogram_side(f.u, f.v);
         sizes.push_back(radius);
         const double in_paper = radius / largest * paper_largest;
         ++histogram[static_cast<std::size_t>(std::min(in_paper / 0.05, double(bins - 1)))];
     }
-    nlohmann::ordered_json row{{"scene", scene.name}, {"r_max / scene's radius", largest / paper.scene.record.radius}};
+    nlohmann::ordered_json row{{"scene", scene.name},
+                               {"r_max / scene's radius", largest / paper.scene.record.radius}};
     std::sort(sizes.begin(), sizes.end());
     for (const int percent : {5, 50, 95}) {
         row[fmt::format("{} % below, of r_max", percent)] =
             sizes[(sizes.size() - 1) * static_cast<std::size_t>(percent) / 100] / largest;
     }
     for (std::size_t i = 0; i < bins; ++i) {
-        row[i + 1 < bins ? fmt::format("{:.2f} - {:.2f}", 0.05 * double(i), 0.05 * double(i + 1)) : "> 1.00"] = histogram[i];
+        row[i + 1 < bins ? fmt::format("{:.2f} - {:.2f}", 0.05 * double(i), 0.05 * double(i + 1))
+                         : "> 1.00"] = histogram[i];
     }
     radii.rows.push_back(row);
 }

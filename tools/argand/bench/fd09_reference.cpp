@@ -9,7 +9,8 @@ RenderResult render_all(Device& device, const Scene& scene, const RenderSettings
     return render(device, scene, settings, [](double) { return true; });
 }
 
-References trace_references(Device& device, const Scene& scene, RenderSettings settings, std::uint32_t samples) {
+References trace_references(Device& device, const Scene& scene, RenderSettings settings,
+                            std::uint32_t samples) {
     settings.method = "path";
     settings.samples = samples;
     settings.budget.reset();

@@ -9,7 +9,8 @@ struct References {
     RenderResult a, b;
 };
 
-References trace_references(Device& device, const Scene& scene, RenderSettings settings, std::uint32_t samples);
+References trace_references(Device& device, const Scene& scene, RenderSettings settings,
+                            std::uint32_t samples);
 
 /// relMSE of a layer, without the references' noise (image/metrics.hpp).
 double rel_mse(const RenderResult& result, const References& references, const std::string& layer);

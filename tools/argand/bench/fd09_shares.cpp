@@ -16,30 +16,39 @@ struct Phase {
 };
 
 /// Whatever is no part of the first two is rendering.
-const std::array<Phase, 2> phases{{{"tracing", {"emit photons", "trace photons", "scatter photons", "sum flux"}},
-                                   {"building", {"sample areas", "sort photons", "build photon map"}}}};
+const std::array<Phase, 2> phases{
+    {{"tracing", {"emit photons", "trace photons", "scatter photons", "sum flux"}},
+     {"building", {"sample areas", "sort photons", "build photon map"}}}};
 
 } // namespace
 
-void measure_shares(Device& device, const Scene& scene, const RenderSettings& render, int runs, PaperTable& shares) {
+void measure_shares(Device& device, const Scene& scene, const RenderSettings& render, int runs,
+                    PaperTable& shares) {
     PaperMap paper = trace_paper_map(device, scene, render);
     EyeWorkspace& eye = paper.eye;
-    std::array<std::vector<double>, 4> seconds;     // tracing, building, rendering, gathering
+    std::array<std::vector<double>, 4> seconds; // tracing, building, rendering, gathering
     for (int run = -1; run < runs; ++run) {
         device.reset_stage_times();
-        const PhotonPass pass{.seed = render.seed, .first = 0, .count = paper.render.photons, .bounces = render.bounces};
-        paper.stored = trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f).value_or(paper.stored);
-        const PhotonMap map = build_photon_map(device, paper.scene, paper.workspace, paper.stored, paper.settings);
+        const PhotonPass pass{.seed = render.seed,
+                              .first = 0,
+                              .count = paper.render.photons,
+                              .bounces = render.bounces};
+        paper.stored =
+            trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f).value_or(paper.stored);
+        const PhotonMap map =
+            build_photon_map(device, paper.scene, paper.workspace, paper.stored, paper.settings);
         const auto gather = [&](const Count& asking, std::uint32_t part) {
-            gather_footprints(device, paper.scene, map, query_target(eye, part), eye.traversal, false, asking);
+            gather_footprints(device, paper.scene, map, query_target(eye, part), eye.traversal,
+                              false, asking);
         };
         trace_eye_paths(device, paper.scene, eye, paper.render, 0, paper.render.samples, gather,
                         [](double) { return true; });
         std::array<double, 4> sums{};
         for (const StageTime& stage : device.stage_times()) {
             std::size_t phase = 0;
-            while (phase < phases.size() && std::find(phases[phase].stages.begin(), phases[phase].stages.end(),
-                                                      stage.name) == phases[phase].stages.end()) {
+            while (phase < phases.size() &&
+                   std::find(phases[phase].stages.begin(), phases[phase].stages.end(),
+                             stage.name) == phases[phase].stages.end()) {
                 ++phase;
             }
             sums[phase] += stage.seconds;

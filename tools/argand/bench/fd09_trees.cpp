@@ -13,11 +13,11 @@ constexpr std::uint32_t leaf_sizes[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512};
 
 struct Candidate {
     PhotonMap map;
-    std::vector<double> seconds;    ///< of each run, over all queries of the picture
+    std::vector<double> seconds; ///< of each run, over all queries of the picture
 };
 
-/// The time of every candidate's gathering for all of the picture's queries. Runs are interleaved: whatever else the
-/// machine does, it does to all.
+/// The time of every candidate's gathering for all of the picture's queries. Runs are interleaved:
+/// whatever else the machine does, it does to all.
 void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& candidates, int runs,
                       std::uint64_t& queries) {
     for (Candidate& candidate : candidates) {
@@ -28,15 +28,17 @@ void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& c
     eye.traversal.careful = true;
     const auto gather = [&](const Count& asking, std::uint32_t part) {
         const GatherTarget target = query_target(eye, part);
-        const std::uint32_t count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
+        const std::uint32_t count =
+            download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
         queries += count;
         if (count == 0) {
             return;
         }
-        for (int run = -1; run < runs; ++run) {     // one to warm up
+        for (int run = -1; run < runs; ++run) { // one to warm up
             for (Candidate& candidate : candidates) {
                 const double seconds = seconds_of(device, [&] {
-                    gather_footprints(device, paper.scene, candidate.map, target, eye.traversal, false, asking);
+                    gather_footprints(device, paper.scene, candidate.map, target, eye.traversal,
+                                      false, asking);
                 });
                 if (run >= 0) {
                     candidate.seconds[static_cast<std::size_t>(run)] += seconds;
@@ -44,13 +46,15 @@ void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& c
             }
         }
     };
-    trace_eye_paths(device, paper.scene, eye, paper.render, 0, 1, gather, [](double) { return true; });
+    trace_eye_paths(device, paper.scene, eye, paper.render, 0, 1, gather,
+                    [](double) { return true; });
 }
 
 /// Rates over leaf sizes, and how near T_auto, the last candidate, is to the best.
-nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper, std::span<const Candidate> candidates,
-                              std::uint64_t queries) {
-    nlohmann::ordered_json row{{"scene", scene}, {"emitted", paper.render.photons}, {"hits", paper.stored.photons}};
+nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper,
+                              std::span<const Candidate> candidates, std::uint64_t queries) {
+    nlohmann::ordered_json row{
+        {"scene", scene}, {"emitted", paper.render.photons}, {"hits", paper.stored.photons}};
     double best = 0;
     double automatic = 0;
     for (const Candidate& candidate : candidates) {
@@ -67,8 +71,8 @@ nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper, s
 
 } // namespace
 
-void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs, PaperTable& linear,
-                   PaperTable& heuristic, PaperTable& builds) {
+void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs,
+                   PaperTable& linear, PaperTable& heuristic, PaperTable& builds) {
     PaperMap paper = trace_paper_map(device, scene, render);
     const PhotonMap automatic = build(device, paper, 0);
     const std::vector<BoxRecord> boxes = footprint_boxes(device, automatic);
@@ -77,7 +81,8 @@ void measure_trees(Device& device, const Scene& scene, const RenderSettings& ren
     std::vector<double> heuristic_seconds;
     VolumeTree tree;
     for (int run = 0; run < std::min(runs, 3); ++run) {
-        linear_seconds.push_back(seconds_of(device, [&] { build(device, paper, automatic.leaf_size); }));
+        linear_seconds.push_back(
+            seconds_of(device, [&] { build(device, paper, automatic.leaf_size); }));
         heuristic_seconds.push_back(
             seconds_of(device, [&] { tree = build_volume_tree(boxes, automatic.leaf_size); }));
     }
@@ -102,13 +107,14 @@ void measure_trees(Device& device, const Scene& scene, const RenderSettings& ren
     const double ratio = heuristic.rows.back()["T_auto's kqueries/s"].get<double>();
     const double linear_built = median(linear_seconds);
     const double heuristic_built = median(heuristic_seconds);
-    builds.rows.push_back({{"scene", scene.name},
-                           {"in the map", boxes.size()},
-                           {"linear build [ms]", 1e3 * linear_built},
-                           {"VVH build [ms]", 1e3 * heuristic_built},
-                           {"VVH / linear, building", heuristic_built / linear_built},
-                           {"linear / VVH, rate [%]",
-                            100 * linear.rows.back()["T_auto's kqueries/s"].get<double>() / ratio}});
+    builds.rows.push_back(
+        {{"scene", scene.name},
+         {"in the map", boxes.size()},
+         {"linear build [ms]", 1e3 * linear_built},
+         {"VVH build [ms]", 1e3 * heuristic_built},
+         {"VVH / linear, building", heuristic_built / linear_built},
+         {"linear / VVH, rate [%]",
+          100 * linear.rows.back()["T_auto's kqueries/s"].get<double>() / ratio}});
 }
 
 } // namespace argand

@@ -12,7 +12,8 @@ constexpr int most_runs = 101;
 constexpr double enough_seconds = 0.3;
 
 double clock_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 /// Runs for a while and returns the median of what `run` returns.
@@ -52,7 +53,8 @@ double median_device_seconds(Device& device, const std::function<void()>& prepar
     });
 }
 
-double median_host_seconds(const std::function<void()>& prepare, const std::function<void()>& work) {
+double median_host_seconds(const std::function<void()>& prepare,
+                           const std::function<void()>& work) {
     return median_of_runs([&] {
         prepare();
         const double begin = clock_seconds();
@@ -62,8 +64,9 @@ double median_host_seconds(const std::function<void()>& prepare, const std::func
 }
 
 double copy_rate(Device& device) {
-    const std::uint64_t bytes = std::min<std::uint64_t>(
-        {std::uint64_t(64) << 20, device.info().limits.storage_range, device.info().limits.memory / 4});
+    const std::uint64_t bytes =
+        std::min<std::uint64_t>({std::uint64_t(64) << 20, device.info().limits.storage_range,
+                                 device.info().limits.memory / 4});
     const Buffer from = device.allocate("bench: copied from", bytes);
     const Buffer to = device.allocate("bench: copied to", bytes);
     device.fill(from, 1);

@@ -1,5 +1,5 @@
-// The corners of a triangle, all in one point if one of them is not finite: nothing meets such a triangle, whatever a
-// device's min and max make of what is not a number.
+// The corners of a triangle, all in one point if one of them is not finite: nothing meets such a
+// triangle, whatever a device's min and max make of what is not a number.
 struct Corners {
     vec3 a, b, c;
 };

@@ -1,6 +1,6 @@
 #include "shared/kernels/count.h"
 
-CONSTANT real triangle_cost = real(0.5);    // of a node's
+CONSTANT real triangle_cost = real(0.5); // of a node's
 
 FN real half_area(vec3 low, vec3 high) {
     vec3 size = max(high - low, vec3(real(0.0)));
@@ -28,10 +28,11 @@ FN ForestCost join(ForestCost left, ForestCost right, real area) {
     return cost;
 }
 
-// Builds the hierarchy from the leaves up, as Apetrei 2014 ("Fast and simple agglomerative LBVH construction"), but
-// with the node numbers of Karras 2012 (see LbvhNode): a node that covers first..last is the left child of the node
-// split after `last`, or the right child of the node split before `first`, whichever splits leaves that are closer.
-// The invocation that comes second to a parent has both its children and goes on with it.
+// Builds the hierarchy from the leaves up, as Apetrei 2014 ("Fast and simple agglomerative LBVH
+// construction"), but with the node numbers of Karras 2012 (see LbvhNode): a node that covers
+// first..last is the left child of the node split after `last`, or the right child of the node
+// split before `first`, whichever splits leaves that are closer. The invocation that comes second
+// to a parent has both its children and goes on with it.
 FN void main() {
     uint leaf = THREAD_INDEX;
     uint count = ELEMENT_COUNT;
@@ -59,7 +60,8 @@ FN void main() {
         if (first != last) {
             place = root ? 0u : 2u * (is_left ? last : first);
         }
-        // What follows is the right child of the node split after `last`: a leaf if its own split is farther.
+        // What follows is the right child of the node split after `last`: a leaf if its own split
+        // is farther.
         uint escape = lbvh_end;
         if (after != no_neighbour) {
             uint next = last + 1u;
@@ -69,7 +71,8 @@ FN void main() {
         nodes[2u * place] = uvec4(float_bits(low), child);
         nodes[2u * place + 1u] = uvec4(float_bits(high), escape);
         if (for_rays && first != last) {
-            costs[place >> 1u] = uvec4(float_bits(vec3(cost.one, cost.two, cost.three)), cost.split);
+            costs[place >> 1u] =
+                uvec4(float_bits(vec3(cost.one, cost.two, cost.three)), cost.split);
             if (root) {
                 parents[0] = lbvh_end;
             }
@@ -82,12 +85,12 @@ FN void main() {
         }
         uint other = lbvh_end;
         if (!root) {
-            MEMORY_FENCE();     // the node above is seen before its end is
+            MEMORY_FENCE(); // the node above is seen before its end is
             other = atomicExchange(ends[is_left ? last : first - 1u], is_left ? first : last);
         }
         going = other != lbvh_end;
         if (going) {
-            MEMORY_FENCE();     // the sibling was written before its end was
+            MEMORY_FENCE(); // the sibling was written before its end was
             uint next = is_left ? last + 1u : first - 1u;
             uint sibling = 2u * next + (next == other ? 1u : 0u);
             vec3 sibling_low = bits_float(uvec3(nodes[2u * sibling]));

@@ -9,9 +9,13 @@ FN void main() {
     uint sample_index = batch.first_sample + slot % batch.samples;
     vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u);
     vec3 origin, direction;
-    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(pixel / batch.width) + u.y, origin, direction);
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y, direction.z, 0u);
-    paths[slot] = PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index, 0u, 0u);
-    layers[slot] = LayersRecord(real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0));
+    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(pixel / batch.width) + u.y, origin,
+               direction);
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
+                           direction.z, 0u);
+    paths[slot] =
+        PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index, 0u, 0u);
+    layers[slot] = LayersRecord(real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0),
+                                real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0));
     active_slots[slot] = slot;
 }

@@ -11,7 +11,8 @@ FN void main() {
     if (source == no_query) {
         return;
     }
-    vec3 throughput = vec3(queries[slot].throughput_r, queries[slot].throughput_g, queries[slot].throughput_b);
+    vec3 throughput =
+        vec3(queries[slot].throughput_r, queries[slot].throughput_g, queries[slot].throughput_b);
     EstimateRecord e = estimates[source];
     vec3 indirect = throughput * vec3(e.indirect_r, e.indirect_g, e.indirect_b);
     vec3 caustic = throughput * vec3(e.caustic_r, e.caustic_g, e.caustic_b);

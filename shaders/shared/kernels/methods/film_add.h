@@ -28,8 +28,9 @@ FN void main() {
         add_compensated(indirect, lost_indirect, vec3(l.indirect_r, l.indirect_g, l.indirect_b));
         add_compensated(caustic, lost_caustic, vec3(l.caustic_r, l.caustic_g, l.caustic_b));
     }
-    film[pixel] = FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y, indirect.z, 0u,
-                             caustic.x, caustic.y, caustic.z, f.non_finite, lost_direct.x, lost_direct.y, lost_direct.z,
-                             real(0.0), lost_indirect.x, lost_indirect.y, lost_indirect.z, real(0.0), lost_caustic.x,
-                             lost_caustic.y, lost_caustic.z, real(0.0));
+    film[pixel] =
+        FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y, indirect.z, 0u,
+                   caustic.x, caustic.y, caustic.z, f.non_finite, lost_direct.x, lost_direct.y,
+                   lost_direct.z, real(0.0), lost_indirect.x, lost_indirect.y, lost_indirect.z,
+                   real(0.0), lost_caustic.x, lost_caustic.y, lost_caustic.z, real(0.0));
 }

@@ -16,14 +16,15 @@ FN Cell cell_of(QueryRecord q) {
     if (steps > 0u) {
         uvec4 random = pcg4d(uvec4(float_bits(p), 0x85ebca6bu));
         bool flat_shaded = q.shading_normal == q.geometric_normal;
-        cell.lobes = uvec3(q.material + 1u, direction_cell(unpack_unit(q.direction), steps, random.x),
-                           flat_shaded ? 0u : direction_cell(unpack_unit(q.shading_normal), steps, random.y));
+        cell.lobes = uvec3(
+            q.material + 1u, direction_cell(unpack_unit(q.direction), steps, random.x),
+            flat_shaded ? 0u : direction_cell(unpack_unit(q.shading_normal), steps, random.y));
     }
     return cell;
 }
 
-// Finds each query's entry of a hash table of cells; the least of a cell's shuffled slots is its owner, whatever the order
-// in which they come. A table has more entries than there are slots.
+// Finds each query's entry of a hash table of cells; the least of a cell's shuffled slots is its
+// owner, whatever the order in which they come. A table has more entries than there are slots.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {
@@ -38,7 +39,8 @@ FN void main() {
             uint entry = pcg4d(cell.place ^ uvec4(cell.lobes, cell.lobes.x)).x & params.mask;
             for (;;) {
                 uint other = atomicCompSwap(table[entry], no_query, slot);
-                if (other == no_query || other == slot || same_cell(cell_of(queries[other]), cell)) {
+                if (other == no_query || other == slot ||
+                    same_cell(cell_of(queries[other]), cell)) {
                     break;
                 }
                 entry = (entry + 1u) & params.mask;

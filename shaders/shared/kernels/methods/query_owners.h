@@ -1,5 +1,5 @@
-// Of the entry of its cell (none: it has one of its own), makes the slot whose answer each query takes; only that one
-// is chosen to ask.
+// Of the entry of its cell (none: it has one of its own), makes the slot whose answer each query
+// takes; only that one is chosen to ask.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {

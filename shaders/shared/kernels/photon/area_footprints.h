@@ -1,5 +1,5 @@
-// Where photons spread as far as their neighbours do, part of them falls off the surface's edge; so the same share must
-// be missing of the area that the samples near there add up to.
+// Where photons spread as far as their neighbours do, part of them falls off the surface's edge; so
+// the same share must be missing of the area that the samples near there add up to.
 FN real radius_nearby(uint i) {
     uint first = i - min(i, area_neighbours);
     uint last = min(i + area_neighbours, counters[counter_stored] - 1u);
@@ -8,8 +8,11 @@ FN real radius_nearby(uint i) {
     for (uint j = first; j <= last; ++j) {
         if ((photons[j].normal & (area_sample_bit | photon_caustic_bit)) == 0u) {
             uvec4 packed = footprints[j];
-            // Of dual axes, the inverse of that of the axes; they are at right angles to the normal, and not parallel.
-            sum += real(1.0) / max(parallelogram_side(unpack_dual(packed.x, packed.y), unpack_dual(packed.z, packed.w)), real(1e-30));
+            // Of dual axes, the inverse of that of the axes; they are at right angles to the
+            // normal, and not parallel.
+            sum += real(1.0) / max(parallelogram_side(unpack_dual(packed.x, packed.y),
+                                                      unpack_dual(packed.z, packed.w)),
+                                   real(1e-30));
             count += real(1.0);
         }
     }
@@ -27,6 +30,7 @@ FN void main() {
     vec3 normal = unpack_photon_normal(photons[i].normal);
     Frame frame = make_frame(normal);
     real radius = max(radius_nearby(i), params.least_area_radius);
-    FootprintDuals duals = footprint_duals(Footprint(frame.x * radius, frame.y * radius, normal * radius), normal);
+    FootprintDuals duals =
+        footprint_duals(Footprint(frame.x * radius, frame.y * radius, normal * radius), normal);
     footprints[i] = uvec4(pack_dual(duals.a), pack_dual(duals.b));
 }

@@ -1,7 +1,7 @@
 #include "shared/kernels/scene.h"
 
-// Points spread evenly over all surfaces: one at every step along the triangles' summed areas, and within a triangle by
-// a sequence of its own.
+// Points spread evenly over all surfaces: one at every step along the triangles' summed areas, and
+// within a triangle by a sequence of its own.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || counters[counter_stored_slots] + i >= params.capacity) {
@@ -25,9 +25,12 @@ FN void main() {
     vec2 b = sample_triangle(vec2(u));
     uvec4 t = triangles[low];
     vec3 error;
-    vec3 p = hit_point(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), b.x, b.y, error);
-    vec3 normal = normalize_or(cross3(vec3(positions[t.y]) - vec3(positions[t.x]), vec3(positions[t.z]) - vec3(positions[t.x])),
+    vec3 p = hit_point(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), b.x, b.y,
+                       error);
+    vec3 normal = normalize_or(cross3(vec3(positions[t.y]) - vec3(positions[t.x]),
+                                      vec3(positions[t.z]) - vec3(positions[t.x])),
                                vec3(real(0.0), real(0.0), real(1.0)));
     photons[counters[counter_stored_slots] + i] =
-        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit, params.area, real(0.0), real(0.0), 0u);
+        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit,
+                     params.area, real(0.0), real(0.0), 0u);
 }

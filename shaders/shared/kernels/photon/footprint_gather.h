@@ -1,4 +1,5 @@
-// Density estimation over the footprints that reach a query: Fabianowski and Dingliana 2009, eq. 1 and section 6.3.
+// Density estimation over the footprints that reach a query: Fabianowski and Dingliana 2009, eq. 1
+// and section 6.3.
 #include "shared/kernels/photon/query_state.h"
 
 FN void main() {
@@ -29,7 +30,8 @@ FN void main() {
                 continue;
             }
             vec3 normal = unpack_photon_normal(place.w);
-            real weight = footprint_weight(duals, normal, q.normal, offset, params.flatness, uniform_kernel);
+            real weight =
+                footprint_weight(duals, normal, q.normal, offset, params.flatness, uniform_kernel);
             if (!(weight > real(0.0))) {
                 continue;
             }
@@ -48,5 +50,8 @@ FN void main() {
         }
     }
     // The footprints of area samples are those of the diffusely scattered photons around them.
-    store_query(q, params.boundary_correction != 0u ? real(1.0) / max(q.coverage, least_coverage) : real(1.0), real(1.0));
+    store_query(q,
+                params.boundary_correction != 0u ? real(1.0) / max(q.coverage, least_coverage)
+                                                 : real(1.0),
+                real(1.0));
 }

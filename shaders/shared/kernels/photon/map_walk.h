@@ -1,6 +1,6 @@
-// Walking a photon map: its tree in depth-first order, by escape references, from leaf to leaf. NODES(i) and PHOTONS(i)
-// read the map.
-uint walk_end = lbvh_end;   // the node at which the walk is over
+// Walking a photon map: its tree in depth-first order, by escape references, from leaf to leaf.
+// NODES(i) and PHOTONS(i) read the map.
+uint walk_end = lbvh_end; // the node at which the walk is over
 
 // Where the walk through a part of the map begins; walk_end is set.
 FN uint first_node(uint part) {
@@ -29,16 +29,17 @@ struct PhotonRange {
     uint first, end;
 };
 
-// The next leaf, from `node` on, that a ball about p reaches; empty at the tree's end or after `limit` steps. Apart from
-// the photons' loop, so that all lanes of a subgroup look for a leaf, and then go through theirs together: 2.2 times as
-// fast on lavapipe.
+// The next leaf, from `node` on, that a ball about p reaches; empty at the tree's end or after
+// `limit` steps. Apart from the photons' loop, so that all lanes of a subgroup look for a leaf, and
+// then go through theirs together: 2.2 times as fast on lavapipe.
 FN PhotonRange next_leaf(vec3 p, real radius2, uint limit, INOUT(uint) node, INOUT(uint) steps) {
     PhotonRange range = PhotonRange(0u, 0u);
     while (range.end == 0u && node != lbvh_end && steps < limit) {
         ++steps;
         uvec4 low = NODES(2u * node);
         uvec4 high = NODES(2u * node + 1u);
-        vec3 outside = max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+        vec3 outside =
+            max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
         bool near = dot3(outside, outside) <= radius2;
         bool leaf = (node & 1u) != 0u;
         if (near && leaf) {

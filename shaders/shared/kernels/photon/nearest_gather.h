@@ -1,27 +1,31 @@
-// Density estimation over the k nearest photons within r_max (Jensen 1996), exactly: ties go to the photon that comes
-// first in the map. WORD(i) is the i-th of nearest_words words that a query works with.
+// Density estimation over the k nearest photons within r_max (Jensen 1996), exactly: ties go to the
+// photon that comes first in the map. WORD(i) is the i-th of nearest_words words that a query works
+// with.
 //
-// There is no heap: it takes k words of memory a query, and each insertion is a chain of dependent reads that lanes of a
-// subgroup go through at different lengths. A first walk counts photons by distance in a histogram, whose bins are ranges
-// of the bits of squared distances, and shrinks its radius whenever the bins below hold k. The bin of the k-th nearest
-// holds few photons (else it is divided, and they are counted again). A second walk adds up what is surely nearer, and
-// puts that bin's few photons in a list, from which the rest is selected. As the kernel is linear in the squared
-// distance, sums of flux and of flux times squared distance do not need to know its radius beforehand.
+// There is no heap: it takes k words of memory a query, and each insertion is a chain of dependent
+// reads that lanes of a subgroup go through at different lengths. A first walk counts photons by
+// distance in a histogram, whose bins are ranges of the bits of squared distances, and shrinks its
+// radius whenever the bins below hold k. The bin of the k-th nearest holds few photons (else it is
+// divided, and they are counted again). A second walk adds up what is surely nearer, and puts that
+// bin's few photons in a list, from which the rest is selected. As the kernel is linear in the
+// squared distance, sums of flux and of flux times squared distance do not need to know its radius
+// beforehand.
 #include "shared/kernels/photon/query.h"
 
 // Bin 0: bits < low; bin i: low + (i - 1 .. i) << shift, none of `high` or more.
 struct Search {
     uint phase;
     uint low, high, shift;
-    uint top;               // the bin that holds the k-th nearest of those counted so far
-    uint total;             // photons in bins 0 to top
-    uint start, stop;       // photons of the leaf where the walk began, if it has to go around, and where it ends
+    uint top;   // the bin that holds the k-th nearest of those counted so far
+    uint total; // photons in bins 0 to top
+    uint start,
+        stop; // photons of the leaf where the walk began, if it has to go around, and where it ends
     // Of the second walk: bits below low are taken, those from low on, below high, are candidates.
-    uint missing;           // candidates to be taken
-    uint taken, last;       // those that have been, if their distances are all the same; the last one
+    uint missing;     // candidates to be taken
+    uint taken, last; // those that have been, if their distances are all the same; the last one
     uint listed;
-    bool overflown;         // the list
-    Sum indirect_moment, caustic_moment;        // flux times squared distance, in units of `unit`
+    bool overflown;                      // the list
+    Sum indirect_moment, caustic_moment; // flux times squared distance, in units of `unit`
     real coverage_moment;
 };
 
@@ -43,10 +47,12 @@ FN uint near_leaf(vec3 p, INOUT(uint) steps) {
         uvec4 low = NODES(2u * left);
         uvec4 high = NODES(2u * left + 1u);
         uint right = high.w;
-        vec3 to_left = max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+        vec3 to_left =
+            max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
         low = NODES(2u * right);
         high = NODES(2u * right + 1u);
-        vec3 to_right = max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+        vec3 to_right =
+            max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
         node = dot3(to_left, to_left) <= dot3(to_right, to_right) ? left : right;
     }
     return node;
@@ -58,7 +64,8 @@ FN void clear_bins() {
     }
 }
 
-// Bins for the whole ball of r_max. The walk begins near the query, so that its radius shrinks soon.
+// Bins for the whole ball of r_max. The walk begins near the query, so that its radius shrinks
+// soon.
 FN void start_counting(INOUT(Query) q, OUT(Search) s, INOUT(uint) steps) {
     s.phase = nearest_counts;
     s.high = float_bits(params.radius * params.radius);
@@ -156,7 +163,8 @@ FN void judge_count(INOUT(Query) q, INOUT(Search) s) {
 }
 
 FN real least_r2() {
-    return max(nearest_least * nearest_least * (params.radius * params.radius), nearest_least_square);
+    return max(nearest_least * nearest_least * (params.radius * params.radius),
+               nearest_least_square);
 }
 
 // The same for both walks. False: it is not at its end.
@@ -243,22 +251,23 @@ FN uint select_last(INOUT(Search) s) {
             return bits;
         }
     }
-    return s.high;      // with nothing missing
+    return s.high; // with nothing missing
 }
 
 FN void finish(Query q, INOUT(Search) s) {
     bool one_distance = s.high - s.low == 1u;
     real unit = max(bits_float(s.high), least_r2());
     uint last_bits = one_distance ? s.low : select_last(s);
-    // Photons lie in a disc to whose edge the k-th nearest belongs, with no weight: so the mean is right where they are
-    // spread evenly, (k - 1) / (π r²) being the unbiased estimate of their density. Fewer than k: the disc of r_max.
+    // Photons lie in a disc to whose edge the k-th nearest belongs, with no weight: so the mean is
+    // right where they are spread evenly, (k - 1) / (π r²) being the unbiased estimate of their
+    // density. Fewer than k: the disc of r_max.
     real r2 = max(bits_float(last_bits), least_r2());
     real inverse_r2 = real(1.0) / r2;
     real ratio = unit * inverse_r2;
     // What is taken away is at most as much, but for rounding.
     vec3 indirect = max(q.indirect.value - s.indirect_moment.value * ratio, vec3(real(0.0)));
-    vec3 caustic =
-        caustics ? max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0))) : vec3(real(0.0));
+    vec3 caustic = caustics ? max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0)))
+                            : vec3(real(0.0));
     real coverage = max(q.coverage - s.coverage_moment * ratio, real(0.0));
     for (uint i = 0u; i < s.listed; ++i) {
         uint bits = WORD(2u * i);
@@ -279,10 +288,14 @@ FN void finish(Query q, INOUT(Search) s) {
         }
     }
     real density = kernel_scale * inverse_r2;
-    // Few samples do not tell how much of a disc lies on surfaces; where photons are so dense, edges matter little.
+    // Few samples do not tell how much of a disc lies on surfaces; where photons are so dense,
+    // edges matter little.
     real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
-    real trust = clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
-    real scale = params.boundary_correction != 0u ? mix(real(1.0), real(1.0) / max(coverage * density, least_coverage), trust) : real(1.0);
+    real trust =
+        clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
+    real scale = params.boundary_correction != 0u
+                     ? mix(real(1.0), real(1.0) / max(coverage * density, least_coverage), trust)
+                     : real(1.0);
     store_estimate(q, scale * density * indirect, scale * density * caustic);
     s.low = last_bits;
     s.phase = nearest_done;

@@ -1,4 +1,5 @@
-// Along the space-filling curve, caustic photons behind the others. Empty slots get the largest code and end up behind all.
+// Along the space-filling curve, caustic photons behind the others. Empty slots get the largest
+// code and end up behind all.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored_slots]) {

@@ -8,22 +8,23 @@ FN void main() {
     uint photon = batch.first + slot;
     vec4 a = photon_random4(batch.seed, photon, 0u, quasi_random);
     vec4 v = photon_random4(batch.seed, photon, 1u, quasi_random);
-    // Emission's and first scattering's directions take one set of jointly well distributed numbers: where the light is
-    // small, they decide where the photon is stored.
+    // Emission's and first scattering's directions take one set of jointly well distributed
+    // numbers: where the light is small, they decide where the photon is stored.
     vec4 u = vec4(a.x, a.y, v.x, v.y);
     real probability;
     LightRecord light = lights[choose_light(v.w, probability)];
     vec3 origin, direction, normal, flux;
-    bool emitted = light_emit(light, light_kinds, u, vec4(v.z, v.w, v.x, v.y), scene_center(), scene[0].radius, origin,
-                              direction, normal, flux);
+    bool emitted = light_emit(light, light_kinds, u, vec4(v.z, v.w, v.x, v.y), scene_center(),
+                              scene[0].radius, origin, direction, normal, flux);
     flux = emitted ? flux * (batch.inverse_total / probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
-        differentials[slot] = differential_record(light_differential(
-            light, light_kinds, direction, normal, scene[0].radius, photons * probability,
-            photons * batch.emitter_probability));
+        differentials[slot] = differential_record(
+            light_differential(light, light_kinds, direction, normal, scene[0].radius,
+                               photons * probability, photons * batch.emitter_probability));
     }
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -real(1.0), direction.x, direction.y, direction.z, 0u);
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -real(1.0),
+                           direction.x, direction.y, direction.z, 0u);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);
     uvec3 units = uvec3(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
                         flux_units(flux.z, batch.flux_unit));

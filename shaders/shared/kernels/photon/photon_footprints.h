@@ -1,5 +1,6 @@
-// Footprints in the order of the map, as dual axes, and their areas in shares of the scene's. Area samples, whose
-// footprints are their neighbours', are listed for area_footprints: few among many, they would keep all lanes waiting.
+// Footprints in the order of the map, as dual axes, and their areas in shares of the scene's. Area
+// samples, whose footprints are their neighbours', are listed for area_footprints: few among many,
+// they would keep all lanes waiting.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored]) {

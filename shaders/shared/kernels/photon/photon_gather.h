@@ -46,7 +46,9 @@ FN void main() {
         }
         q.coverage += area_leaf * (kernel_scale * inverse_r2);
     }
-    // Photons fill only the part of the disc that lies on surfaces. It is known of the whole disc only.
-    real scale = params.boundary_correction != 0u ? real(1.0) / max(q.coverage, least_coverage) : real(1.0);
+    // Photons fill only the part of the disc that lies on surfaces. It is known of the whole disc
+    // only.
+    real scale =
+        params.boundary_correction != 0u ? real(1.0) / max(q.coverage, least_coverage) : real(1.0);
     store_query(q, scale, caustic_r2 < r2 ? real(1.0) : scale);
 }

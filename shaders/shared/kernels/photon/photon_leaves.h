@@ -1,6 +1,6 @@
-// The largest subtree of at most leaf_size photons around each photon, of which the first one is the head: these are the
-// leaves that are left where splits below the threshold are undone (Fabianowski and Dingliana 2009, §6.2), and their
-// number is known before the tree is built.
+// The largest subtree of at most leaf_size photons around each photon, of which the first one is
+// the head: these are the leaves that are left where splits below the threshold are undone
+// (Fabianowski and Dingliana 2009, §6.2), and their number is known before the tree is built.
 FN void main() {
     uint i = THREAD_INDEX;
     uint stored = counters[counter_stored];

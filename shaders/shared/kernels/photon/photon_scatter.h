@@ -1,5 +1,5 @@
-#include "shared/kernels/scene.h"
 #include "shared/kernels/material.h"
+#include "shared/kernels/scene.h"
 
 // Whether some material of the scene has any of these lobes.
 FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
@@ -10,13 +10,16 @@ FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
         return vec3(real(0.0));
     }
     uvec4 t = triangles[hit.triangle];
-    return shading_normal_change(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), vec3(normals[t.x]),
-                                 vec3(normals[t.y]), vec3(normals[t.z]), vec2(hit.u, hit.v), surface.shading_normal, offset);
+    return shading_normal_change(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]),
+                                 vec3(normals[t.x]), vec3(normals[t.y]), vec3(normals[t.z]),
+                                 vec2(hit.u, hit.v), surface.shading_normal, offset);
 }
 
-// The differential, transferred to the hit, after scattering from direction `incoming` to `outgoing`.
-FN void scatter_differential(INOUT(PhotonDifferential) d, HitRecord hit, Surface surface, Frame frame, BsdfSample s,
-                          real survival, vec3 incoming, vec3 outgoing) {
+// The differential, transferred to the hit, after scattering from direction `incoming` to
+// `outgoing`.
+FN void scatter_differential(INOUT(PhotonDifferential) d, HitRecord hit, Surface surface,
+                             Frame frame, BsdfSample s, real survival, vec3 incoming,
+                             vec3 outgoing) {
     roulette_differential(d, s.probability * survival);
     real emitted = real(1.0) / batch.inverse_total;
     if (s.lobe == LOBE_DIFFUSE) {
@@ -27,7 +30,8 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, HitRecord hit, Surface
         vec3 dn_dv = normal_change(hit, surface, d.dp_dv);
         if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
             // The pdf is of all lobes together.
-            gloss_differential(d, incoming, outgoing, n, dn_du, dn_dv, emitted, s.pdf / s.probability);
+            gloss_differential(d, incoming, outgoing, n, dn_du, dn_dv, emitted,
+                               s.pdf / s.probability);
         } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
             reflect_differential(d, incoming, n, dn_du, dn_dv);
         } else if (has(LOBE_TRANSMIT)) {
@@ -54,7 +58,8 @@ FN void main() {
     uint depth = path.state & photon_depth_mask;
     alive[i] = 0u;
 
-    // Every photon has a slot for what it may leave behind, in an order that does not depend on scheduling.
+    // Every photon has a slot for what it may leave behind, in an order that does not depend on
+    // scheduling.
     bool stores = depth > 0u && depth <= batch.bounces;
     uint store = counters[counter_stored_slots] + i;
     if (stores && store >= batch.capacity) {
@@ -73,8 +78,8 @@ FN void main() {
     MaterialRecord m = load_material(triangles[hit.triangle].w);
     Frame frame = make_frame(surface.shading_normal);
     vec3 wo = to_local(frame, -direction);
-    // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that with the shading normal
-    // (Veach 1997, §5.3).
+    // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that
+    // with the shading normal (Veach 1997, §5.3).
     real geometric_in = -dot(direction, surface.geometric_normal);
     real arriving = geometric_in > real(0.0) ? wo.z / geometric_in : real(1.0);
 
@@ -88,8 +93,9 @@ FN void main() {
     if (stores && estimated != 0u) {
         bool caustic = followed_paths && (path.state & photon_followed) != 0u;
         photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
-                                      pack_photon_normal(surface.geometric_normal, caustic), flux.x * arriving,
-                                      flux.y * arriving, flux.z * arriving, pack_photon_direction(-direction, depth));
+                                      pack_photon_normal(surface.geometric_normal, caustic),
+                                      flux.x * arriving, flux.y * arriving, flux.z * arriving,
+                                      pack_photon_direction(-direction, depth));
         if (footprints) {
             offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
         }
@@ -101,7 +107,8 @@ FN void main() {
 
     vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth, quasi_random);
     if (depth == 0u) {
-        vec4 with_emission = photon_random4(batch.seed, batch.first + slot, 0u, quasi_random);  // see photon_emit.h
+        vec4 with_emission =
+            photon_random4(batch.seed, batch.first + slot, 0u, quasi_random); // see photon_emit.h
         u.y = with_emission.z;
         u.z = with_emission.w;
     }
@@ -120,20 +127,24 @@ FN void main() {
         }
     }
     // Roulette keeps the flux of what goes on about equal.
-    real survival = min(max_component(scattered) / max_component(flux), depth < 64u ? real(1.0) : real(0.95));
+    real survival =
+        min(max_component(scattered) / max_component(flux), depth < 64u ? real(1.0) : real(0.95));
     if (!(max_component(flux) > real(0.0)) || !(u.w < survival)) {
         ledgers[slot].absorbed += units_of(flux);
         return;
     }
     scattered /= survival;
-    // What roulette adds to one photon it takes from another: absorption is a difference, and can be negative.
+    // What roulette adds to one photon it takes from another: absorption is a difference, and can
+    // be negative.
     ledgers[slot].absorbed += units_of(flux) - units_of(scattered);
     if (footprints) {
         scatter_differential(d, hit, surface, frame, s, survival, direction, outgoing);
         differentials[slot] = differential_record(d);
     }
-    vec3 origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal, outgoing);
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, outgoing.x, outgoing.y, outgoing.z, 0u);
+    vec3 origin =
+        offset_ray_origin(surface.position, surface.error, surface.geometric_normal, outgoing);
+    rays[slot] =
+        RayRecord(origin.x, origin.y, origin.z, far_away, outgoing.x, outgoing.y, outgoing.z, 0u);
     bool stays_followed = (path.state & photon_followed) != 0u && (s.lobe & followed) != 0u;
     paths[slot] = PhotonPathRecord(scattered.x, scattered.y, scattered.z,
                                    (depth + 1u) | (stays_followed ? photon_followed : 0u));

@@ -1,5 +1,5 @@
-// What all kinds of density estimation at the eye's queries have in common: reading a query, what its surface scatters of
-// a photon's flux, and writing the estimate.
+// What all kinds of density estimation at the eye's queries have in common: reading a query, what
+// its surface scatters of a photon's flux, and writing the estimate.
 #include "shared/kernels/material.h"
 #include "shared/kernels/photon/map_walk.h"
 
@@ -13,20 +13,20 @@ FN void add(INOUT(Sum) sum, vec3 term) { add_compensated(sum.value, sum.compensa
 struct Query {
     uint slot;
     vec3 p;
-    vec3 normal;            // geometric, towards the eye
-    bool front;             // the surface is seen from its front
-    uint own_normal;        // packed as photons' are
-    uint front_normal;      // that of the surface's front, as area samples have it
+    vec3 normal;       // geometric, towards the eye
+    bool front;        // the surface is seen from its front
+    uint own_normal;   // packed as photons' are
+    uint front_normal; // that of the surface's front, as area samples have it
     MaterialRecord material;
     uint lobes;
-    uint most_scatterings;  // of a photon that counts (final_gather)
+    uint most_scatterings; // of a photon that counts (final_gather)
     bool lambertian;
-    vec3 reflectance;       // if lambertian, over pi
-    Frame frame;            // of the shading normal
+    vec3 reflectance; // if lambertian, over pi
+    Frame frame;      // of the shading normal
     vec3 wo;
     Sum indirect, caustic;
-    real coverage;         // sum of the weighted areas
-    uint node;              // to go on with
+    real coverage; // sum of the weighted areas
+    uint node;     // to go on with
 };
 
 // The query of a slot, before its walk.
@@ -51,9 +51,10 @@ FN Query make_query(uint slot) {
     q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
     q.frame = make_frame(unpack_unit(record.shading_normal));
     q.wo = to_local(q.frame, unpack_unit(record.direction));
-    q.reflectance = white          ? vec3(INV_PI)
-                    : q.lambertian ? bsdf_eval(m, q.wo, vec3(real(0.0), real(0.0), real(1.0)), q.lobes)
-                                   : vec3(real(0.0));
+    q.reflectance = white ? vec3(INV_PI)
+                    : q.lambertian
+                        ? bsdf_eval(m, q.wo, vec3(real(0.0), real(0.0), real(1.0)), q.lobes)
+                        : vec3(real(0.0));
     return q;
 }
 
@@ -85,5 +86,6 @@ FN vec3 scattered(Query q, uvec4 carried) {
 FN bool is_caustic(uvec4 place) { return caustics && photon_is_caustic(place.w); }
 
 FN void store_estimate(Query q, vec3 indirect, vec3 caustic) {
-    estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x, caustic.y, caustic.z, real(0.0));
+    estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x,
+                                       caustic.y, caustic.z, real(0.0));
 }

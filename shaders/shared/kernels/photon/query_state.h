@@ -14,22 +14,24 @@ FN bool load_query(OUT(Query) q) {
         q.caustic.value = vec3(g.caustic_r, g.caustic_g, g.caustic_b);
         q.indirect.compensation =
             vec3(g.indirect_compensation_r, g.indirect_compensation_g, g.indirect_compensation_b);
-        q.caustic.compensation = vec3(g.caustic_compensation_r, g.caustic_compensation_g, g.caustic_compensation_b);
+        q.caustic.compensation =
+            vec3(g.caustic_compensation_r, g.caustic_compensation_g, g.caustic_compensation_b);
         q.coverage = g.coverage;
         q.node = g.node;
     }
     return params.first != 0u || q.node != lbvh_end;
 }
 
-// Puts the query aside if its walk has not come to its end. Else stores the estimate; the scales are for what the
-// kernels lost off the surfaces.
+// Puts the query aside if its walk has not come to its end. Else stores the estimate; the scales
+// are for what the kernels lost off the surfaces.
 FN void store_query(Query q, real indirect_scale, real caustic_scale) {
     if (q.node != lbvh_end) {
         vec3 a = q.indirect.compensation;
         vec3 b = q.caustic.compensation;
         gathers[q.slot] =
-            GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z, q.node, q.caustic.value.x,
-                         q.caustic.value.y, q.caustic.value.z, q.coverage, a.x, a.y, a.z, real(0.0), b.x, b.y, b.z, real(0.0));
+            GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z, q.node,
+                         q.caustic.value.x, q.caustic.value.y, q.caustic.value.z, q.coverage, a.x,
+                         a.y, a.z, real(0.0), b.x, b.y, b.z, real(0.0));
         atomicAdd(unfinished[0], 1u);
         return;
     }
