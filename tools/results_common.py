@@ -1,9 +1,10 @@
-"""What the scripts that measure docs/results share."""
+"""Shared by the scripts that measure docs/results."""
 
 import datetime
 import os
 import pathlib
 import platform
+import re
 import subprocess
 import sys
 
@@ -12,8 +13,49 @@ ARGAND = ROOT / "build/release/tools/argand/argand"
 
 
 def origin():
-    """By what, when, of what and where results were made."""
+    """A sentence: the command, date, revision and machine of the results."""
     command = " ".join([pathlib.Path(sys.argv[0]).name, *sys.argv[1:]])
     revision = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
     return (f"Written by `tools/{command}`. {datetime.date.today()}, revision {revision.stdout.strip()}, "
             f"{platform.machine()}, {os.cpu_count()} cores.")
+
+
+# The pages of docs/results: figure, page, command.
+PAGES = [
+    ("Speed of the parts", "parts.md", "tools/results"),
+    ("Error at default settings", "errors.md", "tools/results"),
+    ("Time from start to picture", "start.md", "tools/results"),
+    ("Errors and times on request", "targets.md", "tools/results_targets"),
+    ("Error at equal time", "budgets.md", "argand bench --paper fd09 --part budgets"),
+    ("Fabianowski and Dingliana 2009", "fd09.md", "argand bench --paper fd09"),
+    ("Bandwidth", "bandwidth.md", "argand render, argand compare"),
+    ("Footprints: choices", "footprints.md", "argand render, argand compare"),
+    ("Final gather", "final_gather.md", "argand render, argand compare"),
+    ("Quasi-random photons", "quasi_random.md", "argand render, argand compare"),
+    ("Smaller records, faster arithmetic", "precision.md", "argand render, changed builds"),
+    ("Numerical stability", "numerics.md", "tools/results_numerics"),
+    ("Specialisation to the scene", "specialisation.md", "tools/results_specialisation"),
+    ("Backends: summary", "backends.md", "tools/results_backends"),
+    ("Backends: lavapipe and the host", "backends_vulkan_cpu.md", "tools/results_backends vulkan cpu"),
+    ("Path tracer compared with Cycles", "cycles.md", "argand render, Blender"),
+    ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
+]
+
+
+def revisions(text):
+    """The revisions that a page says it measured, or those before and after a change."""
+    return list(dict.fromkeys(re.findall(r"revisions?\s+([0-9a-f]{7})\b", text))) or ["not recorded"]
+
+
+def write_index():
+    """Writes docs/results/README.md: a line for each page, with the revisions that the page names."""
+    folder = ROOT / "docs/results"
+    lines = ["# Measured results", "",
+             "`write_index()` in `tools/results_common.py` writes this index. `tradeoff_*.csv` are the tables of sweeps by "
+             "`tools/results_targets` ([tradeoff.md](../tradeoff.md) says how to read them).", "",
+             "| figure | command | revision |", "| --- | --- | --- |"]
+    for figure, page, command in PAGES:
+        if (folder / page).exists():
+            of = ", ".join(revisions((folder / page).read_text()))
+            lines.append(f"| [{figure}]({page}) | `{command}` | {of} |")
+    (folder / "README.md").write_text("\n".join([*lines, ""]))

@@ -93,15 +93,15 @@ std::vector<Function> codes_table() {
          "dd", ulp, 0},
         {"leading_zeros", of_leading_zeros, "any words", [](Draw& d) { d.put_word(any_word(d)); },
          0, "d", ulp, 0},
-        {"code_distance", of_code_distance, "leaves that first differ in any bit of code and place",
+        {"code_distance", of_code_distance, "leaves that first differ in any bit of code and index",
          put_leaves, 0, "d", ulp, 0},
         {"morton30", of_morton30,
-         "points in boxes and outside, boxes of 2^-20 of their place, flat ones and ones wider "
-         "than the greatest number",
+         "points in boxes and outside, boxes of 2^-20 of their distance from the origin, flat ones "
+         "and ones larger than the largest number",
          put_point_and_box, 9, "dddd", ulp, 0, 0.025},
         {"morton63", of_morton63,
-         "points in boxes and outside, boxes of 2^-20 of their place, flat ones and ones wider "
-         "than the greatest number",
+         "points in boxes and outside, boxes of 2^-20 of their distance from the origin, flat ones "
+         "and ones larger than the largest number",
          put_point_and_box, 9, "dddd", ulp, 0, 0.2},
         {"pack_photon_direction, photon_scatterings", of_pack_photon_direction,
          "directions, 0 … 2^24 scatterings", put_direction_and_scatterings, 3, "ccd", ulp, 0},

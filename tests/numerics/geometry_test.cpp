@@ -89,8 +89,8 @@ TEST_F(Extremes, CoplanarTrianglesOfTwoMaterials) {
         }
     }
     record_extreme("two floors in one plane, of albedo 0.2 and 0.8",
-                   "each pixel is a mix of the two's own pictures, within 10^-4: none in the "
-                   "shadow of the other",
+                   "each pixel is a mix of the pictures of each alone, within 10^-4: neither "
+                   "shadows the other",
                    fmt::format("outside by {}; the lighter one's shares are {} … {}", worst.text(),
                                shown(least), shown(most)));
 }

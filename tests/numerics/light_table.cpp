@@ -397,7 +397,7 @@ std::vector<Function> light_table() {
              d.put(d.vector(size - 8, size));
          },
          3, "ccdc", ulp, 0},
-        {"unpack_dual", of_unpack_dual, "codes 1 … 65,535 thrice, exponents -99 … 100",
+        {"unpack_dual", of_unpack_dual, "three codes 1 … 65,535, exponents -99 … 100",
          [](Draw& d) {
              const auto code = [&] {
                  const std::uint32_t ends[] = {1, 32768, 65535};

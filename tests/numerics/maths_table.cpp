@@ -124,7 +124,7 @@ std::vector<Function> maths_table() {
          2, "11", ulp, 3},
         {"pack_unit", of_pack_unit, "directions", [](Draw& d) { d.put(d.direction()); }, 3, "cc",
          ulp, 0},
-        {"unpack_unit", of_unpack_unit, "codes 1 … 65,535 twice",
+        {"unpack_unit", of_unpack_unit, "two codes 1 … 65,535",
          [](Draw& d) {
              for (int i = 0; i < 2; ++i) {
                  const float ends[] = {1, 32768, 65535};
@@ -134,10 +134,12 @@ std::vector<Function> maths_table() {
          },
          0, "3", ulp, 5},
         {"morton_cell, 10 bits", of_morton_cell,
-         "points in boxes and outside, boxes of 2^-20 of their place and flat ones",
+         "points in boxes and outside, boxes of 2^-20 of their distance from the origin and flat "
+         "ones",
          put_point_and_box, 9, "d", ulp, 0},
         {"morton_cell, 21 bits", of_fine_morton_cell,
-         "points in boxes and outside, boxes of 2^-20 of their place and flat ones",
+         "points in boxes and outside, boxes of 2^-20 of their distance from the origin and flat "
+         "ones",
          put_point_and_box, 9, "d", ulp, 0, 0.06},
         {"random4", of_random4, "any words",
          [](Draw& d) {

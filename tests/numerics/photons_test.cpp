@@ -29,11 +29,11 @@ TEST_F(Extremes, NoPhotonOneAndTwo) {
             worst.take(std::abs(emitted / power - 1), fmt::format("{}, {}", method, photons));
         }
     }
-    record_extreme("0, 1 and 2 photons, all methods",
-                   "0: no indirect light; 1 and 2: what is emitted is the light's power within "
-                   "10^-5 (the picture is "
-                   "noise: the map's sum is tested by itself, below); direct light the same bits",
-                   "the same bits; power off by " + worst.text());
+    record_extreme(
+        "0, 1 and 2 photons, all methods",
+        "0: no indirect light; 1 and 2: the emitted flux is the light's power within 10^-5 (the "
+        "picture is noise; the map's sum has a test of its own, below); direct light the same bits",
+        "the same bits; power off by " + worst.text());
 }
 
 TEST_F(Extremes, SlowTenMillionPhotons) {
@@ -72,7 +72,7 @@ TEST_F(Extremes, RadiusOfNothing) {
         }
     }
     record_extreme("radius → 0 (10^-20, 10^-6, 10^-3)",
-                   "finite; direct light the same bits; no photon is met at 10^-20 and 10^-6, a "
+                   "finite; direct light the same bits; no photon is found at 10^-20 and 10^-6, a "
                    "few at 10^-3 (noise)",
                    "as expected");
 }
@@ -113,9 +113,8 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
             fmt::format("{}{} of {}", figures.empty() ? "" : "; ", shown(found), shown(expected));
     }
     record_extreme("radius → scene (1, 5 scene sizes), photons",
-                   "evenly lit walls: indirect light within 3 % of what the part of the disc that "
-                   "the wall covers leaves "
-                   "(darker where it covers less than a tenth)",
+                   "evenly lit walls: indirect light within 3 % of the share of the disc that the "
+                   "wall covers (darker where it covers less than a tenth)",
                    figures);
     for (const double radius : {2.0, 10.0}) {
         RenderSettings nearest = small("knn");
@@ -123,7 +122,7 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
         sound(room_scene(), nearest);
     }
     record_extreme("radius → scene (1, 5 scene sizes), knn",
-                   "finite (the k nearest end the disc long before)", "finite");
+                   "finite (the k nearest limit the disc long before)", "finite");
 }
 
 TEST_F(Extremes, FootprintsFromNothingToTheScene) {
@@ -162,11 +161,10 @@ TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
         }
     }
     record_extreme("albedo 1, 1,000 bounces",
-                   "ends, finite; nothing escapes; of the emitted radiance between 40 (path) or 65 "
-                   "and 2,004: the mean "
-                   "of 1,002 takes more paths than these, see 30 bounces",
-                   fmt::format("at least {}; absorbed by roulette, over what is emitted: {}",
-                               shown(least), cut.text()));
+                   "ends, finite; nothing escapes; between 40 (path) or 65 and 2,004 times the "
+                   "emitted radiance (the mean is 1,002, which takes more paths; see 30 bounces)",
+                   fmt::format("at least {}; absorbed by roulette, over emitted: {}", shown(least),
+                               cut.text()));
 }
 
 TEST_F(Extremes, ThirtyBouncesBetweenWhiteWalls) {
@@ -181,7 +179,7 @@ TEST_F(Extremes, ThirtyBouncesBetweenWhiteWalls) {
         worst.take(std::abs(found / 32 - 1), method);
     }
     record_extreme("albedo 1, 30 bounces",
-                   "32 of the emitted radiance within 6 % (8,192 paths, 5,000 photons)",
+                   "32 times the emitted radiance within 6 % (8,192 paths, 5,000 photons)",
                    worst.text());
 }
 

@@ -52,7 +52,7 @@ TEST_F(Extremes, EveryPixelIsTheFormulas) {
         EXPECT_LT(error, 1e-4) << method;
         worst_mean.take(error, method);
     }
-    record_extreme("a floor under a point light, against the formula in double precision",
+    record_extreme("a floor under a point light, compared with the formula in double precision",
                    "each pixel between the least and the greatest radiance within it, to 10^-6; "
                    "mean within 10^-4",
                    fmt::format("outside by {}; mean off by {}", worst.text(), worst_mean.text()));

@@ -271,7 +271,8 @@ std::vector<Function> scatter_table() {
          "10^-30 of absolute error)",
          put_scattering_by_lobes, 20, "1d", conditioned, 7},
         {"followed_lobes, estimated_lobes, is_lambertian", of_followed_lobes,
-         "any material, Lambertian ones among them; roughness followed 0 … 1 and the material's",
+         "any material, Lambertian ones among them; --follow-roughness 0 … 1 and equal to the "
+         "material's",
          [](Draw& d) {
              d.put(d.share());
              put_material(d);
@@ -305,13 +306,15 @@ std::vector<Function> scatter_table() {
          [](Draw& d) { d.put(d.once_in(2) ? d.direction() : d.nonzero_vector(-60, 60)); }, 3,
          "d111", ulp, 1},
         {"intersect_triangle", of_intersect_triangle,
-         "through insides, edges, vertices and beside; along axes, grazing by 10^-7; 10^5 sizes "
+         "through insides, edges, vertices and past them; along axes, grazing by 10^-7; 10^5 sizes "
          "away",
          [](Draw& d) { put_ray_and_triangle(d, false); }, 15, "d111", conditioned, 8, 0.3},
         {"intersect_triangle, slivers", of_intersect_sliver,
-         "slivers of aspect 10^6, through insides and beside; place by the sliver's length",
+         "slivers of aspect 10^6, through insides and past them; position relative to the sliver's "
+         "length",
          [](Draw& d) { put_ray_and_triangle(d, true); }, 15, "d3", conditioned, 2, 0.13},
-        {"box_reach", of_box_reach, "points in boxes and outside, boxes of 2^-20 of their place",
+        {"box_reach", of_box_reach,
+         "points in boxes and outside, boxes of 2^-20 of their distance from the origin",
          [](Draw& d) {
              d.put(d.vector(-20, 20));
              const glm::vec3 low = d.vector(-20, 20);
@@ -367,10 +370,10 @@ std::vector<Function> scatter_table() {
          },
          23, "d333d", conditioned, 6, 0.45},
         {"camera_ray, perspective", of_camera_ray,
-         "any place of pictures up to 4096², angles 7° … 90°, any place",
+         "any pixel of images up to 4096², angles 7° … 90°, any position",
          [](Draw& d) { put_camera(d, false); }, 14, "33", conditioned, 6},
         {"camera_ray, orthographic", of_camera_ray,
-         "any place of pictures up to 4096², any size and place",
+         "any pixel of images up to 4096², any size and position",
          [](Draw& d) { put_camera(d, true); }, 14, "33", conditioned, 4},
     };
 }

@@ -1,0 +1,160 @@
+// The documents refer to files and sections that exist, and the lists in them are complete.
+#include "support/scratch_directory.hpp"
+
+#include <cctype>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <regex>
+#include <set>
+
+namespace argand {
+namespace {
+
+using ::testing::IsEmpty;
+using testing::read_text;
+namespace fs = std::filesystem;
+
+const fs::path root = ARGAND_SOURCE_DIR;
+
+/// Files with one of these extensions, sorted, below the folders that hold text of this project.
+std::set<fs::path> files_with(const std::set<std::string>& extensions) {
+    std::set<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
+        if (entry.is_regular_file() && extensions.contains(entry.path().extension())) {
+            found.insert(entry.path());
+        }
+    }
+    for (const std::string folder :
+         {"assets", "docs", "engine", "examples", "shaders", "tests", "tools"}) {
+        if (!fs::exists(root / folder)) {
+            continue;
+        }
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (entry.is_regular_file() && extensions.contains(entry.path().extension())) {
+                found.insert(entry.path());
+            }
+        }
+    }
+    return found;
+}
+
+std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
+    return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
+}
+
+/// The anchor that Markdown renderers give a heading: lower case, hyphens for spaces, no other
+/// punctuation.
+std::string anchor_of(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x80 || std::isalnum(byte) != 0 || c == '-' || c == '_') {
+            anchor += static_cast<char>(byte >= 0x80 ? c : std::tolower(byte));
+        } else if (c == ' ') {
+            anchor += '-';
+        }
+    }
+    return anchor;
+}
+
+std::set<std::string> anchors(const fs::path& page) {
+    static const std::regex heading("(?:^|\n)#+ ([^\n]*)");
+    const std::string text = read_text(page);
+    std::set<std::string> found;
+    for (const std::smatch& match : matches(text, heading)) {
+        found.insert(anchor_of(match[1]));
+    }
+    return found;
+}
+
+/// Why a relative link from `page` leads nowhere; empty if it leads somewhere.
+std::string fault(const fs::path& page, const std::string& link) {
+    const std::size_t hash = link.find('#');
+    const std::string path = link.substr(0, hash);
+    const fs::path target = path.empty() ? page : page.parent_path() / path;
+    if (!fs::exists(target)) {
+        return page.lexically_relative(root).string() + ": no file " + link;
+    }
+    if (hash != std::string::npos && !anchors(target).contains(link.substr(hash + 1))) {
+        return page.lexically_relative(root).string() + ": no section " + link;
+    }
+    return "";
+}
+
+std::vector<std::string> broken_links(const fs::path& page, const std::string& text) {
+    static const std::regex link(R"(\]\(([^)\s]+)\))");
+    std::vector<std::string> faults;
+    for (const std::smatch& match : matches(text, link)) {
+        const std::string to = match[1];
+        if (to.find("://") == std::string::npos && !fault(page, to).empty()) {
+            faults.push_back(fault(page, to));
+        }
+    }
+    return faults;
+}
+
+TEST(Documents, BrokenLinksAreFound) {
+    const fs::path page = root / "docs/design.md";
+    EXPECT_EQ(broken_links(page, "[a](no_such.md)").size(), 1u);
+    EXPECT_EQ(broken_links(page, "[a](design.md#no-such-section)").size(), 1u);
+    EXPECT_EQ(broken_links(page, "[a](#no-such-section)").size(), 1u);
+    EXPECT_THAT(broken_links(page, "[a](../README.md#two-commands) [b](#layout) [c](https://x.y)"),
+                IsEmpty());
+}
+
+TEST(Documents, LinksLeadSomewhere) {
+    std::vector<std::string> faults;
+    for (const fs::path& page : files_with({".md"})) {
+        for (const std::string& broken : broken_links(page, read_text(page))) {
+            faults.push_back(broken);
+        }
+    }
+    EXPECT_THAT(faults, IsEmpty());
+}
+
+TEST(Documents, PagesThatTheSourcesNameExist) {
+    static const std::regex name(R"(docs/[\w/]+\.md)");
+    std::vector<std::string> faults;
+    for (const fs::path& file :
+         files_with({".cpp", ".hpp", ".h", ".cu", ".comp", ".glsl", ".py", ".md", ""})) {
+        const std::string text = read_text(file);
+        for (const std::smatch& match : matches(text, name)) {
+            if (!fs::exists(root / match.str())) {
+                faults.push_back(file.lexically_relative(root).string() + ": " + match.str());
+            }
+        }
+    }
+    EXPECT_THAT(faults, IsEmpty());
+}
+
+TEST(Documents, TheDesignNamesEveryFolderOfTheEngineAndNoOther) {
+    const std::string design = read_text(root / "docs/design.md");
+    const std::string layout = design.substr(
+        design.find("    engine/"), design.find("    shaders/comp/") - design.find("    engine/"));
+    static const std::regex folder("\n      (\\w+)/ ");
+    std::set<std::string> named;
+    for (const std::smatch& match : matches(layout, folder)) {
+        named.insert(match[1]);
+    }
+    std::set<std::string> present;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root / "engine")) {
+        if (entry.is_directory()) {
+            present.insert(entry.path().filename());
+        }
+    }
+    EXPECT_EQ(named, present);
+}
+
+TEST(Documents, TheIndexOfResultsNamesEveryPage) {
+    const std::string index = read_text(root / "docs/results/README.md");
+    for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs/results")) {
+        const std::string name = entry.path().filename();
+        if (entry.path().extension() == ".md" && name != "README.md") {
+            EXPECT_NE(index.find("](" + name + ")"), std::string::npos) << name;
+        }
+    }
+}
+
+} // namespace
+} // namespace argand
