@@ -27,7 +27,8 @@ inline const std::vector<std::vector<std::string>> levels = {
     {"accel"},
     {"photon", "imagespace"},
     {"methods"},
-    {"tradeoff", "compare"},
+    {"autotune", "sweep", "compare"},
+    {"plot"},
 };
 
 /// One include line; `target` is the file it names, "kernels/..." for a header generated from a
@@ -74,7 +75,7 @@ inline std::vector<Include> includes(const Sources& sources) {
     return found;
 }
 
-/// The part of the tree that a file belongs to: "base" ... "tradeoff", "tools/X", "shared", "comp"
+/// The part of the tree that a file belongs to: "base" ... "plot", "tools/X", "shared", "comp"
 /// (kernel.glsl), "comp/X", "kernels" (generated), or another first one or two folders.
 inline std::string part_of(const std::string& file) {
     std::vector<std::string> folders;

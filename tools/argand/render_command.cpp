@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include "autotune/aim.hpp"
 #include "backend_options.hpp"
 #include "base/atomic_write.hpp"
 #include "base/clock.hpp"
@@ -16,7 +17,6 @@
 #include "picture_size.hpp"
 #include "report.hpp"
 #include "scene/gltf.hpp"
-#include "tradeoff/aim.hpp"
 
 #include <charconv>
 #include <map>

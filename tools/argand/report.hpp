@@ -1,8 +1,8 @@
 #pragma once
 
+#include "autotune/aim.hpp"
 #include "device/device.hpp"
 #include "methods/render.hpp"
-#include "tradeoff/aim.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -9,9 +9,10 @@
 #include "method_options.hpp"
 #include "numbers.hpp"
 #include "picture_size.hpp"
+#include "plot/page.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
-#include "tradeoff/tradeoff.hpp"
+#include "sweep/tradeoff.hpp"
 
 #include <memory>
 #include <optional>
@@ -101,6 +102,7 @@ void run(TradeoffOptions& options) {
             progress->update(done);
         });
     progress.reset();
+    draw_results(request.folder, results);
     if (!results.complete) {
         fail("measuring '{}': interrupted; {} settings are measured, and the same command goes on",
              options.scene, results.measurements.size());

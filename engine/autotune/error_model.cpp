@@ -1,0 +1,52 @@
+#include "autotune/error_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace argand {
+
+double noise_after(const ErrorModel& model, double passes) {
+    const double wide = std::min(model.wide, passes) / passes;
+    return (model.fixed + model.density * (wide + (1 - wide) * std::cbrt(passes))) / passes;
+}
+
+double bias_share(double passes, double wide) {
+    const double share = std::min(wide, passes) / passes;
+    const double amplitude = share + (1 - share) / std::cbrt(std::sqrt(passes));
+    return amplitude * amplitude;
+}
+
+Estimate bias_after(const ErrorModel& model, double passes) {
+    return scaled(model.bias, bias_share(passes, model.wide));
+}
+
+double error_after(const ErrorModel& model, double passes) {
+    return noise_after(model, passes) + bias_after(model, passes).value;
+}
+
+double passes_for(const ErrorModel& model, double error) {
+    constexpr double most = 1e9;
+    if (error_after(model, 1) <= error) {
+        return 1;
+    }
+    if (!(error_after(model, most) <= error)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    // E falls with n: halve the interval of log n.
+    double low = 1, high = most;
+    while (high > 1.001 * low) {
+        const double middle = std::sqrt(low * high);
+        (error_after(model, middle) <= error ? high : low) = middle;
+    }
+    return high;
+}
+
+ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes) {
+    const double growth = std::cbrt(passes) - 1;
+    const double density =
+        std::clamp((variance_at_passes - variance_at_one) / growth, 0.0, variance_at_one);
+    return {.fixed = std::max(variance_at_one - density, 0.0), .density = density};
+}
+
+} // namespace argand

@@ -1,0 +1,131 @@
+#include "autotune/estimate.hpp"
+
+#include "image/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace argand {
+
+namespace {
+
+// Squared bias of density estimation over what is left of it in smoothed pictures, in this
+// project's scenes, and its spread.
+constexpr double lost_by_smoothing = 2.5, spread_of_loss = 0.5;
+
+// Of two pictures the brighter is not believed beyond so many times the darker: noise seldom is as
+// large, bright dots are.
+constexpr float most_over_darker = 1.2f;
+
+/// The error is told from the means of 8 × 8 tiles, for neighbouring pixels share photons.
+Estimate mean_of_tiles(const std::vector<double>& values, int width, int height) {
+    constexpr int side = 8;
+    std::array<double, side * side> sums{}, counts{};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const auto tile = static_cast<std::size_t>(y * side / height * side + x * side / width);
+            sums[tile] += values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x)];
+            ++counts[tile];
+        }
+    }
+    double sum = 0, squares = 0, tiles = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (counts[i] > 0) {
+            const double mean = sums[i] / counts[i];
+            sum += mean;
+            squares += mean * mean;
+            ++tiles;
+        }
+    }
+    Estimate estimate{.value = sum / tiles};
+    if (tiles > 1) {
+        const double variance = std::max(squares / tiles - estimate.value * estimate.value, 0.0);
+        estimate.error = std::sqrt(variance / (tiles - 1));
+    }
+    return estimate;
+}
+
+} // namespace
+
+Estimate posterior(double usual, double factor, std::span<const Estimate> estimates) {
+    if (!(usual > 0)) {
+        return {0, 0};
+    }
+    constexpr int steps = 1000;
+    constexpr double unusual = 0.05; // one in twenty
+    const double range = std::log(1e4), deviation = std::log(factor);
+    std::array<double, 2 * steps + 1> shifts{}, logs{};
+    for (std::size_t i = 0; i < shifts.size(); ++i) {
+        shifts[i] = range * (static_cast<double>(i) - steps) / steps;
+        const double t = shifts[i] / deviation;
+        logs[i] = std::log((1 - unusual) * std::exp(-0.5 * t * t) /
+                               (deviation * std::sqrt(2 * std::numbers::pi)) +
+                           unusual / (2 * range));
+        const double value = usual * std::exp(shifts[i]);
+        for (const Estimate& estimate : estimates) {
+            // One that claims to be exact is not to fall between two steps.
+            const double off = (value - estimate.value) / std::max(estimate.error, 0.01 * value);
+            logs[i] -= 0.5 * off * off;
+        }
+    }
+    const double most = *std::max_element(logs.begin(), logs.end());
+    double weights = 0, sum = 0, squares = 0;
+    for (std::size_t i = 0; i < shifts.size(); ++i) {
+        const double weight = std::exp(logs[i] - most);
+        weights += weight;
+        sum += weight * shifts[i];
+        squares += weight * shifts[i] * shifts[i];
+    }
+    const double mean = sum / weights, value = usual * std::exp(mean);
+    return {value, value * std::sqrt(std::max(squares / weights - mean * mean, 0.0))};
+}
+
+std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const Image& reference) {
+    const auto difference = [&](auto smooth) {
+        return mean_of_tiles(
+            rel_products(smooth(a[0]), smooth(b[0]), smooth(a[1]), smooth(b[1]), reference),
+            reference.width, reference.height);
+    };
+    const Estimate smooth =
+        difference([](const Image& image) { return smoothed(smoothed(image)); });
+    const double value = lost_by_smoothing * smooth.value;
+    return {difference([](const Image& image) { return image; }),
+            Estimate{value, std::hypot(lost_by_smoothing * smooth.error, spread_of_loss * value)}};
+}
+
+Image smoothed(const Image& image) {
+    const auto at = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+               static_cast<std::size_t>(x);
+    };
+    Image result = image;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            glm::vec3 sum(0);
+            float count = 0;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v) {
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u) {
+                    sum += image.pixels[at(u, v)];
+                    ++count;
+                }
+            }
+            result.pixels[at(x, y)] = sum / count;
+        }
+    }
+    return result;
+}
+
+Image guess_from(const Pair& pictures) {
+    Image guess = pictures[0];
+    for (std::size_t i = 0; i < guess.pixels.size(); ++i) {
+        const glm::vec3 a = glm::max(pictures[0].pixels[i], 0.0f),
+                        b = glm::max(pictures[1].pixels[i], 0.0f);
+        guess.pixels[i] = glm::min(glm::sqrt(a) * glm::sqrt(b), most_over_darker * glm::min(a, b));
+    }
+    return guess;
+}
+
+} // namespace argand

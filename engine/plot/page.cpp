@@ -1,0 +1,157 @@
+#include "plot/page.hpp"
+
+#include "base/atomic_write.hpp"
+#include "base/base64.hpp"
+#include "image/exr.hpp"
+#include "image/metrics.hpp"
+#include "image/png.hpp"
+#include "image/srgb.hpp"
+#include "plot/markup.hpp"
+#include "plot/plot.hpp"
+#include "sweep/tradeoff.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace argand {
+
+namespace {
+
+constexpr const char* style =
+    "body { font: 15px/1.5 sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; "
+    "color: #222 }\n"
+    "table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 8px; text-align: "
+    "right }\n"
+    "td:first-child, td:last-child, th:first-child, th:last-child { text-align: left }\n"
+    "tr.front { font-weight: bold; background: #f2f2f2 } figure { display: inline-block; margin: "
+    "8px }\n"
+    "figure img { width: 192px; image-rendering: pixelated } figcaption { font-size: 12px; "
+    "max-width: 392px }\n";
+
+constexpr double displayed_mean = 0.2; // of the reference's linear luminance
+
+/// Exposure in stops at which the picture is neither dark nor white.
+float exposure_of(const Image& image) {
+    double sum = 0;
+    for (const glm::vec3& pixel : image.pixels) {
+        sum += luminance(pixel);
+    }
+    const double mean = sum / static_cast<double>(image.pixels.size());
+    return mean > 0 ? static_cast<float>(std::log2(displayed_mean / mean)) : 0;
+}
+
+std::string embedded(const Image& image, float exposure, const char* what) {
+    return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", what,
+                       base64(png_bytes(image, exposure, "tradeoff.html")));
+}
+
+std::string figure(const std::string& pictures, const std::string& caption) {
+    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", pictures, caption);
+}
+
+std::string or_dash(const std::optional<double>& value) {
+    return value ? fmt::format("{:.3g}", *value) : "–";
+}
+
+std::string row(const Measurement& m, bool on_front) {
+    constexpr double mebibyte = 1 << 20;
+    return fmt::format(
+        "<tr{}><td>{}</td><td>{} {}</td><td>{:.3g}</td><td>{}</td><td>{:.1f}</td><td>{:.3g} ± "
+        "{:.1g}</td>"
+        "<td>{}</td><td>{}</td><td>{:.4f}</td><td><code>{}</code></td></tr>\n",
+        on_front ? " class=\"front\"" : "", m.method, m.knob, m.value, m.wall_seconds,
+        or_dash(m.device_seconds), static_cast<double>(m.peak_bytes) / mebibyte, m.rel_mse.mean,
+        m.rel_mse.deviation, or_dash(m.bias), or_dash(m.variance), m.ssim.mean, escaped(m.options));
+}
+
+std::string table(const std::vector<Measurement>& measurements,
+                  const std::vector<std::size_t>& front) {
+    std::vector<std::size_t> order(measurements.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        order[i] = i;
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return measurements[a].wall_seconds < measurements[b].wall_seconds;
+    });
+    std::string html =
+        "<table>\n<tr><th>method</th><th>knob</th><th>wall, s</th><th>device, s</th><th>peak, "
+        "MiB</th>"
+        "<th>relMSE</th><th>bias²</th><th>variance</th><th>SSIM</th><th>argand render</th></tr>\n";
+    for (const std::size_t i : order) {
+        html += row(measurements[i], std::find(front.begin(), front.end(), i) != front.end());
+    }
+    return html + "</table>\n";
+}
+
+std::string front_pictures(const std::filesystem::path& folder, const Results& results,
+                           const std::vector<std::size_t>& front, const Reference& reference) {
+    const Image truth = reference.mean();
+    const float exposure = exposure_of(truth);
+    std::string html = figure(embedded(truth, exposure, "reference"), "reference");
+    for (const std::size_t i : front) {
+        const Measurement& m = results.measurements[i];
+        const Image picture = read_exr(folder / m.picture).front().image;
+        html += figure(embedded(picture, exposure, "picture") + " " +
+                           embedded(difference_picture(picture, truth, m.picture, "the reference"),
+                                    0, "error"),
+                       fmt::format("{}<br>{:.3g} s, relMSE {:.3g}", escaped(m.options),
+                                   m.wall_seconds, m.rel_mse.mean));
+    }
+    return html;
+}
+
+std::string about(const Results& results) {
+    std::string text = "<p>";
+    for (const auto& [name, value] : results.run.items()) {
+        text += fmt::format("{}: {}; ", escaped(name),
+                            escaped(value.is_string() ? value.get<std::string>() : value.dump()));
+    }
+    text += results.reference_samples > 0
+                ? fmt::format("reference: two independent pictures by the method path, {} samples "
+                              "a pixel in all",
+                              results.reference_samples)
+                : std::string("reference: given");
+    text += results.reference_error
+                ? fmt::format(", relMSE of their mean {:.2g}.", *results.reference_error)
+                : std::string(", its own error not known: it counts as the settings'.");
+    for (const Failure& failure : results.failures) {
+        text += fmt::format("<br>Not rendered: <code>{}</code>: {}.", escaped(failure.options),
+                            escaped(failure.why));
+    }
+    return text + (results.complete ? "</p>\n"
+                                    : " <strong>Not all settings are measured yet.</strong></p>\n");
+}
+
+} // namespace
+
+void draw_results(const std::filesystem::path& folder, const Results& results) {
+    if (!std::filesystem::exists(reference_file(folder))) {
+        return;
+    }
+    const Reference reference = reread_reference(reference_file(folder));
+    const Plot plot = lay_out(results);
+    const std::vector<std::size_t> front = front_of(results);
+    write_png(folder / "tradeoff.png", to_image(plot));
+    const std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Error against "
+        "time</title>\n"
+        "<style>\n{}</style></head><body>\n<h1>Error against time</h1>\n"
+        "<p>Each point is one setting of <code>argand render</code>: to the left is quicker, below "
+        "is more "
+        "exact. What lies on the Pareto front is outlined: nothing measured is both quicker and "
+        "more exact. "
+        "Point at it to see what it is. The bar at a point is ± the standard deviation of one "
+        "seed. Below the "
+        "orange line errors are less than the reference's own: points there are about as exact as "
+        "it, and which "
+        "of them is best cannot be told; those at the lower edge may be anywhere below.</p>\n{}{}"
+        "<h2>On the front</h2>\n<p>The picture, and its error: red where it is too bright, blue "
+        "where it is too "
+        "dark, black where it is right.</p>\n{}<h2>All settings</h2>\n{}</body></html>\n",
+        style, to_svg(plot), about(results), front_pictures(folder, results, front, reference),
+        table(results.measurements, front));
+    write_atomically(folder / "tradeoff.html", html);
+}
+
+} // namespace argand

@@ -1,0 +1,257 @@
+#include "plot/plot.hpp"
+#include "base/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace argand {
+
+namespace {
+
+constexpr double left = 90, right = 170, top = 70, bottom = 70; // margins
+constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, front_color = 0x666666,
+                        noise_color = 0xc04000;
+
+/// Colours that stay apart to colour-blind eyes (Okabe and Ito 2008, "Color Universal Design").
+constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
+                                               0xd55e00, 0x56b4e9, 0xf0e442};
+
+std::uint32_t color_of(const std::string& method) {
+    const std::vector<std::string> methods = method_names();
+    const auto place = std::find(methods.begin(), methods.end(), method) - methods.begin();
+    return palette[static_cast<std::size_t>(place) % palette.size()];
+}
+
+/// Maps numbers to places.
+struct Frame {
+    LogAxis x, y;
+    double width, height;
+
+    Place at(double seconds, double error) const {
+        const auto share = [](const LogAxis& axis, double value) {
+            return std::log(value / axis.low) / std::log(axis.high / axis.low); // low < high
+        };
+        return {left + share(x, seconds) * (width - left - right),
+                height - bottom - share(y, error) * (height - top - bottom)};
+    }
+};
+
+/// Whether it has a place.
+bool can_be_drawn(const Measurement& m) {
+    constexpr double least_seconds = 1e-30;
+    return std::isfinite(m.rel_mse.mean) && m.wall_seconds > least_seconds;
+}
+
+bool is_clamped(const Results& results, const Measurement& m) {
+    return m.rel_mse.mean < results.least_error;
+}
+
+bool any_clamped(const Results& results) {
+    return std::any_of(
+        results.measurements.begin(), results.measurements.end(),
+        [&](const Measurement& m) { return can_be_drawn(m) && is_clamped(results, m); });
+}
+
+/// Where errors begin to be about as small as what they are measured with; nothing if no error
+/// comes near that.
+std::optional<double> noise_level(const Results& results) {
+    if (results.reference_error && *results.reference_error > results.least_error) {
+        return results.reference_error;
+    }
+    return any_clamped(results) ? std::optional(results.least_error) : std::nullopt;
+}
+
+std::string title_of(const Results& results, const Measurement& m) {
+    std::string title = m.knob == "default" ? m.method + ", default"
+                                            : fmt::format("{}, {} {}", m.method, m.knob, m.value);
+    title += fmt::format("\n{:.3g} s, relMSE {:.3g} ± {:.1g}", m.wall_seconds, m.rel_mse.mean,
+                         m.rel_mse.deviation);
+    if (m.bias) {
+        title += fmt::format("\nsquared bias {:.2g}, variance {:.2g}", *m.bias, *m.variance);
+    }
+    if (is_clamped(results, m)) {
+        title += "\nno error that could be told from none: it counts as " +
+                 fmt::format("{:.2g}", results.least_error);
+    } else if (results.reference_error && m.rel_mse.mean < *results.reference_error) {
+        title += "\nless than the reference's own error: uncertain";
+    }
+    return title + "\n" + m.options;
+}
+
+void add_axes(Plot& plot, const Frame& frame) {
+    using Align = PlotLabel::Align;
+    for (const double tick : frame.x.ticks) {
+        const Place low = frame.at(tick, frame.y.low);
+        plot.lines.push_back({low, frame.at(tick, frame.y.high), grid, 1});
+        plot.labels.push_back(
+            {{low.x, low.y + 18}, Align::middle, fmt::format("{:g}", tick), black});
+    }
+    for (const double tick : frame.y.ticks) {
+        const Place low = frame.at(frame.x.low, tick);
+        plot.lines.push_back({low, frame.at(frame.x.high, tick), grid, 1});
+        plot.labels.push_back({{low.x - 8, low.y}, Align::right, fmt::format("{:g}", tick), black});
+    }
+    const Place origin = frame.at(frame.x.low, frame.y.low);
+    const Place end = frame.at(frame.x.high, frame.y.high);
+    plot.lines.push_back({origin, {end.x, origin.y}, black, 1.5});
+    plot.lines.push_back({origin, {origin.x, end.y}, black, 1.5});
+    plot.labels.push_back(
+        {{0.5 * (origin.x + end.x), origin.y + 44}, Align::middle, "seconds to render", black});
+    plot.labels.push_back({{16, end.y - 26}, Align::left, "error (relMSE)", black});
+}
+
+/// What it is of, and which way is better.
+void add_title(Plot& plot, const Results& results) {
+    constexpr std::size_t longest_name = 40; // that there is room for
+    std::string title = "Error against time";
+    if (results.run.contains("scene")) {
+        title = one_line(results.run.at("scene").get<std::string>(), longest_name) +
+                ": error against time";
+    }
+    const double middle = 0.5 * (left + plot.width - right);
+    plot.labels.push_back({{middle, 18}, PlotLabel::Align::middle, title, black});
+    plot.labels.push_back({{middle, 42},
+                           PlotLabel::Align::middle,
+                           "better is down (more exact) and to the left (quicker)",
+                           gray});
+}
+
+void add_noise(Plot& plot, const Results& results, const Frame& frame) {
+    if (const std::optional<double> level = noise_level(results)) {
+        const Place from = frame.at(frame.x.low, *level);
+        plot.lines.push_back({from, frame.at(frame.x.high, *level), noise_color, 1.5});
+        // The lower left is empty: what would be there would be the best of all.
+        const bool is_noise = *level > results.least_error;
+        plot.labels.push_back(
+            {{from.x + 8, from.y + (is_noise ? 12 : -12)},
+             PlotLabel::Align::left,
+             is_noise ? "below: within the reference's noise" : "on this line: no error found",
+             noise_color});
+    }
+}
+
+void add_bars(Plot& plot, const Results& results, const Frame& frame) {
+    constexpr double cap = 3;
+    for (const Measurement& m : results.measurements) {
+        const double deviation = m.rel_mse.deviation;
+        if (!can_be_drawn(m) || !(deviation > 0 && std::isfinite(deviation))) {
+            continue;
+        }
+        const double error = counted_error(results, m);
+        const Place high = frame.at(m.wall_seconds, error + deviation);
+        const Place low = frame.at(m.wall_seconds, std::max(error - deviation, frame.y.low));
+        const std::uint32_t color = color_of(m.method);
+        plot.lines.push_back({low, high, color, 1});
+        for (const Place& end : {low, high}) {
+            plot.lines.push_back({{end.x - cap, end.y}, {end.x + cap, end.y}, color, 1});
+        }
+    }
+}
+
+void add_legend(Plot& plot, const Results& results) {
+    double y = top + 10;
+    const double x = plot.width - right + 24;
+    for (const std::string& method : method_names()) {
+        if (std::any_of(results.measurements.begin(), results.measurements.end(),
+                        [&](const Measurement& m) { return m.method == method; })) {
+            plot.points.push_back({{x, y}, color_of(method), true, method});
+            plot.labels.push_back({{x + 14, y}, PlotLabel::Align::left, method, black});
+            y += 24;
+        }
+    }
+    plot.lines.push_back({{x - 8, y}, {x + 8, y}, front_color, 2});
+    plot.labels.push_back({{x + 14, y}, PlotLabel::Align::left, "Pareto front", black});
+}
+
+void add_front(Plot& plot, const std::vector<Place>& front) {
+    for (std::size_t i = 1; i < front.size(); ++i) {
+        const Place corner{front[i].x, front[i - 1].y};
+        plot.lines.push_back({front[i - 1], corner, front_color, 2});
+        plot.lines.push_back({corner, front[i], front_color, 2});
+    }
+}
+
+/// The axis from a number within on.
+LogAxis cut_below(LogAxis axis, double low) {
+    axis.low = low;
+    std::erase_if(axis.ticks, [&](double tick) { return tick < low; });
+    return axis;
+}
+
+} // namespace
+
+LogAxis log_axis(const std::vector<double>& values) {
+    LogAxis axis;
+    if (!values.empty()) {
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        axis.low = *least;
+        axis.high = *most;
+    }
+    const int first = static_cast<int>(std::floor(std::log10(axis.low)));
+    const int last = static_cast<int>(std::ceil(std::log10(axis.high)));
+    std::vector<double> round;
+    for (int decade = first - 1; decade <= last; ++decade) {
+        for (const int step : {1, 2, 5}) {
+            round.push_back(std::stod(fmt::format("{}e{}", step, decade)));
+        }
+    }
+    // A round number beyond each end, so that no point lies on the border.
+    axis.low = *std::prev(std::lower_bound(round.begin(), round.end(), axis.low));
+    axis.high = *std::upper_bound(round.begin(), round.end() - 1, axis.high);
+    for (const double tick : round) {
+        const bool decade = fmt::format("{:e}", tick).front() == '1';
+        if (tick >= axis.low && tick <= axis.high && (decade || last - first <= 3)) {
+            axis.ticks.push_back(tick);
+        }
+    }
+    return axis;
+}
+
+Plot lay_out(const Results& results) {
+    Plot plot;
+    std::vector<double> times, errors;
+    for (const Measurement& m : results.measurements) {
+        if (can_be_drawn(m)) {
+            times.push_back(m.wall_seconds);
+            errors.push_back(counted_error(results, m));
+            if (std::isfinite(m.rel_mse.deviation)) {
+                errors.push_back(errors.back() + m.rel_mse.deviation);
+            }
+        }
+    }
+    if (const std::optional<double> level = noise_level(results); level && !errors.empty()) {
+        errors.push_back(*level);
+    }
+    LogAxis y = log_axis(errors);
+    if (any_clamped(results)) {
+        y = cut_below(y, results.least_error);
+    }
+    const Frame frame{log_axis(times), y, static_cast<double>(plot.width),
+                      static_cast<double>(plot.height)};
+    add_axes(plot, frame);
+    add_title(plot, results);
+    add_noise(plot, results, frame);
+    add_bars(plot, results, frame);
+    const std::vector<std::size_t> front = front_of(results);
+    std::vector<Place> steps;
+    for (const std::size_t i : front) {
+        const Measurement& m = results.measurements[i];
+        if (can_be_drawn(m)) {
+            steps.push_back(frame.at(m.wall_seconds, counted_error(results, m)));
+        }
+    }
+    add_front(plot, steps);
+    for (std::size_t i = 0; i < results.measurements.size(); ++i) {
+        const Measurement& m = results.measurements[i];
+        if (can_be_drawn(m)) {
+            plot.points.push_back(
+                {frame.at(m.wall_seconds, counted_error(results, m)), color_of(m.method),
+                 std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
+        }
+    }
+    add_legend(plot, results);
+    return plot;
+}
+
+} // namespace argand

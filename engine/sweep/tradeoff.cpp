@@ -1,0 +1,278 @@
+#include "sweep/tradeoff.hpp"
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "base/fingerprint.hpp"
+#include "base/json.hpp"
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "image/exr.hpp"
+#include "sweep/parameters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/ranges.h>
+#include <new>
+#include <numeric>
+#include <set>
+
+namespace argand {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<std::uint32_t, 1> pilot_seed{0x40000000u}; // which no setting has
+
+fs::path results_file(const fs::path& folder) { return folder / "tradeoff.json"; }
+
+void make_folder(const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) {
+        fail("making the folder '{}': {}; name another one", folder.string(), failed.message());
+    }
+}
+
+nlohmann::ordered_json run_of(const TradeoffRequest& request) {
+    nlohmann::ordered_json run = request.run;
+    run["width"] = request.base.width;
+    run["height"] = request.base.height;
+    run["camera"] = request.base.camera;
+    run["seeds"] = request.seeds;
+    for (const fs::path& file : request.reference_files) {
+        const std::vector<std::uint8_t> bytes = read_file(file);
+        run["references"].push_back(
+            fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes)))));
+    }
+    return run;
+}
+
+void save(const fs::path& folder, const Results& results) {
+    write_atomically(folder / "tradeoff.csv", to_csv(results));
+    write_json(results_file(folder), to_json(results));
+}
+
+/// Trials that tell of the host's want of memory as of the device's.
+RenderTrials without_bad_alloc(const RenderTrials& render) {
+    return [&render](const RenderSettings& settings, std::span<const std::uint32_t> seeds) {
+        try {
+            return render(settings, seeds);
+        } catch (const std::bad_alloc&) {
+            fail("rendering with {}: the machine is out of memory", command_options(settings));
+        }
+    };
+}
+
+/// Whether a render was finished.
+enum class Outcome { rendered, failed, interrupted };
+
+/// One render of a setting, whose picture is to be had without counting as measured: where it
+/// fails, for want of memory say, other settings can be measured all the same.
+Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Trial& trial) {
+    try {
+        std::optional<Trials> pilot = render(settings, pilot_seed);
+        if (!pilot) {
+            return Outcome::interrupted;
+        }
+        trial = std::move(pilot->trials[0]);
+        return Outcome::rendered;
+    } catch (const Error&) {
+        return Outcome::failed;
+    }
+}
+
+/// What each method chooses for the base by itself, if it can be rendered; false if it was
+/// interrupted.
+bool learn_widths(const TradeoffRequest& request, const RenderTrials& render,
+                  LearntWidths& learnt) {
+    for (const std::string& method : request.methods) {
+        if (method == "path" || learnt.contains(method)) {
+            continue;
+        }
+        RenderSettings settings = request.base;
+        settings.method = method;
+        Trial pilot;
+        const Outcome outcome = try_pilot(render, settings, pilot);
+        if (outcome == Outcome::interrupted) {
+            return false;
+        }
+        if (outcome == Outcome::rendered) {
+            learnt[method] = pilot.statistics;
+        }
+    }
+    return true;
+}
+
+/// A setting for each number of photons and samples, the most first.
+using ByWork = std::map<std::pair<std::uint64_t, std::uint64_t>, RenderSettings, std::greater<>>;
+
+/// Of each method, a picture of the setting that takes the most photons and samples and can be
+/// rendered: about the least errors that there are going to be. Nothing if it was interrupted.
+std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& settings,
+                                                const RenderTrials& render) {
+    std::map<std::string, ByWork> methods;
+    for (const Setting& setting : settings) {
+        const RenderSettings& s = setting.render;
+        methods[s.method].try_emplace({s.photons, s.samples}, s);
+    }
+    std::vector<Image> pictures;
+    for (const auto& [method, by_work] : methods) {
+        for (const auto& [work, render_settings] : by_work) {
+            Trial pilot;
+            const Outcome outcome = try_pilot(render, render_settings, pilot);
+            if (outcome == Outcome::interrupted) {
+                return std::nullopt;
+            }
+            if (outcome == Outcome::rendered) {
+                pictures.push_back(std::move(pilot.picture));
+                break;
+            }
+        }
+    }
+    return pictures;
+}
+
+std::optional<Reference> make_reference(const TradeoffRequest& request,
+                                        const std::vector<Setting>& settings,
+                                        const RenderTrials& render) {
+    const std::optional<std::vector<Image>> pilots = render_pilots(settings, render);
+    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds)
+                  : std::nullopt;
+}
+
+/// A setting's picture, by name so that a user finds it.
+std::string picture_file(const Setting& setting) {
+    const std::string turned = setting.value.empty() ? "" : "-" + setting.value;
+    return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.knob, turned);
+}
+
+/// Adds a measurement or a failure; false if it was interrupted.
+bool measure_setting(const TradeoffRequest& request, const Setting& setting,
+                     const RenderTrials& render, const Reference& reference, Results& results) {
+    std::vector<std::uint32_t> seeds(request.seeds);
+    std::iota(seeds.begin(), seeds.end(), 0u);
+    std::optional<Trials> trials;
+    try {
+        trials = render(setting.render, seeds);
+    } catch (const Error& error) {
+        results.failures.push_back({command_options(setting.render), error.what()});
+        return true;
+    }
+    if (!trials) {
+        return false;
+    }
+    Measurement measurement = measure(setting, *trials, reference);
+    measurement.picture = picture_file(setting);
+    write_exr(request.folder / measurement.picture,
+              std::array{Layer{"", trials->trials[0].picture}});
+    results.measurements.push_back(std::move(measurement));
+    return true;
+}
+
+/// What is not the same in two runs, with both values.
+std::string differences(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now) {
+    const auto value = [](const nlohmann::ordered_json& run, const std::string& key) {
+        if (!run.contains(key)) {
+            return std::string("none");
+        }
+        return run.at(key).is_string() ? one_line(run.at(key).get<std::string>())
+                                       : run.at(key).dump();
+    };
+    nlohmann::ordered_json keys = before;
+    keys.update(now);
+    std::vector<std::string> texts;
+    for (const auto& [key, any] : keys.items()) {
+        if (value(before, key) != value(now, key)) {
+            texts.push_back(
+                fmt::format("{} ({}, now {})", key, value(before, key), value(now, key)));
+        }
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// The results so far, which are those of the same run. Nothing if there are none.
+std::optional<Results> results_before(const TradeoffRequest& request,
+                                      const nlohmann::ordered_json& run) {
+    const fs::path file = results_file(request.folder);
+    if (!fs::exists(file)) {
+        return std::nullopt;
+    }
+    Results results = read_results(file);
+    if (results.run != run) {
+        fail("going on with '{}': it is of another {}; remove the folder, or name another with -o",
+             file.string(), differences(results.run, run));
+    }
+    std::erase_if(results.measurements,
+                  [&](const Measurement& m) { return !fs::exists(request.folder / m.picture); });
+    return results;
+}
+
+std::vector<Setting> not_measured(const std::vector<Setting>& settings, const Results& results) {
+    std::set<std::string> known;
+    for (const Measurement& measurement : results.measurements) {
+        known.insert(measurement.key);
+    }
+    std::vector<Setting> open;
+    std::copy_if(
+        settings.begin(), settings.end(), std::back_inserter(open),
+        [&](const Setting& setting) { return !known.contains(parameter_key(setting.render)); });
+    return open;
+}
+
+} // namespace
+
+fs::path reference_file(const fs::path& folder) { return folder / "reference.exr"; }
+
+Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
+                         const RenderTrials& trials, const OnStep& on_step) {
+    const RenderTrials render = without_bad_alloc(trials);
+    const nlohmann::ordered_json run = run_of(request);
+    const std::optional<Results> before = results_before(request, run);
+    std::optional<Reference> reference;
+    const bool is_kept = before && fs::exists(reference_file(request.folder));
+    if (is_kept) {
+        reference = reread_reference(reference_file(request.folder));
+    } else if (!request.reference_files.empty()) {
+        reference =
+            read_reference(request.reference_files, request.base.width, request.base.height);
+    }
+    make_folder(request.folder / "pictures");
+    Results results = before.value_or(Results{.run = run});
+    results.complete = false;
+    results.failures.clear();
+    on_step("rendering a reference", 0);
+    if (!learn_widths(request, render, results.learnt)) {
+        return results;
+    }
+    const std::vector<Setting> settings =
+        sweep(scene, request.base, request.methods, results.learnt, request.extent);
+    if (!reference) {
+        reference = make_reference(request, settings, render);
+    }
+    if (!reference) {
+        return results;
+    }
+    if (!is_kept) {
+        write_reference(reference_file(request.folder), *reference);
+        results.reference_samples = reference->samples;
+        results.reference_error = reference->own_error;
+        results.least_error = least_error_of(*reference);
+        save(request.folder, results);
+    }
+    const std::vector<Setting> open = not_measured(settings, results);
+    std::size_t done = settings.size() - open.size();
+    for (const Setting& setting : open) {
+        on_step("measuring", static_cast<double>(done) / static_cast<double>(settings.size()));
+        if (!measure_setting(request, setting, render, *reference, results)) {
+            break;
+        }
+        ++done;
+        save(request.folder, results);
+    }
+    results.complete = done == settings.size();
+    save(request.folder, results);
+    return results;
+}
+
+} // namespace argand

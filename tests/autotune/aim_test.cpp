@@ -1,0 +1,391 @@
+#include "autotune/aim.hpp"
+#include "base/clock.hpp"
+#include "image/metrics.hpp"
+#include "support/expect_error.hpp"
+#include "support/noisy_image.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+#include <thread>
+
+namespace argand {
+namespace {
+
+using testing::noisy;
+using testing::true_radiance;
+
+/// Stands in for the renderer: each pass of 16 samples has noise of its own; all methods but `path`
+/// have bias as well, that shrinks as ErrorModel says, and take longer.
+class FakePasses {
+public:
+    double direct_deviation = 0; // of a layer `direct`, with no bias, beside what is estimated
+    double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
+    double path_seconds = 0.002, map_seconds = 0.004;
+    std::uint64_t interrupted_after = 1'000'000;
+    std::uint64_t most_passes = 1'000'000; // of a render: there are no random numbers for more
+
+    RenderPasses passes() {
+        return [this](const RenderSettings& settings, const OnPass& on_pass) {
+            const bool is_path = settings.method == "path";
+            const double work =
+                settings.samples / 16.0; // of what pilots have in so small a picture
+            RenderResult result;
+            const auto pixels = static_cast<std::size_t>(settings.width * settings.height);
+            const Image black{settings.width, settings.height,
+                              std::vector<glm::vec3>(pixels, glm::vec3(0))};
+            result.layers = {{"", black}, {"direct", black}};
+            Image &mean = result.layers[0].image, &direct = result.layers[1].image;
+            std::uint64_t done = 0;
+            const auto layers = [&] { return result.layers; };
+            while (done < most_passes) {
+                const std::optional<PassPlan> plan = on_pass({done, layers});
+                if (!plan) {
+                    break;
+                }
+                streams.insert(plan->stream);
+                const double bias = is_path ? 0 : map_bias * std::pow(plan->expected, -1 / 6.0);
+                const double deviation =
+                    (is_path ? path_deviation : map_deviation) / std::sqrt(work);
+                const Image pass = noisy(settings.width, settings.height, bias, deviation, ++seed_);
+                ++done;
+                const Image lamps = noisy(settings.width, settings.height, -true_radiance,
+                                          direct_deviation / std::sqrt(work), seed_ + 1'000'000);
+                for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+                    mean.pixels[i] += (pass.pixels[i] + lamps.pixels[i] - mean.pixels[i]) /
+                                      static_cast<float>(done);
+                    direct.pixels[i] +=
+                        (lamps.pixels[i] - direct.pixels[i]) / static_cast<float>(done);
+                }
+                std::this_thread::sleep_for(
+                    std::chrono::duration<double>(work * (is_path ? path_seconds : map_seconds)));
+                if (++total == interrupted_after) {
+                    result.statistics.interrupted = true;
+                    break;
+                }
+            }
+            result.statistics.passes = done;
+            result.statistics.samples = done * settings.samples;
+            methods.push_back(settings.method);
+            return result;
+        };
+    }
+
+    std::vector<std::string> methods; ///< of all renders, the last is the picture's
+    std::set<std::uint32_t> streams;
+    std::uint64_t total = 0;
+
+private:
+    std::uint32_t seed_ = 0;
+};
+
+Scene box() {
+    Scene scene;
+    scene.name = "box";
+    scene.materials.resize(1);
+    scene.cameras.resize(1);
+    return scene;
+}
+
+RenderSettings small() {
+    RenderSettings settings;
+    settings.width = settings.height = 48;
+    return settings;
+}
+
+double true_error(const Image& picture) {
+    const Image truth = noisy(picture.width, picture.height, 0, 0, 0);
+    return rel_mse(picture, truth, truth);
+}
+
+AimedRender aim_at(FakePasses& fake, const Scene& scene, const Aim& aim, const Chosen& chosen = {},
+                   const RenderSettings& settings = small()) {
+    return render_aimed(fake.passes(), scene, settings, chosen, aim, [](const AimedRender&) {});
+}
+
+TEST(Aim, ErrorIsMetByTheQuickestMethod) {
+    FakePasses fake;
+    // As much as is usual: a squared bias of 0.0017 at the widths for one pass.
+    fake.map_bias = 0.08;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.001, .seconds = {}});
+    EXPECT_TRUE(aimed.reached);
+    EXPECT_NE(fake.methods.back(), "path");
+    EXPECT_EQ(fake.methods.back(), aimed.prospects.front().settings.method);
+    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.001, 1, 0.33);
+    EXPECT_EQ(fake.streams.size(), 2u);
+}
+
+TEST(Aim, BiasIsPartOfTheError) {
+    FakePasses fake;
+    fake.map_bias = 0.1;
+    fake.path_deviation = 0.3;
+    // Squared bias is 0.0025 at the widths for one pass, and takes 10^5 passes to be this small.
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0003, .seconds = {}});
+    EXPECT_TRUE(aimed.reached);
+    EXPECT_EQ(fake.methods.back(), "path");
+    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.0003, 1, 0.33);
+}
+
+TEST(Aim, TimeIsKeptWithPilotsIncluded) {
+    FakePasses fake;
+    const Clock::time_point start = Clock::now();
+    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.6});
+    const double seconds = seconds_since(start);
+    EXPECT_GT(seconds, 0.45);
+    EXPECT_LT(seconds, 0.9);
+    ASSERT_TRUE(aimed.measured);
+    EXPECT_GT(aimed.measured->noise, 0);
+    EXPECT_GT(aimed.result.statistics.passes, 20u);
+}
+
+TEST(Aim, ErrorThatTheTimeDoesNotAllowIsSaid) {
+    FakePasses fake;
+    const Aim aim{.error = 1e-6, .seconds = 0.3};
+    const AimedRender aimed = aim_at(fake, box(), aim);
+    EXPECT_FALSE(aimed.reached);
+    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("is not reached"));
+}
+
+TEST(Aim, ErrorThatTakesTooLongIsRefused) {
+    FakePasses fake;
+    EXPECT_THAT(testing::error_of([&] { aim_at(fake, box(), {.error = 1e-9, .seconds = {}}); }),
+                ::testing::HasSubstr("ask for more error"));
+}
+
+TEST(Aim, ErrorThatTheChosenMethodCannotReachIsRefusedAtOnce) {
+    FakePasses fake;
+    RenderSettings settings = small();
+    settings.method = "photons";
+    const Clock::time_point start = Clock::now();
+    EXPECT_THAT(testing::error_of([&] {
+                    aim_at(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings);
+                }),
+                ::testing::HasSubstr("ask for more error"));
+    EXPECT_LT(seconds_since(start), 2);
+}
+
+TEST(Aim, BiasFarFromWhatIsUsualIsSeen) {
+    FakePasses fake;
+    // A squared bias of 0.25, 150 times the usual one, of a method that the user wants.
+    fake.map_bias = 1;
+    fake.path_deviation = 0.3;
+    RenderSettings settings = small();
+    settings.method = "photons";
+    const AimedRender aimed =
+        aim_at(fake, box(), {.error = 0.01, .seconds = 0.5}, {.method = true}, settings);
+    EXPECT_FALSE(aimed.reached);
+    ASSERT_TRUE(aimed.measured);
+    EXPECT_NEAR(aimed.measured->error() / true_error(aimed.result.layers[0].image), 1, 0.5);
+}
+
+TEST(Aim, NoiseThatDoesNotFallEndsInTime) {
+    const Aim aim{.error = 1e-8, .seconds = {}};
+    const Prospect prospect{
+        .settings = small(), .model = {.fixed = 0.01}, .seconds_per_pass = 0.001, .passes = 100};
+    const std::optional<Pair> no_truth;
+    Course course(aim, prospect, no_truth, 0);
+    const Pair halves{noisy(16, 16, 0, 0.5, 1), noisy(16, 16, 0, 0.5, 2)};
+    Image mean = halves[0];
+    for (std::uint64_t done = 0;
+         const std::optional<PassPlan> plan = course({done, [&] {
+                                                          return std::vector<Layer>{{"", mean}};
+                                                      }});) {
+        ASSERT_LT(done, 1'000'000u);
+        const Image& pass = halves[plan->stream];
+        for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+            mean.pixels[i] = (static_cast<float>(done) * mean.pixels[i] + pass.pixels[i]) /
+                             static_cast<float>(done + 1);
+        }
+        ++done;
+    }
+    EXPECT_FALSE(course.reached());
+}
+
+TEST(Aim, PilotsAreShortWhereFewPassesDo) {
+    FakePasses fake;
+    fake.interrupted_after = pilot_passes;
+    const AimedRender few = aim_at(fake, box(), {.error = 0.01, .seconds = {}});
+    EXPECT_FALSE(few.prospects.empty());
+    fake.total = 0;
+    EXPECT_TRUE(aim_at(fake, box(), {.error = 0.0005, .seconds = {}}).prospects.empty());
+}
+
+TEST(Aim, PilotGoesOnAsThePictureIfNoOtherIsWorthIt) {
+    FakePasses fake;
+    fake.map_bias = 0.08;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.005, .seconds = {}});
+    EXPECT_TRUE(aimed.reached);
+    EXPECT_EQ(fake.methods.size(), 1u);
+    EXPECT_EQ(aimed.result.statistics.passes, fake.total);
+    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.005, 1, 0.33);
+    ASSERT_TRUE(aimed.measured);
+    EXPECT_EQ(aimed.measured->passes, static_cast<double>(fake.total));
+}
+
+TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
+    FakePasses fake;
+    fake.map_seconds = 0.2;
+    fake.path_seconds = 0.2;
+    fake.map_bias = 0.08;
+    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.9});
+    ASSERT_EQ(aimed.prospects.size(), 1u);
+    EXPECT_EQ(fake.methods.size(), 1u);
+    EXPECT_LT(aimed.pilot_seconds, 0.35);
+    EXPECT_GE(aimed.result.statistics.passes, 2u);
+    EXPECT_THAT(describe_pick(aimed), ::testing::HasSubstr("unknown error"));
+    // What the pilot was too short to tell is told in the end.
+    ASSERT_TRUE(aimed.measured);
+    EXPECT_GT(aimed.measured->bias.value, 0.001);
+    EXPECT_NEAR(aimed.measured->error() / true_error(aimed.result.layers[0].image), 1, 0.4);
+}
+
+TEST(Aim, InterruptedRenderSaysWhatItKnows) {
+    FakePasses fake;
+    fake.interrupted_after = pilot_passes / 2 + 1; // so few passes do that a half pilot is enough
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.005, .seconds = {}});
+    EXPECT_TRUE(aimed.result.statistics.interrupted);
+    EXPECT_EQ(aimed.result.statistics.passes, 3u);
+    ASSERT_TRUE(aimed.measured);
+    EXPECT_EQ(aimed.measured->passes, 2);
+    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("is not reached"));
+}
+
+TEST(Aim, ErrorOfOnePassIsUnknown) {
+    FakePasses fake;
+    fake.map_seconds = 0.2;
+    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.3});
+    EXPECT_EQ(aimed.result.statistics.passes, 1u);
+    EXPECT_FALSE(aimed.measured);
+    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("error is unknown"));
+}
+
+TEST(Aim, WhatMakesTheNoiseIsTriedWithMore) {
+    FakePasses fake;
+    const auto most = [&](const Aim& aim) {
+        RenderSettings numbers;
+        numbers.photons = numbers.samples = 0;
+        for (const Prospect& p : aim_at(fake, box(), aim).prospects) {
+            if (p.settings.method != "path") {
+                numbers.photons = std::max(numbers.photons, p.settings.photons);
+                numbers.samples = std::max(numbers.samples, p.settings.samples);
+            }
+        }
+        return numbers;
+    };
+    const Aim in_time{.error = {}, .seconds = 1};
+    EXPECT_EQ(most(in_time).photons, 200'000u);
+    EXPECT_EQ(most(in_time).samples, 16u);
+    fake.direct_deviation = 1;
+    fake.path_deviation = 5;
+    EXPECT_EQ(most(in_time).photons, 50'000u);
+    EXPECT_GE(most(in_time).samples, 64u);
+    // No more than the picture needs.
+    const std::uint32_t few = most({.error = 0.005, .seconds = {}}).samples;
+    EXPECT_GE(few, 32u);
+    EXPECT_LE(few, 128u);
+}
+
+TEST(Aim, FinalGatherIsNotLeftOutForPaths) {
+    FakePasses fake;
+    fake.map_bias = 1;
+    fake.path_deviation = 0.1;
+    RenderSettings settings = small();
+    settings.final_gather = true;
+    EXPECT_NE(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
+                  .prospects.front()
+                  .settings.method,
+              "path");
+    settings.final_gather = false;
+    EXPECT_EQ(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
+                  .prospects.front()
+                  .settings.method,
+              "path");
+}
+
+TEST(Aim, ChosenMethodAndNumbersAreKept) {
+    FakePasses fake;
+    RenderSettings settings = small();
+    settings.method = "knn";
+    settings.samples = 2;
+    settings.photons = 1234;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.002, .seconds = {}},
+                                     {.method = true, .samples = true, .photons = true}, settings);
+    EXPECT_EQ(fake.methods.back(), "knn");
+    EXPECT_EQ(aimed.prospects.front().settings.photons, 1234u);
+    EXPECT_EQ(aimed.prospects.front().settings.samples, 2u);
+}
+
+TEST(Aim, InterruptedPilotsLeaveThePictureOfTheBest) {
+    FakePasses fake;
+    fake.interrupted_after = 3;
+    const AimedRender first = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_TRUE(first.result.statistics.interrupted);
+    EXPECT_EQ(first.result.statistics.passes, 3u);
+    EXPECT_EQ(first.settings.method, fake.methods.back());
+    EXPECT_TRUE(first.prospects.empty());
+    EXPECT_THAT(describe_outcome(first), ::testing::HasSubstr("while methods were tried"));
+    fake.total = 0;
+    fake.interrupted_after = pilot_passes + 1;
+    const AimedRender second = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_TRUE(second.result.statistics.interrupted);
+    EXPECT_EQ(second.result.statistics.passes, pilot_passes);
+    EXPECT_NE(second.settings.method, fake.methods.back());
+}
+
+TEST(Aim, OtherMethodsAreTriedWhereNumbersRunOut) {
+    FakePasses fake;
+    fake.most_passes = pilot_passes - 1;
+    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_GT(fake.methods.size(), 2u);
+    EXPECT_GT(aimed.prospects.size(), 1u);
+    EXPECT_EQ(aimed.result.statistics.passes, pilot_passes - 1);
+    EXPECT_FALSE(aimed.reached);
+}
+
+Scene with_lamp_and_mirror() {
+    Scene scene = box();
+    scene.lights.push_back(Light{});
+    scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.normals.resize(3, glm::vec3(0));
+    scene.triangles = {{0, 1, 2}};
+    scene.triangle_material = {0};
+    scene.materials[0].metallic = 1;
+    scene.materials[0].roughness = 0;
+    return scene;
+}
+
+TEST(Aim, PathsAreBlindToCausticsOfLampsWithoutExtent) {
+    Scene scene = with_lamp_and_mirror();
+    EXPECT_TRUE(is_blind_to_caustics(scene));
+    FakePasses fake;
+    aim_at(fake, scene, {.error = 0.002, .seconds = {}});
+    EXPECT_EQ(std::count(fake.methods.begin(), fake.methods.end(), "path"), 0);
+    RenderSettings settings = small();
+    settings.method = "path";
+    EXPECT_THAT(testing::error_of([&] {
+                    aim_at(fake, scene, {.error = 0.002, .seconds = {}}, {.method = true},
+                           settings);
+                }),
+                ::testing::HasSubstr("leave --method out"));
+    scene.materials[0].roughness = 1;
+    EXPECT_FALSE(is_blind_to_caustics(scene));
+    scene = with_lamp_and_mirror();
+    scene.lights.clear();
+    EXPECT_FALSE(is_blind_to_caustics(scene));
+}
+
+TEST(Aim, PickIsExplained) {
+    FakePasses fake;
+    const Aim aim{.error = 1e-4, .seconds = 0.5};
+    std::string pick;
+    render_aimed(fake.passes(), box(), small(), {}, aim,
+                 [&](const AimedRender& picked) { pick = describe_pick(picked); });
+    EXPECT_THAT(pick, ::testing::HasSubstr(", expected"));
+    EXPECT_THAT(pick, ::testing::HasSubstr("pilots took"));
+    EXPECT_THAT(pick, ::testing::HasSubstr("not "));
+}
+
+} // namespace
+} // namespace argand

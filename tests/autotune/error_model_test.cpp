@@ -1,0 +1,43 @@
+#include "autotune/error_model.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace argand {
+namespace {
+
+TEST(ErrorModel, PassesForAnErrorAreTheFewest) {
+    const ErrorModel model{.fixed = 0.05, .density = 0.01, .bias = {0.002, 0}};
+    for (const double error : {0.05, 0.01, 0.002, 0.001}) {
+        const double passes = passes_for(model, error);
+        EXPECT_LE(error_after(model, passes), error);
+        EXPECT_GT(error_after(model, 0.99 * passes), error);
+    }
+    EXPECT_EQ(passes_for(model, 1), 1);
+    EXPECT_TRUE(std::isinf(passes_for(model, 1e-9)));
+    EXPECT_EQ(passes_for({.fixed = 0, .density = 0, .bias = {0, 0}}, 1e-9), 1);
+}
+
+TEST(ErrorModel, NoiseIsSplitByHowItGrowsAsWidthsShrink) {
+    // At the widths for 8 passes areas are half as large.
+    const ErrorModel model = fit_noise(0.03 + 0.01, 0.03 + 0.02, 8);
+    EXPECT_NEAR(model.fixed, 0.03, 1e-12);
+    EXPECT_NEAR(model.density, 0.01, 1e-12);
+    EXPECT_NEAR(noise_after(model, 8), (0.03 + 0.02) / 8, 1e-12);
+    EXPECT_EQ(fit_noise(0.04, 0.02, 8).density, 0);
+    EXPECT_EQ(fit_noise(0.04, 10, 8).fixed, 0);
+}
+
+TEST(ErrorModel, FirstPassesAreAtTheWidthsForOne) {
+    const ErrorModel model{.fixed = 0.03, .density = 0.01, .bias = {0.002, 0.001}, .wide = 2};
+    EXPECT_NEAR(noise_after(model, 2), (0.03 + 0.01) / 2, 1e-12);
+    EXPECT_EQ(bias_after(model, 2).value, 0.002);
+    // Of eight passes two are wide; the widths for eight let 1 / sqrt(2) of the bias remain.
+    EXPECT_NEAR(noise_after(model, 8), (2 * 0.04 + 6 * 0.05) / 64, 1e-12);
+    const double share = 0.25 + 0.75 / std::sqrt(2);
+    EXPECT_NEAR(bias_after(model, 8).value, 0.002 * share * share, 1e-12);
+    EXPECT_NEAR(bias_after(model, 8).error, 0.001 * share * share, 1e-12);
+}
+
+} // namespace
+} // namespace argand

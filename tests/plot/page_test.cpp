@@ -1,0 +1,71 @@
+#include "plot/page.hpp"
+#include "sweep/fake.hpp"
+
+#include <regex>
+
+namespace argand::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class PageTest : public TradeoffTest {
+protected:
+    /// The page that draws the results in this folder.
+    std::string page(const std::string& folder, const Results& results) const {
+        draw_results(scratch_ / folder, results);
+        return text(folder + "/tradeoff.html");
+    }
+};
+
+TEST_F(PageTest, OfASweepInTwoPartsIsThatOfAWholeOne) {
+    FakeRenderer whole;
+    const std::string expected = page("whole", run(whole, scene_, request("whole")));
+    for (std::size_t stop = 0; stop < whole.keys.size(); stop += 3) {
+        const std::string folder = "part" + std::to_string(stop);
+        FakeRenderer first(static_cast<int>(stop)), second;
+        draw_results(scratch_ / folder, run(first, scene_, request(folder)));
+        EXPECT_EQ(page(folder, run(second, scene_, request(folder))), expected) << stop;
+        EXPECT_EQ(text(folder + "/tradeoff.png"), text("whole/tradeoff.png")) << stop;
+    }
+}
+
+TEST_F(PageTest, NothingIsDrawnWithoutAReference) {
+    FakeRenderer none(0);
+    draw_results(scratch_ / "a", run(none, scene_, request("a")));
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "a/tradeoff.html"));
+}
+
+TEST_F(PageTest, SaysWhatFailed) {
+    FakeRenderer renderer;
+    const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+        if (s.method == "photons" && s.photons == 10'000) {
+            fail("allocating 'photons': the device is out of memory");
+        }
+        return renderer.trials()(s, seeds);
+    };
+    const Results results =
+        measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    EXPECT_THAT(page("a", results), HasSubstr("out of memory"));
+}
+
+TEST_F(PageTest, RefersToNothingOutside) {
+    FakeRenderer renderer;
+    const std::string html = page("a", run(renderer, scene_, request("a")));
+    EXPECT_FALSE(std::regex_search(html, std::regex(R"((src|href)\s*=\s*"(?!data:))")))
+        << html.substr(0, 1000);
+    for (const char* outside : {"http:", "https:", "<link", "<script", "@import", "url("}) {
+        EXPECT_THAT(html, Not(HasSubstr(outside)));
+    }
+    EXPECT_THAT(html, HasSubstr("<svg"));
+    EXPECT_THAT(html, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+}
+
+TEST_F(PageTest, OfOneSeedAndABlackScene) {
+    const std::string html = page("dark", run_on_a_black_scene(request("dark")));
+    EXPECT_THAT(html, HasSubstr("no error that could be told from none"));
+    EXPECT_FALSE(std::regex_search(html, std::regex("\\b(nan|inf)\\b")));
+}
+
+} // namespace
+} // namespace argand::testing

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "methods/scenes.hpp"
+#include "scene/gltf.hpp"
+#include "support/noisy_image.hpp"
+#include "support/scratch_directory.hpp"
+#include "sweep/parameters.hpp"
+#include "sweep/tradeoff.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+namespace argand::testing {
+
+/// Stands in for the renderer: `path` has noise alone, all others bias as well, less with more
+/// photons. Times follow from the work. Counts what it is asked for.
+class FakeRenderer {
+public:
+    explicit FakeRenderer(int interrupted_after = 1 << 30) : left_(interrupted_after) {}
+
+    RenderTrials trials() {
+        return [this](const RenderSettings& s,
+                      std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
+            if (left_-- <= 0) {
+                return std::nullopt;
+            }
+            keys.push_back(parameter_key(s));
+            const bool is_path = s.method == "path";
+            const double bias = is_path ? 0 : 10 / std::sqrt(1.0 + static_cast<double>(s.photons));
+            Trials trials{.trials = {}, .peak_bytes = s.photons + s.samples};
+            for (const std::uint32_t seed : seeds) {
+                Trial trial{.picture = noisy(s.width, s.height, bias,
+                                             (is_path ? 1 : 0.1) / std::sqrt(s.samples), seed)};
+                trial.wall_seconds =
+                    1e-3 * s.samples + 1e-6 * (is_path ? 0 : static_cast<double>(s.photons));
+                trial.device_seconds = 0.5 * trial.wall_seconds;
+                trial.statistics.radius = 0.25;
+                trial.statistics.neighbours = 50;
+                trial.statistics.smoothing = 1;
+                trials.trials.push_back(std::move(trial));
+            }
+            return trials;
+        };
+    }
+
+    std::vector<std::string> keys;
+
+private:
+    int left_;
+};
+
+inline Results run(FakeRenderer& renderer, const Scene& scene, const TradeoffRequest& request) {
+    return measure_tradeoff(request, scene, renderer.trials(), [](std::string_view, double) {});
+}
+
+/// Of a scene without light, by a renderer of black pictures, with one seed.
+inline Results run_on_a_black_scene(TradeoffRequest request) {
+    Scene dark;
+    add_floor(dark, 1, 0, add_material(dark, lambertian(glm::vec3(0.5f))));
+    const RenderTrials black = [](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+        const Image image{s.width, s.height,
+                          std::vector<glm::vec3>(static_cast<std::size_t>(s.width * s.height))};
+        return Trials{std::vector<Trial>(seeds.size(), Trial{.picture = image, .wall_seconds = 1}),
+                      1};
+    };
+    request.seeds = 1;
+    return measure_tradeoff(request, dark, black, [](std::string_view, double) {});
+}
+
+/// Small sweeps of a box, kept in a scratch folder.
+class TradeoffTest : public ::testing::Test {
+protected:
+    TradeoffRequest request(const std::string& folder) const {
+        TradeoffRequest request{.run = {{"scene", "cornell_area.glb"}},
+                                .methods = {"photons", "path"}};
+        request.extent = Extent::quick;
+        request.base.width = request.base.height = 16;
+        request.reference_seconds = 0;
+        request.seeds = 2;
+        request.folder = scratch_ / folder;
+        return request;
+    }
+
+    std::string text(const std::string& file) const { return read_text(scratch_ / file); }
+
+    ScratchDirectory scratch_;
+    Scene scene_ = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
+};
+
+} // namespace argand::testing

@@ -1,0 +1,122 @@
+#include "methods/scenes.hpp"
+#include "scene/gltf.hpp"
+#include "sweep/fake.hpp"
+
+#include <set>
+
+namespace argand::testing {
+namespace {
+
+using ::testing::Contains;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+
+Scene asset(const std::string& name) { return load_gltf(ARGAND_SOURCE_DIR "/assets/" + name); }
+
+LearntWidths learnt() {
+    RenderStatistics statistics;
+    statistics.radius = 0.25;
+    statistics.neighbours = 50;
+    statistics.smoothing = 1;
+    return {{"footprints", statistics}, {"photons", statistics}, {"knn", statistics}};
+}
+
+std::set<std::string> knobs(const Scene& scene, const std::string& method,
+                            Extent extent = Extent::full, const RenderSettings& base = {}) {
+    std::set<std::string> names;
+    for (const Setting& setting : sweep(scene, base, {method}, learnt(), extent)) {
+        EXPECT_EQ(setting.render.method, method);
+        names.insert(setting.knob);
+    }
+    return names;
+}
+
+TEST(Sweep, TurnsEveryKnobThatAMethodHas) {
+    const Scene glass = asset("cornell_glass.glb");
+    EXPECT_EQ(knobs(glass, "path"), (std::set<std::string>{"default", "spp", "bounces"}));
+    EXPECT_THAT(knobs(glass, "photons"),
+                IsSupersetOf({"default", "spp", "photons", "radius", "query-cell", "leaf-size",
+                              "wide-codes", "photon-sampling", "final-gather", "bounces"}));
+    EXPECT_THAT(knobs(glass, "knn"), Contains("k"));
+    EXPECT_THAT(knobs(glass, "photons"), Not(Contains("k")));
+    EXPECT_THAT(knobs(glass, "footprints"),
+                IsSupersetOf({"smoothing", "caustic-smoothing", "flatness", "uniform-kernel",
+                              "paper-axes", "paper-reemission"}));
+}
+
+TEST(Sweep, TurnsOneKnobAtATime) {
+    const std::vector<Setting> settings =
+        sweep(asset("cornell_glass.glb"), {}, method_names(), learnt(), Extent::full);
+    std::set<std::string> keys;
+    for (const Setting& setting : settings) {
+        EXPECT_TRUE(keys.insert(parameter_key(setting.render)).second)
+            << parameter_key(setting.render);
+        RenderSettings base;
+        base.method = setting.render.method;
+        const auto turned = parameters(setting.render), usual = parameters(base);
+        ASSERT_EQ(turned.size(), usual.size());
+        for (std::size_t i = 0; i < turned.size(); ++i) {
+            EXPECT_EQ(turned[i] != usual[i], turned[i].first == setting.knob)
+                << parameter_key(setting.render);
+        }
+    }
+}
+
+TEST(Sweep, WithoutMirrorOrGlassThereAreNoCaustics) {
+    EXPECT_THAT(knobs(asset("cornell_area.glb"), "footprints"), Not(Contains("caustic-smoothing")));
+}
+
+TEST(Sweep, RoughnessCountsWhereItChangesWhatIsFollowed) {
+    EXPECT_THAT(knobs(asset("cornell_area.glb"), "photons"), Not(Contains("follow-roughness")));
+    EXPECT_THAT(knobs(asset("glossy.glb"), "photons"), Contains("follow-roughness"));
+}
+
+TEST(Sweep, WhereNothingShinesNothingIsTurned) {
+    Scene dark;
+    add_floor(dark, 1, 0, add_material(dark, lambertian(glm::vec3(0.5f))));
+    EXPECT_EQ(knobs(dark, "footprints"), std::set<std::string>{"default"});
+    EXPECT_EQ(knobs(dark, "path"), std::set<std::string>{"default"});
+}
+
+TEST(Sweep, WhereNothingIsEstimatedPhotonsAreNoMatter) {
+    Scene scene;
+    scene.sky = glm::vec3(1);
+    add_floor(scene, 1, 0, add_material(scene, mirror()));
+    EXPECT_EQ(knobs(scene, "photons"), (std::set<std::string>{"default", "spp"}));
+}
+
+TEST(Sweep, WithoutPhotonsTheirTreatmentIsNoMatter) {
+    RenderSettings none;
+    none.photons = 0;
+    EXPECT_EQ(knobs(asset("cornell_area.glb"), "photons", Extent::full, none),
+              (std::set<std::string>{"default", "spp", "photons", "bounces"}));
+}
+
+TEST(Sweep, AMethodThatIsNamedTwiceCountsOnce) {
+    const Scene scene = asset("cornell_area.glb");
+    const auto count = [&](const std::vector<std::string>& methods) {
+        return sweep(scene, {}, methods, learnt(), Extent::quick).size();
+    };
+    EXPECT_EQ(count({"path", "path"}), count({"path"}));
+    EXPECT_EQ(count({"path", "knn", "path"}), count({"path", "knn"}));
+}
+
+TEST(Sweep, QuickTurnsLess) {
+    const Scene scene = asset("cornell_area.glb");
+    EXPECT_EQ(knobs(scene, "knn", Extent::quick),
+              (std::set<std::string>{"default", "spp", "photons", "radius", "k"}));
+}
+
+TEST(Parameters, OptionsAreThoseOfArgandRender) {
+    RenderSettings settings;
+    settings.method = "footprints";
+    EXPECT_EQ(command_options(settings), "--method footprints");
+    settings.photons = 5;
+    settings.radius = 0.125;
+    settings.footprints.uniform_kernel = true;
+    EXPECT_EQ(command_options(settings),
+              "--method footprints --photons 5 --radius 0.125 --uniform-kernel");
+}
+
+} // namespace
+} // namespace argand::testing
