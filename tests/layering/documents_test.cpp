@@ -128,6 +128,24 @@ TEST(Documents, PagesThatTheSourcesNameExist) {
     EXPECT_THAT(faults, IsEmpty());
 }
 
+// Names in capitals stand for any file of their kind (engine/methods/NAME.cpp).
+TEST(Documents, SourcesThatThePagesNameExist) {
+    static const std::regex name(
+        R"((?:engine|shaders|tests|tools|assets|examples)/[\w/]+\.(?:cpp|hpp|h|cu|comp|glsl|py|glb|gltf)\b)");
+    static const std::regex placeholder("/[A-Z]+");
+    std::vector<std::string> faults;
+    for (const fs::path& page : files_with({".md"})) {
+        const std::string text = read_text(page);
+        for (const std::smatch& match : matches(text, name)) {
+            const std::string named = match.str();
+            if (!std::regex_search(named, placeholder) && !fs::exists(root / named)) {
+                faults.push_back(page.lexically_relative(root).string() + ": " + named);
+            }
+        }
+    }
+    EXPECT_THAT(faults, IsEmpty());
+}
+
 TEST(Documents, TheDesignNamesEveryFolderOfTheEngineAndNoOther) {
     const std::string design = read_text(root / "docs/design.md");
     const std::string layout = design.substr(
