@@ -99,8 +99,7 @@ Buffer code_distances(Device& device, const Buffer& codes, const Count& count, b
 Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& distances,
                          const Buffer& order, const Count& count) {
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
-    const Lbvh bvh{.order = order,
-                   .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
+    Lbvh bvh{.order = order, .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
     if (count.bound > 0) {
         fit(device, bvh, boxes, distances, count, false, true);
     }

@@ -1,6 +1,7 @@
 #include "base/progress.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@ constexpr std::chrono::milliseconds between_lines{100};
 constexpr double too_early = 0.01; // a guess from less than this would jump about
 
 std::string duration(double seconds) {
-    const auto whole = static_cast<long>(std::min(seconds, 1e9) + 0.5);
+    const long whole = std::lround(std::min(seconds, 1e9));
     if (whole < 60) {
         return fmt::format("{} s", whole);
     }

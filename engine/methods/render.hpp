@@ -59,7 +59,7 @@ struct RenderSettings {
     float follow_roughness = 0.25f; ///< glossy lobes at most this rough are followed from the eye
     double query_cell = 0.25; ///< edge of the cells in which one density estimate is shared, in
                               ///< radii of estimation; 0: none are shared
-    bool wide_codes = false; ///< Morton codes of 63 bits for photons, not of 30
+    bool wide_codes = false;  ///< Morton codes of 63 bits for photons, not of 30
     Sampling photon_sampling = Sampling::sobol;
     bool final_gather = false; ///< the photon map is asked one bounce later, but for caustics
     bool everything = false;   ///< also code, buffers and passes that the scene does not require

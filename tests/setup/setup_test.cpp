@@ -1,6 +1,6 @@
-// tools/setup, run against made-up systems: its commands (dpkg-query, apt-get, sudo, id) are
-// stand-ins that answer from files and write down how they were called, so nothing is installed and
-// the result does not depend on the host.
+// Runs tools/setup against simulated systems. Stand-ins replace its commands (dpkg-query, apt-get,
+// sudo, id): they answer from files and record their calls, so nothing is installed and the result
+// does not depend on the host.
 
 #include <array>
 #include <cstdio>
@@ -63,12 +63,12 @@ protected:
         return {std::istreambuf_iterator<char>(stream), {}};
     }
 
-    /// Runs tools/setup; returns its exit status and keeps what it printed in `output`.
-    int run() {
+    /// Runs tools/setup; returns its exit status and keeps in `output` the text that it printed.
+    int run(const std::string& arguments = "") {
         const std::string line = fmt::format(
             "env -i PATH={0}/bin FOLDER={0} ARGAND_OS_RELEASE={0}/os-release bash {1}/tools/setup "
-            "2>&1 </dev/null",
-            folder.string(), ARGAND_SOURCE_DIR);
+            "{2} 2>&1 </dev/null",
+            folder.string(), ARGAND_SOURCE_DIR, arguments);
         output.clear();
         FILE* const pipe = popen(line.c_str(), "r");
         if (pipe == nullptr)
@@ -86,7 +86,7 @@ protected:
 
 TEST_F(Setup, DoesNothingWhereNothingIsMissing) {
     EXPECT_EQ(run(), 0) << output;
-    EXPECT_THAT(output, HasSubstr("packages are there"));
+    EXPECT_THAT(output, HasSubstr("packages are installed"));
     EXPECT_THAT(calls(), IsEmpty());
 }
 
@@ -138,12 +138,29 @@ TEST_F(Setup, PassesOnAnotherDistributionThatHasEverything) {
     EXPECT_EQ(run(), 0) << output;
 }
 
+TEST_F(Setup, InstallsDevelopersPackagesOnlyForThem) {
+    lacking("clang-tidy\nlibomp-14-dev\n");
+    EXPECT_EQ(run(), 0) << output;
+    EXPECT_THAT(calls(), IsEmpty());
+    EXPECT_EQ(run("--dev"), 0) << output;
+    EXPECT_THAT(calls(), HasSubstr("libomp-14-dev clang-tidy\n"));
+    user(1000);
+    EXPECT_EQ(run("--dev"), 1) << output;
+    EXPECT_THAT(output, HasSubstr("missing packages: libomp-14-dev clang-tidy\n"));
+}
+
+TEST_F(Setup, RefusesOtherArguments) {
+    EXPECT_EQ(run("--help"), 2) << output;
+    EXPECT_THAT(output, HasSubstr("usage: tools/setup [--dev]"));
+    EXPECT_EQ(run("--dev --dev"), 2) << output;
+}
+
 TEST_F(Setup, EmbreeIsOptional) {
     lacking("libembree-dev\n");
     write("apt", "[[ $1 != install ]]"); // an architecture without Embree
     EXPECT_EQ(run(), 0) << output;
     EXPECT_THAT(calls(), HasSubstr("libembree-dev"));
-    EXPECT_THAT(output, HasSubstr("going on without libembree-dev"));
+    EXPECT_THAT(output, HasSubstr("continuing without libembree-dev"));
     user(1000);
     EXPECT_EQ(run(), 0) << output;
     EXPECT_THAT(output, HasSubstr("missing, but optional: libembree-dev"));
