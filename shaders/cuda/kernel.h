@@ -59,6 +59,32 @@ FN uint atomicMin(uint& to, uint value) {
 
 } // namespace argand
 
+// Kernels write the value of a struct as GLSL does, with parentheses. Before version 16 clang takes
+// only braces (C++20, P0960). A macro with arguments leaves the struct's name alone elsewhere.
+#if defined(__clang__) && __clang_major__ < 16
+// clang-format off
+#define BoxRecord(...) BoxRecord{__VA_ARGS__}
+#define Cell(...) Cell{__VA_ARGS__}
+#define EstimateRecord(...) EstimateRecord{__VA_ARGS__}
+#define FilmRecord(...) FilmRecord{__VA_ARGS__}
+#define FluxLedger(...) FluxLedger{__VA_ARGS__}
+#define Footprint(...) Footprint{__VA_ARGS__}
+#define ForestCost(...) ForestCost{__VA_ARGS__}
+#define GatherRecord(...) GatherRecord{__VA_ARGS__}
+#define HitRecord(...) HitRecord{__VA_ARGS__}
+#define LayersRecord(...) LayersRecord{__VA_ARGS__}
+#define NearestRecord(...) NearestRecord{__VA_ARGS__}
+#define PathRecord(...) PathRecord{__VA_ARGS__}
+#define PhotonPathRecord(...) PhotonPathRecord{__VA_ARGS__}
+#define PhotonRange(...) PhotonRange{__VA_ARGS__}
+#define PhotonRecord(...) PhotonRecord{__VA_ARGS__}
+#define QueryRecord(...) QueryRecord{__VA_ARGS__}
+#define RayRecord(...) RayRecord{__VA_ARGS__}
+#define ShadowRecord(...) ShadowRecord{__VA_ARGS__}
+#define Sum(...) Sum{__VA_ARGS__}
+// clang-format on
+#endif
+
 #ifdef __CUDACC__
 
 // Grid-stride loops, so that a count that only the device knows needs no launch of its own size.
