@@ -132,11 +132,12 @@ std::string emit_source(const Kernel& kernel) {
     for (const Record& record : interface.records) {
         emit_checks(out, record);
     }
-    fmt::format_to(out, "\nconstexpr std::uint32_t spirv[] = {{");
+    // The names differ between kernels, so that the sources of several make one translation unit.
+    fmt::format_to(out, "\nconstexpr std::uint32_t {}_spirv[] = {{", kernel.name);
     emit_words(out, kernel.spirv);
     fmt::format_to(out, "\n}};\n");
     if (!interface.bindings.empty()) {
-        fmt::format_to(out, "constexpr KernelBinding bindings[] = {{\n");
+        fmt::format_to(out, "constexpr KernelBinding {}_bindings[] = {{\n", kernel.name);
         for (std::size_t i = 0; i < interface.bindings.size(); ++i) {
             fmt::format_to(out, "    {{\"{}\", {}, Access::{}, {}, \"{}\"}},\n",
                            interface.bindings[i].name, i, enumerator(interface.bindings[i].access),
@@ -145,7 +146,7 @@ std::string emit_source(const Kernel& kernel) {
         fmt::format_to(out, "}};\n");
     }
     if (!interface.constants.empty()) {
-        fmt::format_to(out, "constexpr KernelConstant specialization[] = {{\n");
+        fmt::format_to(out, "constexpr KernelConstant {}_constants[] = {{\n", kernel.name);
         for (const Constant& constant : interface.constants) {
             fmt::format_to(out, "    {{\"{}\", {}}},\n", constant.name, constant.id);
         }
@@ -154,11 +155,12 @@ std::string emit_source(const Kernel& kernel) {
     fmt::format_to(
         out,
         "\n}} // namespace\n\n{8}constinit const KernelInfo {0}::info{{\n"
-        "    .name = \"{0}\",\n    .spirv = spirv,\n    .bindings = {1},\n    .constants = {2},\n"
+        "    .name = \"{0}\",\n    .spirv = {0}_spirv,\n    .bindings = {1},\n    .constants = "
+        "{2},\n"
         "    .push_bytes = {3},\n    .local_size = {{{4}, {5}, {6}}},\n    .uses_subgroups = "
         "{7},\n{9}}};\n\n",
-        kernel.name, interface.bindings.empty() ? "{}" : "bindings",
-        interface.constants.empty() ? "{}" : "specialization",
+        kernel.name, interface.bindings.empty() ? "{}" : kernel.name + "_bindings",
+        interface.constants.empty() ? "{}" : kernel.name + "_constants",
         interface.push ? interface.push->size : 0, interface.local_size[0], interface.local_size[1],
         interface.local_size[2], interface.uses_subgroups,
         kernel.twin.empty()
