@@ -1,4 +1,4 @@
-"""Shapes, materials, lights and cameras as glTF 2.0: enough to write the scenes of make_scenes.py, and no more."""
+"""Writes shapes, materials, lights and cameras as glTF 2.0, as far as make_scenes.py needs them."""
 
 import base64
 import json
@@ -7,7 +7,8 @@ import struct
 
 
 def rounded(x):
-    """To six decimals: the same bytes whatever the platform's sine does in its last bit. (+0.0 turns -0.0 into 0.0.)"""
+    """Rounds to six decimals, so that the last bit of the platform's sine does not change the bytes. (+0.0 turns -0.0
+    into 0.0.)"""
     return round(x, 6) + 0.0
 
 
@@ -52,7 +53,7 @@ class Mesh:
         return Mesh([add(p, offset) for p in self.positions], self.triangles, self.normals)
 
     def turned(self, degrees):
-        """About the y axis."""
+        """Rotates about the y axis."""
         c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
 
         def turn(p):
@@ -71,21 +72,21 @@ def quad(a, b, c, d):
 
 
 def box(low, high):
-    """Closed, facing outwards."""
+    """A closed box that faces outwards."""
     corners = [(low, high)[i & 1][0:1] + (low, high)[i >> 1 & 1][1:2] + (low, high)[i >> 2][2:3] for i in range(8)]
     faces = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
     return Mesh(corners, [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))])
 
 
 def sphere(radius, frequency):
-    """A geodesic sphere of 20·frequency² even triangles, smooth: an icosahedron's faces divided, pushed outwards."""
+    """A smooth geodesic sphere of 20·frequency² similar triangles: an icosahedron's faces, divided and pushed outwards."""
     golden = (1 + math.sqrt(5)) / 2
     tops = [(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0), (0, -1, golden), (0, 1, golden),
             (0, -1, -golden), (0, 1, -golden), (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)]
     faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
              (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
              (8, 6, 7), (9, 8, 1)]
-    number = {}  # of a vertex, by its direction to six decimals, so that faces share those on their edges
+    number = {}  # index of a vertex by its direction to six decimals: faces share the vertices on their edges
     normals, triangles = [], []
 
     def vertex(face, i, j):
@@ -109,7 +110,7 @@ def sphere(radius, frequency):
 
 def revolved(profile, segments):
     """A closed profile of (radius, height, normal's radius, normal's height), counter-clockwise seen with the radius to
-    the right and the height up, turned about the y axis; smooth."""
+    the right and the height up, rotated about the y axis; smooth."""
     positions, normals, triangles = [], [], []
     for s in range(segments):
         c, d = math.cos(2 * math.pi * s / segments), math.sin(2 * math.pi * s / segments)
@@ -126,7 +127,7 @@ def revolved(profile, segments):
 
 
 def lambertian(color):
-    """A pure Lambertian: a rough dielectric whose specular lobe is switched off."""
+    """A Lambertian material: a rough dielectric whose specular lobe is switched off."""
     return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 0, "roughnessFactor": 1},
             "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
 
@@ -136,7 +137,7 @@ def metal(color, roughness):
 
 
 def glass(thickness):
-    """A solid that refracts; the thickness is the extent of the object, whose surface is traced all the same."""
+    """A solid that refracts. The thickness is the extent of the object; its surface is traced all the same."""
     return {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0},
             "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
                            "KHR_materials_volume": {"thicknessFactor": thickness},
@@ -144,19 +145,19 @@ def glass(thickness):
 
 
 def phong(diffuse, specular, exponent):
-    """The modified Phong BRDF of Lafortune and Willems (docs/materials.md)."""
+    """Modified Phong (Lafortune and Willems 1994; docs/materials.md)."""
     return {**lambertian(diffuse), "extras": {"phong": {"specular": [*specular], "exponent": exponent}}}
 
 
 def blended(material, alpha):
-    """The same, of which a share of alpha is there."""
+    """The same material, alpha-blended."""
     color = material["pbrMetallicRoughness"]["baseColorFactor"][:3] + [alpha]
     return {**material, "alphaMode": "BLEND",
             "pbrMetallicRoughness": {**material["pbrMetallicRoughness"], "baseColorFactor": color}}
 
 
 def emitter(radiance, albedo=(0, 0, 0)):
-    """Emits `radiance` from its front; the factor has to be at most 1, the strength makes up for it."""
+    """Emits `radiance` from its front. glTF's emissive factor is at most 1; the strength supplies the rest."""
     strength = max(radiance)
     material = lambertian(albedo)
     material["emissiveFactor"] = [rounded(x / strength) for x in radiance]
@@ -170,7 +171,7 @@ def rotation_towards(forward, up):
     x = unit(cross(up, z))
     y = cross(z, x)
     m = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
-    # Of the four formulas the one with the largest component, so that no square root is of a small difference.
+    # Of the four formulas, takes the one with the largest component: no square root of a small difference.
     t = [1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2], 1 - m[0][0] - m[1][1] + m[2][2],
          1 + m[0][0] + m[1][1] + m[2][2]]
     k = t.index(max(t))
@@ -256,14 +257,14 @@ class Scene:
         return document
 
     def gltf(self):
-        """Bytes of a readable .gltf that carries its data in itself."""
+        """The bytes of a readable .gltf with embedded data."""
         document = self.document()
         document["buffers"][0]["uri"] = ("data:application/octet-stream;base64," +
                                          base64.b64encode(self.data).decode("ascii"))
         return (json.dumps(document, indent=1) + "\n").encode("ascii")
 
     def glb(self):
-        """Bytes of a binary .glb."""
+        """The bytes of a binary .glb."""
         text = json.dumps(self.document(), separators=(",", ":")).encode("ascii")
         text += b" " * (-len(text) % 4)
         data = self.data + b"\0" * (-len(self.data) % 4)

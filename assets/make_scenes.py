@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the scenes of this folder, into this folder or the one given, always the same bytes.
+"""Writes the scenes of this folder to it, or to the folder given. The bytes are always the same.
 
     python3 assets/make_scenes.py [FOLDER]
 
@@ -13,7 +13,7 @@ import sys
 from gltf_writer import (Mesh, Scene, blended, box, emitter, glass, lambertian, metal, phong, quad, revolved, sphere)
 
 WHITE, RED, GREEN = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
-SUNK = 0.01  # bodies reach this far into the floor: closed, and no face in the floor's plane
+SUNK = 0.01  # bodies reach this far into the floor, so that they are closed without a face in its plane
 
 
 def ceiling(x0, x1, z0, z1, y=2):
@@ -21,8 +21,8 @@ def ceiling(x0, x1, z0, z1, y=2):
 
 
 def cornell(light=False):
-    """The empty box, 2 × 2 × 2, open to the camera, which stands before it (after the Cornell box of Goral et al.);
-    with or without a light let into the ceiling, flush with it."""
+    """The empty Cornell box (after Goral et al.), 2 × 2 × 2, open towards the camera in front of it, with or without a
+    light set flush into the ceiling."""
     scene = Scene()
     l, r, b, t, n, f = -1, 1, 0, 2, 1, -1
     scene.add("floor", quad((l, b, n), (r, b, n), (r, b, f), (l, b, f)), lambertian(WHITE))
@@ -81,7 +81,7 @@ def cornell_glass():
 
 def cornell_mirror():
     scene = cornell(light=True)
-    # Turned so that the camera sees the room in it, not the darkness before the box.
+    # Turned so that the camera sees the room in it, not the darkness in front of the box.
     scene.add("mirror", tall_box(40), metal((0.95, 0.95, 0.95), 0))
     scene.add("short box", short_box(), lambertian(WHITE))
     return scene
@@ -105,7 +105,7 @@ def ring():
 
 
 def plane_point():
-    """A light of 2 cd, 1 m above an albedo of 0.5: L = ρ/π · I · cosθ / d², 0.318 straight below."""
+    """A point light of 2 cd, 1 m above an albedo of 0.5: L = ρ/π · I · cosθ / d², 0.318 straight below."""
     scene = Scene()
     scene.add("plane", quad((-5, 0, 5), (5, 0, 5), (5, 0, -5), (-5, 0, -5)), lambertian((0.5, 0.5, 0.5)))
     scene.light("point", 2, (0, 1, 0))
@@ -114,7 +114,7 @@ def plane_point():
 
 
 def furnace():
-    """No light, hence the uniform sky: an albedo of 1 cannot be told from it. Flat facets make that exact."""
+    """A file without lights gets the uniform sky: an albedo of 1 is invisible against it, exactly so with flat facets."""
     scene = Scene()
     scene.add("sphere", sphere(1, 12).flat(), lambertian((1, 1, 1)))
     scene.camera((0, 0, 4), (0, 0, 0))
@@ -122,7 +122,7 @@ def furnace():
 
 
 def closed_box():
-    """Six walls that emit 0.25 and reflect 0.5, the camera among them: L = 0.25 / (1 - 0.5) = 0.5 everywhere."""
+    """Six walls that emit 0.25 and reflect 0.5, with the camera inside: L = 0.25 / (1 - 0.5) = 0.5 everywhere."""
     scene = Scene()
     scene.add("walls", box((-1, -1, -1), (1, 1, 1)).inside_out(), emitter((0.25, 0.25, 0.25), (0.5, 0.5, 0.5)))
     scene.camera((0.3, -0.2, 0.5), (-1, 0.6, -1), degrees=60)
@@ -137,7 +137,7 @@ def glossy():
 
 
 def veil():
-    """Modified Phong, and a pane that is only partly there before it."""
+    """A box of modified Phong behind an alpha-blended pane."""
     scene = cornell(light=True)
     scene.add("plastic box", tall_box(40), phong((0.3, 0.35, 0.4), (0.55, 0.5, 0.45), 60))
     scene.add("short box", short_box(), lambertian(WHITE))
@@ -147,14 +147,14 @@ def veil():
 
 
 def smooth_sphere():
-    """So coarse, 80 triangles, that its interpolated normals are far from those of its faces."""
+    """A sphere of 80 triangles, so coarse that its interpolated normals are far from those of its faces."""
     scene = cornell(light=True)
     scene.add("coarse sphere", resting_sphere(0.5, 0, 0, frequency=2), lambertian(WHITE))
     return scene
 
 
 def inside_glass():
-    """The camera is within a glass sphere and looks at a box out of it."""
+    """The camera is inside a glass sphere and looks out of it at a box."""
     scene = cornell(light=True)
     add_boxes(scene)
     scene.add("glass sphere", sphere(0.3, 12).moved((0.25, 1.25, 0.6)), glass(0.6))
@@ -165,14 +165,14 @@ def inside_glass():
 
 
 def sky_room():
-    """No light, hence the uniform sky, which comes in through the open front."""
+    """A file without lights gets the uniform sky, which comes in through the open front."""
     scene = cornell()
     add_boxes(scene)
     return scene
 
 
 def spot():
-    """A spot under the ceiling points at the floor before the red wall; they light the rest."""
+    """A spot under the ceiling points at the floor in front of the red wall; these two light the rest."""
     scene = cornell()
     add_boxes(scene)
     scene.light("spot", 14, (0.5, 1.9, 0.7), towards=(-0.9, -1.3, -0.35), cones=(20, 32), color=(1, 0.95, 0.85))
@@ -180,7 +180,7 @@ def spot():
 
 
 def courtyard():
-    """A yard open to the sun, a colonnade along its back."""
+    """A yard open to the sun, with a colonnade along its back."""
     scene = Scene()
     ground, x, z, top = 0, 3, 3, 2.4
     scene.add("ground", quad((-x, ground, z), (x, ground, z), (x, ground, -z), (-x, ground, -z)),

@@ -92,7 +92,8 @@ const Material& material_of(const Scene& scene, const std::string& name) {
     return *found;
 }
 
-/// Volume within the triangles of a material, positive if they face outwards (divergence theorem).
+/// Volume that the triangles of a material enclose, positive if they face outwards (divergence
+/// theorem).
 double volume(const Scene& scene, const std::string& name) {
     double sum = 0;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -123,7 +124,7 @@ TEST(Assets, BodiesFaceOutwardsAndRoomsInwards) {
                     (4 * pi / 3 * 0.064),
                 1, 0.005);
     EXPECT_NEAR(volume(load_gltf(folder / "closed_box.gltf"), "walls"), -8, 1e-5);
-    // A ring of mean radius 1.04, 0.08 thick and 0.46 high, its corners rounded (Pappus).
+    // A ring with rounded corners, of mean radius 1.04, 0.08 thick and 0.46 high (Pappus).
     const double section = 0.08 * 0.46 - (4 - pi) * 0.025 * 0.025;
     EXPECT_NEAR(volume(load_gltf(folder / "ring.glb"), "ring") / (2 * pi * 1.04 * section), 1,
                 0.005);
@@ -210,7 +211,7 @@ TEST(Assets, AreWhatTheScriptWrites) {
     ASSERT_EQ(std::system(command.c_str()), 0);
     ASSERT_EQ(scene_files(scratch.path()), scene_files(folder));
     for (const std::string& name : scene_files(folder)) {
-        // Not EXPECT_EQ, which would print both.
+        // EXPECT_EQ would print both.
         EXPECT_TRUE(read_text(scratch / name) == read_text(folder / name))
             << name << ": run assets/make_scenes.py";
     }
