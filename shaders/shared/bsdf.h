@@ -1,17 +1,21 @@
 // The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume
-// (of which only whether there is a thickness), in the shading frame: wo and wi point away from the
-// surface, and the frame is turned so that wo.z > 0 whichever side wo is on. A sum of lobes, which
-// all but the last are scaled by the surface's alpha (coverage):
-//   diffuse    Lambertian, under the dielectric's specular layer, or beside the specular lobe of
-//   modified Phong glossy     GGX reflection by metal and by the layer; or that of modified Phong
-//   mirror     the same where the surface is smooth; reflection by the border of a solid dielectric
-//   transmit   straight on through a thin wall, refracted at the border of a solid dielectric;
-//   tinted by the base
-//              colour; always smooth
-//   pass       straight on and untinted, past the share of the surface that is not there (1 -
-//   alpha)
-// All of it is reciprocal, but for refraction's factor eta_scale. As in glTF, layer and base are
-// mixed by Fresnel's factor at the half vector: where wo grazes, a bright dielectric may reflect
+// (only whether a thickness is given), and modified Phong. Directions are in the shading frame: wo
+// and wi point away from the surface, and the frame is turned so that wo.z > 0 on either side of
+// it.
+//
+// The BSDF is a sum of lobes. All but `pass` are scaled by the surface's alpha (coverage):
+// - diffuse: Lambertian, under the specular layer of a dielectric or beside the specular lobe of
+//   modified Phong.
+// - glossy: GGX reflection by metal and by the dielectric's layer, or the specular lobe of modified
+//   Phong.
+// - mirror: the same reflection where the surface is smooth, and reflection at the interface of a
+//   solid dielectric.
+// - transmit: straight through a thin wall, or refracted at the interface of a solid dielectric;
+//   tinted by the base colour; always smooth.
+// - pass: straight through and untinted, where the surface is absent (a share of 1 - alpha).
+//
+// The BSDF is reciprocal except for refraction's factor eta_scale. As in glTF, Fresnel's factor at
+// the half vector mixes layer and base, so a bright dielectric seen at a grazing angle may reflect
 // more than it receives.
 #ifndef ARGAND_SHARED_BSDF_H
 #define ARGAND_SHARED_BSDF_H
@@ -31,39 +35,39 @@ CONSTANT uint LOBE_PASS = 16u;
 CONSTANT uint LOBES_DELTA = 28u; // mirror, transmit and pass
 CONSTANT uint LOBES_ALL = 31u;
 
-// What a scene's materials may have besides: glossy lobes by GGX, by Phong, solids that refract.
+// Further features of a scene's materials: GGX lobes, Phong lobes, solids that refract.
 CONSTANT uint MATERIAL_GGX = 32u;
 CONSTANT uint MATERIAL_PHONG = 64u;
 CONSTANT uint MATERIAL_SOLID = 128u;
 CONSTANT uint MATERIAL_ALL = 255u;
-// What a metal or a dielectric's layer needs.
+// Features that metals and dielectric layers need.
 CONSTANT uint MATERIAL_LAYER = 36u; // GGX or mirror
 
-// Below, single precision cannot tell GGX from a mirror.
+// Below this alpha, single precision cannot tell GGX from a mirror.
 CONSTANT real SMALLEST_ALPHA = real(1e-3);
 
 struct BsdfSample {
     vec3 wi;
-    vec3 weight; // f |cos| / density, as flux scatters; radiance is to be multiplied by eta_scale
-                 // as well
-    real pdf;    // solid-angle density; 0 for mirror, transmit and pass
+    // f |cos| / density for flux; for radiance multiply by eta_scale as well.
+    vec3 weight;
+    real pdf; // solid-angle density; 0 for the delta lobes
     uint lobe;
-    real probability; // with which this lobe was chosen
-    real eta_scale;   // by which refraction scales radiance: (index on wo's side / index on wi's
-                      // side)²
+    real probability; // of choosing this lobe
+    // Scale of radiance by refraction: (index on wo's side / index on wi's side)².
+    real eta_scale;
 };
 
-// Whether some material of the scene has any of these. Kernels know it when they are specialised:
-// of what no material has there is no code left. For materials of the scene it never changes what
-// comes out.
+// Whether any material of the scene may have one of these features. Kernels specialised to a scene
+// know the answer at compile time, so code for absent features vanishes. The result is the same for
+// every material of the scene.
 FN bool may_have(IN(MaterialRecord) m, uint bits) { return (m.absent & bits) != bits; }
-FN bool asks_for(IN(MaterialRecord) m, uint lobes, uint lobe) {
+FN bool wants_lobe(IN(MaterialRecord) m, uint lobes, uint lobe) {
     return may_have(m, lobe) && (lobes & lobe) != 0u;
 }
 
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
-// Modified Phong: no metal, nothing transparent, and a roughness as wide as the lobe.
+// Modified Phong is non-metallic and opaque; its roughness is set to match the width of its lobe.
 FN bool is_phong(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0);
 }
@@ -79,13 +83,13 @@ FN real transmission(IN(MaterialRecord) m) {
 FN vec3 phong_specular(IN(MaterialRecord) m) {
     return vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m);
 }
-// It matters only for what a layer, metal or Phong's lobe reflects.
+// Whether metal, layer or Phong lobe reflects like a mirror. Says nothing about other lobes.
 FN bool roughness_is_delta(IN(MaterialRecord) m) {
     return may_have(m, LOBE_MIRROR) && (!may_have(m, LOBE_GLOSSY) || ggx_alpha(m) < SMALLEST_ALPHA);
 }
 
-// Shares of the surface: what is not there; metal; what is not metal, split by the transmission
-// factor.
+// Shares of the surface: absent, metal, and dielectric, the last split into opaque and clear by the
+// transmission factor.
 FN real pass_share(IN(MaterialRecord) m) { return real(1.0) - coverage(m); }
 FN real metal_share(IN(MaterialRecord) m) { return coverage(m) * metallic(m); }
 FN real dielectric_share(IN(MaterialRecord) m) { return coverage(m) * (real(1.0) - metallic(m)); }
@@ -97,8 +101,8 @@ FN bool is_solid(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_SOLID) && clear_share(m) > real(0.0) && m.thickness > float32(0.0);
 }
 
-// Reflectance of the dielectric's layer, by Schlick. An index of 0 gives an f0 of 1, as
-// KHR_materials_ior wants.
+// Reflectance of the dielectric's layer at normal incidence, for Schlick's approximation. An index
+// of 0 gives an f0 of 1, as KHR_materials_ior requires.
 FN vec3 dielectric_f0(IN(MaterialRecord) m) {
     real r = (real(m.ior) - real(1.0)) / (real(m.ior) + real(1.0)); // the index is not negative
     vec3 f0 = vec3(m.specular_r, m.specular_g, m.specular_b) * (r * r);
@@ -112,8 +116,8 @@ FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
     return fresnel_schlick(dielectric_f0(m), real(m.specular), cosine);
 }
 
-// Reflectance of metal and layer together, without the border of a solid; or of the specular lobe,
-// cosine being wo's.
+// Reflectance of metal and layer together, without the interface of a solid. For Phong, the albedo
+// of the specular lobe with `cosine` belonging to wo.
 FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
     if (is_phong(m)) {
         return phong_specular(m) * phong_albedo(real(m.exponent), cosine);
@@ -126,8 +130,8 @@ FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
            dielectric_fresnel(m, cosine) * layer_share;
 }
 
-// What the diffuse lobe reflects of light that it gets through the layer at this cosine with the
-// half vector.
+// Reflectance of the diffuse lobe for light that passes the layer at this cosine to the half
+// vector.
 FN vec3 diffuse_reflectance(IN(MaterialRecord) m, real cosine) {
     if (is_phong(m)) {
         return base_color(m) * opaque_share(m);
@@ -136,47 +140,47 @@ FN vec3 diffuse_reflectance(IN(MaterialRecord) m, real cosine) {
            (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
 }
 
-// Smooth lobes: what goes where.
-struct Border {
+// Reflectance and transmittance of the delta lobes.
+struct DeltaLobes {
     vec3 reflected; // by the mirror lobe
     vec3 transmitted;
-    real eta; // index of wi's side over that of wo's side; 1 through thin walls
+    real eta; // index on wi's side over index on wo's side; 1 through thin walls
     real cosine_refracted;
 };
 
-// Solids: Fresnel's equations, scaled by the specular extension's factors unless all is reflected.
-FN Border bsdf_border(IN(MaterialRecord) m, real cosine, bool front) {
-    Border border;
-    border.eta = real(1.0);
-    border.cosine_refracted = cosine;
-    border.reflected = roughness_is_delta(m) ? layer_reflectance(m, cosine) : vec3(real(0.0));
-    border.transmitted = vec3(real(0.0));
+// Solids follow Fresnel's equations, scaled by the factors of the specular extension except under
+// total reflection.
+FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
+    DeltaLobes delta;
+    delta.eta = real(1.0);
+    delta.cosine_refracted = cosine;
+    delta.reflected = roughness_is_delta(m) ? layer_reflectance(m, cosine) : vec3(real(0.0));
+    delta.transmitted = vec3(real(0.0));
     if (!may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID)) {
-        return border;
+        return delta;
     }
     if (!is_solid(m)) {
-        border.transmitted =
+        delta.transmitted =
             base_color(m) *
             (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
-        return border;
+        return delta;
     }
     vec3 reflectance = vec3(real(1.0));
     if (m.ior > float32(0.0)) {
-        border.eta = front ? real(m.ior) : real(1.0) / real(m.ior);
-        real fresnel = fresnel_dielectric(cosine, border.eta, border.cosine_refracted);
-        if (border.cosine_refracted > real(0.0)) {
+        delta.eta = front ? real(m.ior) : real(1.0) / real(m.ior);
+        real fresnel = fresnel_dielectric(cosine, delta.eta, delta.cosine_refracted);
+        if (delta.cosine_refracted > real(0.0)) {
             reflectance =
                 min(vec3(m.specular_r, m.specular_g, m.specular_b) * fresnel, vec3(real(1.0))) *
                 real(m.specular);
         }
     }
-    border.reflected = border.reflected + reflectance * clear_share(m);
-    border.transmitted =
-        base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
-    return border;
+    delta.reflected = delta.reflected + reflectance * clear_share(m);
+    delta.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
+    return delta;
 }
 
-// Which lobes the material has.
+// LOBE_* bits of the lobes that the material has.
 FN uint bsdf_lobes(IN(MaterialRecord) m) {
     uint lobes = 0u;
     bool colored = max_component(base_color(m)) > real(0.0);
@@ -201,59 +205,59 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
     return lobes;
 }
 
-// Whether nothing but the diffuse lobe reflects.
+// Whether only the diffuse lobe scatters (apart from light that passes).
 FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS) == LOBE_DIFFUSE; }
 
-// About what the lobes of the mask scatter of light from wo, exactly for the smooth ones. front: wo
-// is on the side from which the triangle's vertices run counter-clockwise, the outside of a solid.
+// Approximate albedo of the masked lobes for light from wo; exact for the delta lobes. front: wo is
+// on the side from which the triangle's vertices run counter-clockwise, which is the outside of a
+// solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
-    if (asks_for(m, lobes, LOBE_DIFFUSE)) {
-        // Between wo and most of the hemisphere the half vector is never far from either: little
-        // more than f0.
+    if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
+        // For most wi the half vector stays near wo, where Fresnel's factor is little above f0.
         albedo += diffuse_reflectance(m, real(1.0));
     }
-    if (asks_for(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
+    if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
         albedo += layer_reflectance(m, wo.z);
     }
-    if (asks_for(m, lobes, LOBES_DELTA)) {
-        Border border = bsdf_border(m, wo.z, front);
-        albedo += asks_for(m, lobes, LOBE_MIRROR) ? border.reflected : vec3(real(0.0));
-        albedo += asks_for(m, lobes, LOBE_TRANSMIT) ? border.transmitted : vec3(real(0.0));
-        albedo += vec3(asks_for(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0));
+    if (wants_lobe(m, lobes, LOBES_DELTA)) {
+        DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
+        albedo += wants_lobe(m, lobes, LOBE_MIRROR) ? delta.reflected : vec3(real(0.0));
+        albedo += wants_lobe(m, lobes, LOBE_TRANSMIT) ? delta.transmitted : vec3(real(0.0));
+        albedo += vec3(wants_lobe(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0));
     }
     return albedo;
 }
 
-// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy one, and any of the
-// smooth ones; all 0 if the mask has no lobe. They must not depend on the side of wo, which
-// bsdf_pdf does not know: a solid's border counts with its whole share.
+// Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy lobe, or any delta
+// lobe; all 0 if the material has none of the masked lobes. They must not depend on the side of wo,
+// which bsdf_pdf does not know, so a solid's interface counts with its whole share.
 FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec3 p = vec3(real(0.0));
     vec3 layer = layer_reflectance(m, cosine);
-    if (asks_for(m, present, LOBE_DIFFUSE)) {
+    if (wants_lobe(m, present, LOBE_DIFFUSE)) {
         p.x = mean_component(diffuse_reflectance(m, real(1.0)));
     }
-    if (asks_for(m, present, LOBE_GLOSSY)) {
+    if (wants_lobe(m, present, LOBE_GLOSSY)) {
         p.y = mean_component(layer);
     }
-    if (asks_for(m, present, LOBE_MIRROR) && roughness_is_delta(m)) {
+    if (wants_lobe(m, present, LOBE_MIRROR) && roughness_is_delta(m)) {
         p.z = mean_component(layer);
     }
-    if (asks_for(m, present, LOBE_MIRROR | LOBE_TRANSMIT) &&
-        (is_solid(m) || asks_for(m, present, LOBE_TRANSMIT))) {
+    if (wants_lobe(m, present, LOBE_MIRROR | LOBE_TRANSMIT) &&
+        (is_solid(m) || wants_lobe(m, present, LOBE_TRANSMIT))) {
         p.z += clear_share(m) * max(mean_component(base_color(m)), real(0.04));
     }
-    if (asks_for(m, present, LOBE_PASS)) {
+    if (wants_lobe(m, present, LOBE_PASS)) {
         p.z += pass_share(m);
     }
     real sum = p.x + p.y + p.z;
     return sum > real(0.0) ? p / sum : p;
 }
 
-// Diffuse and glossy lobes of the mask without cosine [1/sr], and the density of wi for these
-// probabilities of theirs.
+// Value of the masked diffuse and glossy lobes without the cosine [1/sr], and the solid-angle
+// density of wi given the probabilities of these lobes.
 FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, vec3 probabilities,
                           OUT(real) pdf) {
     vec3 f = vec3(real(0.0));
@@ -264,11 +268,11 @@ FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, ve
         return f;
     }
     real cosine = min(real(0.5) * sqrt(h2), real(1.0)); // between wo (or wi) and the half vector
-    if (asks_for(m, lobes, LOBE_DIFFUSE)) {
+    if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
         f = diffuse_reflectance(m, cosine) * INV_PI;
         pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
     }
-    if (asks_for(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
+    if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
         if (!may_have(m, MATERIAL_GGX) || is_phong(m)) {
             real power = phong_power(real(m.exponent), wo, wi);
             pdf += probabilities.y * phong_pdf(real(m.exponent), power);
@@ -287,22 +291,23 @@ FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     return bsdf_eval_and_pdf(m, wo, wi, lobes, vec3(real(0.0)), pdf);
 }
 
-// Solid-angle density with which bsdf_sample, given this mask, returns wi by way of a diffuse or
-// glossy lobe.
+// Solid-angle density with which bsdf_sample, given this mask, returns wi from a diffuse or glossy
+// lobe.
 FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
     bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
     return pdf;
 }
 
-// Chooses mirror, transmit or pass by u in [0, 1); probability: that any is asked for.
-FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u,
-                      real probability, INOUT(BsdfSample) s) {
-    Border border = bsdf_border(m, wo.z, front);
-    real reflected = asks_for(m, lobes, LOBE_MIRROR) ? mean_component(border.reflected) : real(0.0);
+// Chooses mirror, transmit or pass by u in [0, 1). probability: that any delta lobe is chosen.
+FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u,
+                          real probability, INOUT(BsdfSample) s) {
+    DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
+    real reflected =
+        wants_lobe(m, lobes, LOBE_MIRROR) ? mean_component(delta.reflected) : real(0.0);
     real transmitted =
-        asks_for(m, lobes, LOBE_TRANSMIT) ? mean_component(border.transmitted) : real(0.0);
-    real passed = asks_for(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0);
+        wants_lobe(m, lobes, LOBE_TRANSMIT) ? mean_component(delta.transmitted) : real(0.0);
+    real passed = wants_lobe(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0);
     real sum = reflected + transmitted + passed;
     if (!(sum > real(0.0))) {
         return false;
@@ -318,22 +323,22 @@ FN bool sample_smooth(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, rea
         s.lobe = LOBE_MIRROR;
         s.wi = vec3(-wo.x, -wo.y, wo.z);
         s.probability = reflected * probability / sum;
-        s.weight = border.reflected * (sum / (reflected * probability));
+        s.weight = delta.reflected * (sum / (reflected * probability));
         return true;
     }
     if (!may_have(m, LOBE_TRANSMIT) || !(transmitted > real(0.0))) {
         return false;
     }
     s.lobe = LOBE_TRANSMIT;
-    s.wi = vec3(-wo.x / border.eta, -wo.y / border.eta, -border.cosine_refracted);
+    s.wi = vec3(-wo.x / delta.eta, -wo.y / delta.eta, -delta.cosine_refracted);
     s.probability = transmitted * probability / sum;
-    s.weight = border.transmitted * (sum / (transmitted * probability));
-    s.eta_scale = real(1.0) / (border.eta * border.eta);
+    s.weight = delta.transmitted * (sum / (transmitted * probability));
+    s.eta_scale = real(1.0) / (delta.eta * delta.eta);
     return true;
 }
 
-// Samples a direction by the lobes of the mask; u.x chooses the lobe, u.y and u.z the direction,
-// u.w is not used. False where the light is absorbed.
+// Samples a direction from the masked lobes. u.x chooses the lobe, u.y and u.z the direction; u.w
+// is not used. Returns false where the light is absorbed.
 FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 u,
                     OUT(BsdfSample) s) {
     s.wi = vec3(real(0.0), real(0.0), real(1.0));
@@ -348,9 +353,9 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     }
     real rough = p.x + p.y;
     if (may_have(m, LOBES_DELTA) && p.z > real(0.0) && u.x >= rough) {
-        // What is left of u.x is uniform again.
+        // The remainder of u.x is uniform again.
         real left = min((u.x - rough) / p.z, real(0.99999994));
-        return sample_smooth(m, wo, front, lobes, left, p.z, s);
+        return sample_delta_lobe(m, wo, front, lobes, left, p.z, s);
     }
     if (!may_have(m, LOBE_GLOSSY) || u.x < p.x || !(p.y > real(0.0))) {
         s.lobe = LOBE_DIFFUSE;
@@ -367,7 +372,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         }
     }
     if (!(s.wi.z > real(0.0))) {
-        return false; // reflected into the surface: what a single scattering loses
+        return false; // below the surface: energy that single scattering loses
     }
     vec3 f = bsdf_eval_and_pdf(m, wo, s.wi, lobes, p, s.pdf);
     if (!(s.pdf > real(0.0))) {
@@ -376,7 +381,8 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (p.x == real(1.0)) {
         vec3 sum = wo + s.wi;
         s.weight = diffuse_reflectance(
-            m, min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0))); // the rest cancels, exactly
+            // all other factors cancel exactly
+            m, min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0)));
     } else {
         s.weight = f * (s.wi.z / s.pdf);
     }

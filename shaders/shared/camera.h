@@ -5,10 +5,10 @@
 
 ARGAND_SHARED_BEGIN
 
-// A camera for one size of picture. A point of the picture, x and y pixels from its top left
-// corner, lies at x·across + y·down from that corner. In perspective the rays start at `origin` and
-// `forward` goes from there to the corner, on the plane at distance 1; orthographically they start
-// in the picture, whose corner is `origin`, and go along `forward`. Lanes of 16 bytes.
+// A camera for one image size. A point of the image, x and y pixels from the top left corner, lies
+// at x·across + y·down from that corner. Perspective: rays start at `origin`, and `forward` leads
+// from there to the corner, on the plane at distance 1. Orthographic: rays start on the image
+// plane, whose corner is `origin`, and go along `forward`. Laid out in 16-byte lanes.
 struct CameraRecord {
     float32 origin_x, origin_y, origin_z;
     float32 origin_share; // 0: perspective, 1: orthographic
@@ -17,7 +17,7 @@ struct CameraRecord {
     float32 down_x, down_y, down_z, pad2;       // from one row to the next
 };
 
-// The ray through (x, y), in pixels from the picture's top left corner; direction: unit.
+// The ray through (x, y), in pixels from the image's top left corner. direction: unit.
 FN void camera_ray(IN(CameraRecord) c, real x, real y, OUT(vec3) origin, OUT(vec3) direction) {
     vec3 in_picture =
         vec3(c.across_x, c.across_y, c.across_z) * x + vec3(c.down_x, c.down_y, c.down_z) * y;

@@ -1,5 +1,5 @@
-// Sums with compensation for rounding, so that a million small terms add up (Kahan 1965, "Further
-// remarks on reducing truncation errors").
+// Sums with compensation for rounding errors, so that a million small terms add up (Kahan 1965,
+// "Further remarks on reducing truncation errors").
 #ifndef ARGAND_SHARED_COMPENSATED_H
 #define ARGAND_SHARED_COMPENSATED_H
 
@@ -7,7 +7,7 @@
 
 ARGAND_SHARED_BEGIN
 
-// lost: what rounding has added to the sum so far, 0 at first.
+// lost: the accumulated rounding error of the sum; starts at 0.
 FN void add_compensated(INOUT(real) sum, INOUT(real) lost, real term) {
     real y = term - lost;
     real t = sum + y;

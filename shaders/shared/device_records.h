@@ -5,10 +5,9 @@
 
 ARGAND_SHARED_BEGIN
 
-// Turns a count of threads that only the device knows into the group counts of an indirect
-// dispatch.
+// Turns a thread count that only the device knows into the group counts of an indirect dispatch.
 struct IndirectGroupsParams {
-    uint count_index; // of the count of threads
+    uint count_index; // of the thread count
     uint group_size;  // threads per group
     uint slot;        // of the result
     uint group_limit; // groups per dimension that the device allows

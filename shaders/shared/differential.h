@@ -1,8 +1,9 @@
-// Photon differentials: how the position and the direction of a photon change with the two
-// parameters of its emission, times the spacing of neighbouring photons in them. Fabianowski and
-// Dingliana 2009, "Interactive Global Photon Mapping", section 4; Igehy 1999, "Tracing Ray
-// Differentials". Derivations: docs/methods/footprints.md. Where n photons have the density p
-// around one, its two differentials span a parallelogram of area 1 / (n p).
+// Photon differentials: how a photon's position and direction change with the two parameters of its
+// emission, times the spacing of neighbouring photons in these parameters. Where n photons are
+// distributed with density p, the two differentials of a photon span a parallelogram of area 1 / (n
+// p). Fabianowski and Dingliana 2009, "Interactive Global Photon Mapping", section 4, whose
+// equations are cited here by number; Igehy 1999, "Tracing Ray Differentials". Derivations:
+// docs/methods/footprints.md.
 #ifndef ARGAND_SHARED_DIFFERENTIAL_H
 #define ARGAND_SHARED_DIFFERENTIAL_H
 
@@ -12,25 +13,25 @@ ARGAND_SHARED_BEGIN
 
 struct PhotonDifferential {
     vec3 dp_du, dp_dv; // of the position [length]
-    vec3 dd_du, dd_dv; // of the unit direction, at right angles to it
+    vec3 dd_du, dd_dv; // of the unit direction, perpendicular to it
 };
 
-// Bounds that no meaningful differential reaches; they keep products of several finite.
+// Clamps far above any meaningful differential; they keep products of several finite.
 CONSTANT real LARGEST_SPREAD = real(1e3);
 CONSTANT real LARGEST_OFFSET = real(1e15);
-// At angles that graze more than this, planes count as tilted by so much.
+// Rays that graze a plane at a smaller cosine are treated as if they met it at this one.
 CONSTANT real SMALLEST_COSINE = real(1e-6);
-// Below this cosine the density of emission counts as no smaller: one photon in a million.
+// Least cosine in the emission density: about one photon in a million is emitted below it.
 CONSTANT real SMALLEST_EMISSION_COSINE = real(1e-3);
 
-// v, or what of it is `most` long; (0,0,0) if v is not finite.
+// v, shortened to at most `most`; (0,0,0) if v is not finite.
 FN vec3 limit_length(vec3 v, real most) {
     real size;
     vec3 unit = unit_and_length(v, size);
     return unit * min(size, most);
 }
 
-// The product of two lengths as large or as small as they may be, by its root.
+// Square root of the area of the parallelogram of a and b; neither over- nor underflows.
 FN real parallelogram_side(vec3 a, vec3 b) {
     real size_a, size_b, sine;
     vec3 unit_a = unit_and_length(a, size_a);
@@ -39,8 +40,8 @@ FN real parallelogram_side(vec3 a, vec3 b) {
     return sqrt(size_a) * sqrt(size_b) * sqrt(sine);
 }
 
-// Distance between neighbours of n photons with this density, over directions or areas: eq. 5 for 1
-// / 4 pi.
+// Distance between neighbours among n photons with this density over directions or areas; eq. 5 for
+// the density 1 / 4 pi.
 FN real photon_spacing(real photons, real density) {
     return real(1.0) / sqrt(max(photons, real(1.0)) * max(density, real(1e-30)));
 }
@@ -48,14 +49,14 @@ FN real photon_spacing(real photons, real density) {
 // The spacing Δ of eq. 9.
 FN real sphere_spacing(real photons) { return photon_spacing(photons, UNIFORM_SPHERE_PDF); }
 
-// The unit vectors of eq. 8 for a direction in polar coordinates around f.z; any two in the pole
-// itself, where they are undefined.
+// The unit vectors of eq. 8 for a direction in polar coordinates around f.z. At the pole, where
+// they are undefined, any two perpendicular ones.
 FN void direction_axes(IN(Frame) f, vec3 direction, OUT(vec3) along_cosine, OUT(vec3) around) {
     real sine;
     vec3 local = vec3(-dot3(f.y, direction), dot3(f.x, direction), real(0.0));
     vec3 unit = unit_and_length(local, sine);
     around = to_world(f, sine > real(0.0) ? unit : vec3(real(0.0), real(1.0), real(0.0)));
-    // Rounded directions and frames leave `around` not quite at right angles.
+    // Rounding leaves `around` not quite perpendicular to the direction.
     around = unit_and_length(around - direction * dot3(around, direction), sine);
     along_cosine = cross3(direction, around);
 }
@@ -69,9 +70,9 @@ FN PhotonDifferential no_differential() {
     return d;
 }
 
-// Along a ray of unit direction to its hit at distance t, on a plane of unit normal n (either
-// side): Igehy's eqs. 10 and 12, as one double product, which lies in the plane however the ray
-// grazes it.
+// Transfers an offset along a ray of unit direction to its hit at distance t, on a plane with unit
+// normal n (either side): Igehy's eqs. 10 and 12, written as one double cross product, which lies
+// in the plane even for grazing rays.
 FN vec3 transferred_offset(vec3 dp, vec3 dd, vec3 direction, real t, vec3 n) {
     real cosine = dot3(direction, n);
     cosine = cosine < real(0.0) ? min(cosine, -SMALLEST_COSINE) : max(cosine, SMALLEST_COSINE);
@@ -83,9 +84,10 @@ FN void transfer_differential(INOUT(PhotonDifferential) d, vec3 direction, real 
     d.dp_dv = transferred_offset(d.dp_dv, d.dd_dv, direction, t, n);
 }
 
-// How the interpolated unit normal changes with a step dp within a triangle of vertices v and
-// normals n, at the weights b of its second and third vertex. shading_normal: as make_surface made
-// it; where that fell back to the flat normal, or the triangle has no area, there is no change.
+// Change of the interpolated unit normal for a step dp within a triangle of vertices v and normals
+// n, at the barycentric weights b of its second and third vertex. shading_normal: as make_surface
+// returned it. Where that fell back to the flat normal, or the triangle has no area, the change is
+// 0.
 FN vec3 shading_normal_change(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, vec2 b,
                               vec3 shading_normal, vec3 dp) {
     real size, size1, size2, sine;
@@ -98,23 +100,23 @@ FN vec3 shading_normal_change(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 
     if (!(size > real(0.0)) || !(sine > real(0.0)) || !interpolated) {
         return vec3(real(0.0));
     }
-    // Changes of the weights; the edges' lengths are positive, for their sine is.
+    // Changes of the weights. The edges have positive lengths because `sine` is positive.
     real b1 = dot3(cross3(dp, edge2), flat_normal) / sine / size1;
     real b2 = dot3(cross3(edge1, dp), flat_normal) / sine / size2;
     vec3 change = (n1 - n0) * b1 + (n2 - n0) * b2;
     return (change - unit * dot3(unit, change)) * (side / size);
 }
 
-// Mirrored at a surface of unit normal n, which changes by dn: Igehy's eq. 15.
+// Reflection at a surface whose unit normal n changes by dn: Igehy's eq. 15.
 FN vec3 reflected_spread(vec3 dd, vec3 direction, vec3 n, vec3 dn) {
     real change = dot3(dd, n) + dot3(direction, dn);
     return limit_length(dd - (dn * dot3(direction, n) + n * change) * real(2.0), LARGEST_SPREAD);
 }
 
-// Refracted at a surface of unit normal n on the side where the ray comes from; eta > 0: index of
-// the far side over that of the near side. Igehy's eqs. 17 and 18, with their differences taken
-// analytically: an index of 1 changes nothing, to the bit. Near total reflection the spread grows
-// without bound, here up to LARGEST_SPREAD.
+// Refraction at a surface with unit normal n on the incident side. eta > 0: index of the far side
+// over that of the near side. Igehy's eqs. 17 and 18 with their differences taken analytically, so
+// that an index of 1 leaves the differential unchanged to the bit. Near total reflection the spread
+// diverges; it is clamped to LARGEST_SPREAD.
 FN vec3 refracted_spread(vec3 dd, vec3 direction, vec3 n, vec3 dn, real eta) {
     real ratio = real(1.0) / max(eta, real(1e-6));
     real cosine = max(-dot3(direction, n), real(0.0));
@@ -139,9 +141,9 @@ FN void refract_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n
     d.dd_dv = refracted_spread(d.dd_dv, direction, n, dn_dv, eta);
 }
 
-// A photon went on with this probability (section 4.2): its footprint's area is divided by it. Also
-// for the choice of a lobe, and for light that a thin or partly covering surface lets straight
-// through.
+// Russian roulette (section 4.2): the photon survived with this probability, so its footprint's
+// area is divided by it. Also accounts for the choice of a lobe and for light that a thin or partly
+// covering surface lets straight through.
 FN void roulette_differential(INOUT(PhotonDifferential) d, real probability) {
     real factor = real(1.0) / sqrt(clamp(probability, real(1e-6), real(1.0)));
     d.dp_du = limit_length(d.dp_du * factor, LARGEST_OFFSET);
@@ -150,9 +152,10 @@ FN void roulette_differential(INOUT(PhotonDifferential) d, real probability) {
     d.dd_dv = limit_length(d.dd_dv * factor, LARGEST_SPREAD);
 }
 
-// Adds a spread of directions that has nothing to do with the positions: a quarter turn from them,
-// so that areas add, |dp|² + t² spread², as variances do. The turn is relative to the orthogonal
-// factor of the offsets' polar decomposition, which leaves no mixed term.
+// Adds a spread of directions that is independent of the positions. The added offsets are a quarter
+// turn from the existing ones, so that areas add as variances do: |dp|² + t² spread². The turn is
+// relative to the orthogonal factor of the offsets' polar decomposition, which leaves no mixed
+// term.
 FN void add_independent_spread(INOUT(PhotonDifferential) d, vec3 direction, real spread) {
     Frame f = make_frame(direction);
     real size_u, size_v;
@@ -174,17 +177,19 @@ FN void add_independent_spread(INOUT(PhotonDifferential) d, vec3 direction, real
         limit_length(d.dd_dv - (f.x * turned.x + f.y * turned.y) * (side * spread), LARGEST_SPREAD);
 }
 
-// How diffuse surfaces emit photons again. The paper's spaces them as over a whole sphere and
-// matches the areas of footprint and beam (eqs. 10 to 13); by cosine: as they are sampled, over the
-// hemisphere with density cos θ / pi, and footprints match on the surface; independent: as by
-// cosine, but positions and directions are two spreads of their own.
+// How a diffuse surface emits photons again:
+// - PAPER: spaces directions as over a whole sphere and matches the areas of footprint and beam
+//   (eqs. 10 to 13).
+// - COSINE: spaces directions as they are sampled, with density cos θ / pi over the hemisphere, and
+//   matches footprints on the surface.
+// - INDEPENDENT: like COSINE, but positions and directions are independent spreads.
 CONSTANT uint REEMIT_PAPER = 0u;
 CONSTANT uint REEMIT_COSINE = 1u;
 CONSTANT uint REEMIT_INDEPENDENT = 2u;
 
-// Diffuse reflection (or transmission) at the hit that d has been transferred to, off the side of
-// frame.z, the shading normal. photons: all of this pass, whatever was lost on the way: roulette
-// has enlarged d.
+// Differential after diffuse reflection (or transmission) on the side of frame.z, the shading
+// normal, at the hit that d was transferred to. photons: all photons of the pass, including those
+// lost on the way, because Russian roulette has enlarged d accordingly.
 FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame) frame,
                                              vec3 direction, real photons, uint mode) {
     PhotonDifferential next = no_differential();
@@ -197,8 +202,8 @@ FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame)
         add_independent_spread(next, direction, spread);
         return next;
     }
-    // Size of the beam, at right angles to it, where it leaves the surface: the virtual origin's
-    // distance times spread.
+    // Width of the beam, perpendicular to it, where it leaves the surface: the distance of the
+    // virtual origin times the spread.
     real side = parallelogram_side(d.dp_du, d.dp_dv);
     side = min(mode == REEMIT_PAPER ? side : side * sqrt(cosine), LARGEST_OFFSET);
     vec3 axis_u, axis_v;
@@ -210,9 +215,9 @@ FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame)
     return next;
 }
 
-// Glossy reflection into a direction of this solid-angle density: what comes in is mirrored at the
-// half vector, which turns with the shading normal n, and the lobe's own spread is independent of
-// it.
+// Glossy reflection into a direction sampled with this solid-angle density. The incoming
+// differential is mirrored at the half vector, which turns with the shading normal n; the lobe's
+// own spread is independent of it.
 FN void gloss_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing, vec3 n,
                            vec3 dn_du, vec3 dn_dv, real photons, real density) {
     real size;

@@ -1,4 +1,3 @@
-// Photon differentials in memory.
 #ifndef ARGAND_SHARED_DIFFERENTIAL_RECORD_H
 #define ARGAND_SHARED_DIFFERENTIAL_RECORD_H
 
@@ -6,7 +5,7 @@
 
 ARGAND_SHARED_BEGIN
 
-// PhotonDifferential of a photon on its way, one per slot.
+// PhotonDifferential of a photon that is being traced, one per slot.
 struct DifferentialRecord {
     float32 dp_du_x, dp_du_y, dp_du_z;
     float32 dd_du_x, dd_du_y, dd_du_z;

@@ -1,7 +1,8 @@
-// Elementary functions, exact to a few units in the last place (ULP) on every device: built-ins
-// differ between drivers (pow by 20 ULP on lavapipe). Minimax polynomials after reduction of the
-// argument; without fused multiply-add, with which the tricks below that split numbers would still
-// be right but the bits would differ. As double they are the standard library's, the tests' truth.
+// Elementary functions, accurate to a few units in the last place (ULP) on every device; built-ins
+// differ between drivers (pow by 20 ULP on lavapipe). Minimax polynomials after argument reduction.
+// No fused multiply-add: the error-free transformations below would survive it, but the bits would
+// differ. In double precision these functions are the standard library's, which tests take as the
+// truth.
 #ifndef ARGAND_SHARED_ELEMENTARY_H
 #define ARGAND_SHARED_ELEMENTARY_H
 
@@ -38,8 +39,8 @@ FN real exp_remainder(real x) {
                       x * (real(0.008369598011938885) + x * real(0.0013951773318023543)))));
 }
 
-// atanh(s)/s - 1 - s²/3 over s⁴, as a function of z = s², for exp(2 atanh(s)) between sqrt(1/2) and
-// sqrt(2).
+// (atanh(s)/s - 1 - s²/3) / s⁴ as a function of z = s²; accurate while exp(2 atanh(s)) is between
+// sqrt(1/2) and sqrt(2).
 FN real atanh_tail(real z) {
     return real(0.2000007844039877) + z * (real(0.14273316197216385) + z * real(0.117155045457851));
 }
@@ -48,13 +49,13 @@ CONSTANT real LN2_HIGH = real(0.693145751953125); // 15 bits, so that multiples 
 CONSTANT real LN2_LOW = real(1.428606765330187e-06);
 CONSTANT real LOG2_E = real(1.44269504088896341);
 
-// x times 2^k for k in -252..254, by way of two factors that are both normal numbers.
+// x times 2^k for k in -252..254, as two factors that are both normal numbers.
 FN real scale_by_power(real x, int k) {
     int half_k = k >> 1;
     return x * bits_float(uint(half_k + 127) << 23u) * bits_float(uint(k - half_k + 127) << 23u);
 }
 
-// Splits a normal or subnormal x > 0 in m 2^k, m between sqrt(1/2) and sqrt(2).
+// Splits a normal or subnormal x > 0 into m 2^k, m between sqrt(1/2) and sqrt(2).
 FN real split_mantissa(real x, OUT(int) k) {
     k = -127;
     if (x < real(1.1754943508222875e-38)) {
@@ -71,10 +72,10 @@ FN real split_mantissa(real x, OUT(int) k) {
     return m;
 }
 
-// The highest 12 bits of x: products of two such numbers are exact.
+// The highest 12 bits of x. Products of two such numbers are exact.
 FN real high_half(real x) { return bits_float(float_bits(x) & 0xfffff000u); }
 
-// What rounding took from p = a b (Dekker 1971).
+// Rounding error of p = a b (Dekker 1971).
 FN real product_error(real a, real b, real p) {
     real ah = high_half(a);
     real bh = high_half(b);
@@ -83,7 +84,7 @@ FN real product_error(real a, real b, real p) {
     return ((ah * bh - p) + ah * bl + al * bh) + al * bl;
 }
 
-// high + low += x (Knuth's two-sum).
+// Adds x to high + low without rounding error (Knuth's two-sum).
 FN void add_without_loss(INOUT(real) high, INOUT(real) low, real x) {
     real sum = high + x;
     real part = sum - high;
@@ -99,7 +100,7 @@ FN real twice_atanh(real s) {
 
 #endif
 
-// On the bits, for compilers may assume that a number is never NaN.
+// Tests the bits, because compilers may assume that a number is never NaN.
 FN bool is_finite(real x) {
 #ifdef ARGAND_REAL_DOUBLE
     return std::isfinite(x);
@@ -127,7 +128,8 @@ FN void sincos_2pi(real u, OUT(real) s, OUT(real) c) {
     c = (q == 1u || q == 2u) ? -c : c;
 }
 
-// log(1 - x) for x in [0, 1): for small x of the same relative error, not of that of 1 - x.
+// log(1 - x) for x in [0, 1), with a small relative error even where 1 - x has lost the digits of
+// x.
 FN real log_complement(real x) {
 #ifdef ARGAND_REAL_DOUBLE
     return std::log1p(-x);
@@ -148,7 +150,7 @@ FN real exp_negative(real x) {
     return std::exp(x);
 #else
     if (!(x > real(-104.0))) {
-        return real(0.0); // less than half the smallest number
+        return real(0.0); // less than half the smallest positive number
     }
     real power = floor(x * LOG2_E + real(0.5));
     real r = (x - power * LN2_HIGH) - power * LN2_LOW;
@@ -156,7 +158,7 @@ FN real exp_negative(real x) {
 #endif
 }
 
-// 1 - exp(x) for x <= 0: for small x of the same relative error.
+// 1 - exp(x) for x <= 0, with a small relative error even for small x.
 FN real exp_complement(real x) {
 #ifdef ARGAND_REAL_DOUBLE
     return -std::expm1(x);
@@ -165,7 +167,7 @@ FN real exp_complement(real x) {
 #endif
 }
 
-// x to the power of y, for finite x >= 0 and y. The logarithm is carried in two numbers, for a
+// x to the power of y, for finite x >= 0 and y. The logarithm is carried in two numbers because a
 // result near the largest number multiplies its relative error by 88.
 FN real pow_real(real x, real y) {
 #ifdef ARGAND_REAL_DOUBLE
@@ -186,14 +188,14 @@ FN real pow_real(real x, real y) {
     real s = f / d;
     real p = s * d;
     real s_low = (((f - p) - product_error(s, d, p)) - s * d_low) / d;
-    // s³/3 and what rounding took from it
+    // s³/3 and its rounding error
     real z = s * s;
     real cube = s * z;
     real cube_low = product_error(s, z, cube) + s * product_error(s, s, z);
     real third = cube / real(3.0);
     p = real(3.0) * third;
     real third_low = (((cube - p) - product_error(real(3.0), third, p)) + cube_low) / real(3.0);
-    // log(x) = k ln(2) + 2 atanh(s), the terms added without loss from the largest down.
+    // log(x) = k ln(2) + 2 atanh(s), with the terms added without loss from the largest down
     real high = k * LN2_HIGH;
     real low =
         k * LN2_LOW + real(2.0) * ((s_low + third_low) + (z * s_low + cube * z * atanh_tail(z)));

@@ -1,5 +1,5 @@
-// Sums that do not depend on the order of their terms: 64-bit fixed point in two words, the low one
-// in x.
+// Sums that do not depend on the order of their terms: 64-bit fixed point in two words, the low
+// word in x.
 #ifndef ARGAND_SHARED_FIXED_POINT_H
 #define ARGAND_SHARED_FIXED_POINT_H
 
@@ -7,7 +7,7 @@
 
 ARGAND_SHARED_BEGIN
 
-// Modulo 2^64; so is the sum of two's complements.
+// Addition modulo 2^64, for two's complements too.
 FN uvec2 fixed_add(uvec2 a, uvec2 b) {
     uint low = a.x + b.x;
     uint carry = low < a.x ? 1u : 0u;

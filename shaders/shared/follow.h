@@ -6,9 +6,9 @@
 
 ARGAND_SHARED_BEGIN
 
-// The lobes of a material that are followed from the eye: smooth ones, and glossy ones up to a
-// roughness. All others are estimated, from light samples and from photons (docs/design.md: "Which
-// path is whose").
+// A path continues through *followed* lobes: smooth ones, and glossy ones up to the roughness given
+// by --follow-roughness. Light that arrives at any other lobe is *estimated*, from light samples
+// and photons. docs/path-classes.md lists which method accounts for which paths.
 FN uint followed_lobes(IN(MaterialRecord) material, real follow_roughness) {
     uint glossy = may_have(material, LOBE_GLOSSY) && material.roughness <= follow_roughness
                       ? LOBE_GLOSSY
@@ -20,7 +20,7 @@ FN uint estimated_lobes(IN(MaterialRecord) material, real follow_roughness) {
     return bsdf_lobes(material) & ~followed_lobes(material, follow_roughness);
 }
 
-// Layer of light that reaches the path's next vertex, or the emitter there, straight from a light.
+// Layer to which emission found by the path's current ray, or light sampled at its end, belongs.
 FN uint layer_of_emission(uint state) {
     if ((state & path_estimated) == 0u || (state & path_depth_mask) == 0u) {
         return layer_direct;
@@ -28,7 +28,7 @@ FN uint layer_of_emission(uint state) {
     return (state & path_followed) != 0u ? layer_caustic : layer_indirect;
 }
 
-// State behind a vertex at which the path was scattered by a followed or an estimated lobe.
+// State of a path after scattering by a followed or an estimated lobe.
 FN uint state_after(uint state, bool followed) {
     bool estimated_before = (state & path_estimated) != 0u;
     if (!estimated_before) {

@@ -1,6 +1,6 @@
-// Footprints of photons: skewed ellipses in the plane of the surface they hit, with the normal as a
-// third axis. Fabianowski and Dingliana 2009, sections 3.2 and 4.3. Derivations:
-// docs/methods/footprints.md.
+// Footprints of photons: skewed ellipses in the tangent plane of the surface that a photon hit,
+// with the normal as a third axis. Fabianowski and Dingliana 2009, sections 3.2 and 4.3.
+// Derivations: docs/methods/footprints.md.
 #ifndef ARGAND_SHARED_FOOTPRINT_H
 #define ARGAND_SHARED_FOOTPRINT_H
 
@@ -9,22 +9,23 @@
 
 ARGAND_SHARED_BEGIN
 
-// Semi-axes of the ellipsoid |M x| <= 1: u and v in the tangent plane, at any angle to each other,
-// w along the normal.
+// Semi-axes of the ellipsoid: u and v in the tangent plane, at any angle to each other, w along the
+// normal.
 struct Footprint {
     vec3 u, v, w;
 };
 
-// The vectors of the tangent plane that are dual to u and v: a·u = b·v = 1, a·v = b·u = 0; so
+// The vectors of the tangent plane that are dual to u and v: a·u = b·v = 1, a·v = b·u = 0. So
 // (a·x)² + (b·x)² is the squared distance in units of the ellipse.
 struct FootprintDuals {
     vec3 a, b;
 };
 
-// photons: of this pass; reference_photons: at which smoothing holds; length: of the scene, which
-// smoothing (in units of length^(3/4)) and largest are relative to; exponent: footprints shrink as
-// photons^-exponent, 1/6 by default and 1/2 in the paper, whose smoothing is fixed. The axes are
-// the paper's, the differentials as they are.
+// Footprint scale for a pass that emits `photons` photons. reference_photons: the number for which
+// `smoothing` is given. length: size of the scene, to which smoothing (in units of length^(3/4))
+// and `largest` are relative. exponent: footprints shrink as photons^-exponent; 1/6 by default, 1/2
+// in the paper, where the smoothing is constant. The caller sets principal_axes; here the
+// differentials are the axes, as in the paper.
 FN FootprintScale make_footprint_scale(real photons, real reference_photons, real length,
                                        real smoothing, real caustic_smoothing, real largest,
                                        real flatness, real exponent) {
@@ -32,7 +33,7 @@ FN FootprintScale make_footprint_scale(real photons, real reference_photons, rea
     real growth = pow_real(n / max(reference_photons, real(1.0)), real(0.5) - exponent);
     FootprintScale s;
     s.spacing = float32(sphere_spacing(n));
-    // length^(3/4), so that the sum of powers of length is 1
+    // The factor length^(3/4) makes the powers of length add up to 1.
     s.diffuse = float32(smoothing * growth * sphere_spacing(n) * sqrt(length) * sqrt(sqrt(length)));
     s.caustic = float32(caustic_smoothing * growth);
     s.radius_min = float32(length * real(1e-6));
@@ -45,7 +46,7 @@ FN FootprintScale make_footprint_scale(real photons, real reference_photons, rea
     return s;
 }
 
-// Turns conjugate semi-axes of an ellipse into its principal ones, u the longer (a Jacobi
+// Turns conjugate semi-axes of an ellipse into its principal axes, u the longer (one Jacobi
 // rotation).
 FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
     real largest = max(max_component(abs(u)), max_component(abs(v)));
@@ -73,23 +74,23 @@ FN void make_principal(INOUT(vec3) u, INOUT(vec3) v) {
     u = turned;
 }
 
-// One semi-axis: compressed unless the photon is a caustic one (section 4.3), clamped.
+// One semi-axis, clamped, and compressed unless the photon is a caustic photon (section 4.3).
 FN vec3 footprint_axis(vec3 dp, vec3 normal, bool caustic, IN(FootprintScale) s) {
     real size;
     vec3 tangent = dp - normal * dot3(dp, normal);
     tangent = tangent -
-              normal * dot3(tangent, normal); // of what rounding left, where dp is along the normal
+              // removes the rounding error where dp is along the normal
+              normal * dot3(tangent, normal);
     vec3 unit = unit_and_length(tangent, size);
     real radius =
-        caustic ? size * real(s.caustic)
-                : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing))); // the spacing is positive
+        caustic ? size * real(s.caustic) : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing)));
     return unit * (caustic ? clamp(radius, real(s.caustic_min), real(s.caustic_max))
                            : clamp(radius, real(s.radius_min), real(s.radius_max)));
 }
 
-// Of a photon whose differential has been transferred to its hit. normal: unit, geometric. caustic:
-// none but mirrors and refraction since the light. Axes that are nearly one, or nothing, are parted
-// to radius_min.
+// Footprint of a photon whose differential was transferred to its hit. normal: unit, geometric.
+// caustic: only followed lobes scattered the photon since it left the light. Axes that are (nearly)
+// parallel or zero are spread to radius_min.
 FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic,
                             IN(FootprintScale) s) {
     vec3 u = limit_length(d.dp_du, LARGEST_OFFSET);
@@ -111,7 +112,7 @@ FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic,
         f.u = frame.x * least;
         f.v = frame.y * least;
     } else if (!(min(size_u, size_v) * sine > least)) {
-        // The width of the ellipse, across its longer axis.
+        // Keep the longer axis, and make the other perpendicular to it with the ellipse's width.
         vec3 along = size_u >= size_v ? unit_u : unit_v;
         f.u = along * longer;
         f.v = cross3(normal, along) * max(min(size_u, size_v) * sine, least);
@@ -122,7 +123,7 @@ FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic,
 
 FN real footprint_area(IN(Footprint) f) { return PI * sqr(parallelogram_side(f.u, f.v)); }
 
-// The area of all semi-axes' parallelogram is positive, as make_footprint made it.
+// make_footprint guarantees that the parallelogram of the semi-axes has a positive area.
 FN FootprintDuals footprint_duals(IN(Footprint) f, vec3 normal) {
     real size_u, size_v;
     vec3 unit_u = unit_and_length(f.u, size_u);
@@ -135,8 +136,9 @@ FN FootprintDuals footprint_duals(IN(Footprint) f, vec3 normal) {
     return duals;
 }
 
-// The ellipsoid of dual axes, for boxes around what is really kept: exactly where footprint_weight
-// is not 0, though packing has turned normal and dual axes a little out of their right angles.
+// The ellipsoid with these dual axes, for bounding boxes around the stored footprint. Packing tilts
+// normal and dual axes slightly; this ellipsoid still is exactly the region where footprint_weight
+// is not 0.
 FN Footprint footprint_of_duals(IN(FootprintDuals) duals, vec3 normal, real flatness) {
     real size_a, size_b;
     vec3 unit_a = unit_and_length(duals.a, size_a);
@@ -151,10 +153,10 @@ FN Footprint footprint_of_duals(IN(FootprintDuals) duals, vec3 normal, real flat
     return f;
 }
 
-// Half extents of the box around the ellipsoid.
+// Half extents of the ellipsoid's bounding box.
 FN vec3 footprint_extent(IN(Footprint) f) {
     vec3 largest = max(max(abs(f.u), abs(f.v)), abs(f.w));
-    // Scaled, so that no square underflows.
+    // Scaled so that no square underflows.
     real scale = max(max_component(largest), real(1e-30));
     vec3 u = f.u / scale;
     vec3 v = f.v / scale;
@@ -163,21 +165,21 @@ FN vec3 footprint_extent(IN(Footprint) f) {
     return vec3(sqrt(squares.x), sqrt(squares.y), sqrt(squares.z)) * scale;
 }
 
-// Kernels: their integrals over the unit disc, of q = squared distance, are pi.
+// Kernel at the squared distance q. Its integral over the unit disc is pi.
 FN real footprint_kernel(real q, bool uniform_kernel) {
     return uniform_kernel ? real(1.0) : real(2.0) * max(real(0.0), real(1.0) - q);
 }
 
-// Irradiance per flux [1/length²] of a photon at `offset` from it, on a surface of unit normal
-// query_normal: the kernel over the area of the ellipse that the query's tangent plane, moved
-// through the photon, cuts out of the ellipsoid; so the flux is conserved on that plane whichever
-// way it is tilted. 0 outside of the ellipsoid.
+// Irradiance per flux [1/length²] at `offset` from a photon, on a surface with unit normal
+// query_normal: the kernel divided by the area of the ellipse in which the query's tangent plane,
+// moved through the photon, intersects the ellipsoid. So flux is conserved on that plane however it
+// is tilted. 0 outside the ellipsoid.
 FN real footprint_weight(IN(FootprintDuals) f, vec3 normal, vec3 query_normal, vec3 offset,
                          real flatness, bool uniform_kernel) {
     real x = dot3(f.a, offset);
     real y = dot3(f.b, offset);
-    real inverse_area = abs(dot3(cross3(f.a, f.b), normal));     // of the parallelogram of u and v
-    real inverse_height2 = inverse_area / (flatness * flatness); // the flatness is positive
+    real inverse_area = abs(dot3(cross3(f.a, f.b), normal)); // of the parallelogram of u and v
+    real inverse_height2 = inverse_area / (flatness * flatness);
     real z = dot3(normal, offset);
     real q = x * x + y * y + z * z * inverse_height2;
     if (!(q <= real(1.0))) {
@@ -193,9 +195,9 @@ FN real footprint_weight(IN(FootprintDuals) f, vec3 normal, vec3 query_normal, v
     return footprint_kernel(q, uniform_kernel) * INV_PI * inverse_area * sqrt(tilt2);
 }
 
-// A dual axis in 3 × 16 bits, in units of the power of two above its largest component, whose sign
-// and exponent are the last 16. Error below 2^-15 of the largest component; any magnitude of single
-// precision.
+// Packs a dual axis into 3 × 16 bits, in units of the power of two above its largest component, and
+// that unit's sign and exponent into the last 16. The error is below 2^-15 of the largest
+// component, at any magnitude of single precision.
 FN uvec2 pack_dual(vec3 v) {
     real largest = clamp(max_component(abs(v)), real(1e-30), real(1e30));
     uint exponent = (float_bits(float32(largest)) & 0x7f800000u) + 0x00800000u;

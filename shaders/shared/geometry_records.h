@@ -5,17 +5,17 @@
 
 ARGAND_SHARED_BEGIN
 
-// Records in storage buffers: lanes of 16 bytes, so that std430, C++ and CUDA agree.
+// Records in storage buffers are laid out in 16-byte lanes, so that std430, C++ and CUDA agree.
 
 struct BoxRecord {
     float32 low_x, low_y, low_z, pad0;
     float32 high_x, high_y, high_z, pad1;
 };
 
-// t_max of rays that go on for ever; traversal keeps larger numbers for itself.
+// t_max of unbounded rays. Traversal reserves larger numbers for itself.
 CONSTANT float32 far_away = float32(1.0e30);
 
-// A ray on its way: 0 <= t <= t_max. t_max < 0: there is none.
+// A ray with 0 <= t <= t_max. t_max < 0: the slot holds no ray.
 struct RayRecord {
     float32 origin_x, origin_y, origin_z, t_max;
     float32 direction_x, direction_y, direction_z;
@@ -24,8 +24,8 @@ struct RayRecord {
 
 CONSTANT uint no_triangle = 0xffffffffu;
 
-// What a ray hit: the triangle as numbered in the scene (no_triangle: nothing), the distance in
-// units of the ray's direction, and the barycentric weights of its second and third vertex.
+// The hit of a ray: the triangle's index in the scene (no_triangle: a miss), the distance in units
+// of the ray's direction, and the barycentric weights of the second and third vertex.
 struct HitRecord {
     uint triangle;
     float32 t, u, v;

@@ -1,4 +1,4 @@
-// Differentials of photons as light_emit emits them. Derivations: docs/methods/footprints.md.
+// Differentials of the photons that light_emit emits. Derivations: docs/methods/footprints.md.
 #ifndef ARGAND_SHARED_LIGHT_DIFFERENTIAL_H
 #define ARGAND_SHARED_LIGHT_DIFFERENTIAL_H
 
@@ -7,11 +7,11 @@
 
 ARGAND_SHARED_BEGIN
 
-// photons: expected of this light in the pass, N times its probability; emitter_photons: of all
-// triangles together that make up the same emitter (all emissive triangles, where nobody knows
-// better), so that an emitter cut into many triangles spreads its light no wider than one; for
-// other lights not used. direction, normal: what light_emit gave; radius: of the scene's bounding
-// sphere.
+// Differential of a photon at its emission. direction, normal: from light_emit. radius: of the
+// scene's bounding sphere. photons: expected from this light in the pass, that is all photons times
+// the light's probability. emitter_photons: expected from all triangles of the same emitter
+// together (from all emissive triangles if emitters are not known), so that dividing an emitter
+// into many triangles does not widen its differentials; used by triangle lights only.
 FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 direction, vec3 normal,
                                          real radius, real photons, real emitter_photons) {
     PhotonDifferential d = no_differential();
@@ -27,7 +27,7 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 dir
             real cos_outer = real(l.cos_outer);
             real ramp, ramp_share;
             real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
-            // No wider than the whole cone, though its rim is dark.
+            // At most the whole cone, although its rim is dark.
             real least = real(1.0) / max(photons, real(1.0));
             density = max(spot_falloff(dot3(direction, f.z), cos_inner, cos_outer), least) /
                       max(all, real(1e-12));
@@ -40,7 +40,7 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 dir
         return d;
     }
     Frame f = make_frame(direction);
-    real side = radius * sqrt(PI / max(photons, real(1.0))); // of the disc that photons start on
+    real side = radius * sqrt(PI / max(photons, real(1.0))); // of the disc on which photons start
     real spread = real(0.0);
     if (is_light(l, kinds, light_sky)) {
         spread = sqrt(PI / max(photons, real(1.0)));

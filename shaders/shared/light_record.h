@@ -11,20 +11,20 @@ CONSTANT uint light_directional = 2u;
 CONSTANT uint light_triangle = 3u;
 CONSTANT uint light_sky = 4u; // the same radiance from all directions
 
-// A bit for each, 1u << light_*.
+// Bit masks of kinds: 1u << light_*.
 CONSTANT uint all_light_kinds = 31u;
 CONSTANT uint light_kinds_at_a_point = 3u;    // point and spot
 CONSTANT uint light_kinds_from_outside = 20u; // directional and sky
 
-// A light of any kind. Lanes of 16 bytes.
+// A light of any kind. Laid out in 16-byte lanes.
 struct LightRecord {
     float32 x, y, z; // position (point, spot) or first vertex (triangle)
     uint kind;
-    float32 r, g,
-        b; // intensity [cd] (point, spot), irradiance [lux] (directional), radiance [cd/m²]
+    // Intensity [cd] (point, spot), irradiance [lux] (directional) or radiance [cd/m²].
+    float32 r, g, b;
     float32 cos_inner; // spot
-    float32 dx, dy,
-        dz; // unit, the way the light goes (spot, directional), or second vertex (triangle)
+    // Unit direction in which light travels (spot, directional), or second vertex (triangle).
+    float32 dx, dy, dz;
     float32 cos_outer;  // spot
     float32 ex, ey, ez; // third vertex (triangle)
     uint double_sided;  // triangle: emits from its back as well

@@ -1,5 +1,5 @@
-// Lights seen from a point, and photons leaving them. Units of glTF: a point light of I candela has
-// radiant intensity I.
+// Lights sampled from a point, and photons emitted by lights. Units are glTF's: a point light of I
+// candela has radiant intensity I.
 #ifndef ARGAND_SHARED_LIGHTS_H
 #define ARGAND_SHARED_LIGHTS_H
 
@@ -13,16 +13,18 @@ ARGAND_SHARED_BEGIN
 // A direction from a point towards a light.
 struct LightSample {
     vec3 wi;
-    real distance; // free of obstacles if the light is seen; a surface's is a little less than that
-                   // of the point
-    vec3 radiance; // arriving, over the density of the sample; for lights without extent,
-                   // irradiance across wi
-    real pdf;      // solid-angle density; 0 for lights without extent
-    bool delta;    // a light without extent, which no other way of sampling finds
+    // The light is visible if this distance is free of obstacles; for surfaces slightly less than
+    // the distance of the sampled point.
+    real distance;
+    // Arriving radiance over the density of the sample; for delta lights the irradiance
+    // perpendicular to wi.
+    vec3 radiance;
+    real pdf;   // solid-angle density; 0 for delta lights
+    bool delta; // a delta light (point, spot, directional), which no scattered ray can hit
 };
 
-// Whether the light is of this kind, `kinds` (1u << light_*) being those that the scene has: where
-// kernels know them, no code is left of others.
+// Whether the light is of this kind. `kinds` (1u << light_*) are the kinds that the scene has;
+// where a kernel knows them at compile time, code for other kinds vanishes.
 FN bool is_light(IN(LightRecord) l, uint kinds, uint kind) {
     uint bit = 1u << kind;
     return kinds == bit || ((kinds & bit) != 0u && l.kind == kind);
@@ -32,8 +34,8 @@ FN vec3 light_color(IN(LightRecord) l) { return vec3(l.r, l.g, l.b); }
 FN vec3 light_position(IN(LightRecord) l) { return vec3(l.x, l.y, l.z); }
 FN vec3 light_direction(IN(LightRecord) l) { return vec3(l.dx, l.dy, l.dz); }
 
-// Width in cos θ of the ramp of a spot's falloff, which begins at cos_outer. KHR_lights_punctual
-// keeps it at least 0.001 wide, so that the ramp of a narrow cone may be cut short by the axis.
+// Width in cos θ of the ramp of a spot's falloff, which starts at cos_outer. KHR_lights_punctual
+// keeps it at least 0.001 wide, so the axis may truncate the ramp of a narrow cone.
 FN real spot_ramp(real cos_inner, real cos_outer) {
     return max(cos_inner - cos_outer, real(0.001));
 }
@@ -45,8 +47,8 @@ FN real spot_falloff(real cosine, real cos_inner, real cos_outer) {
     return x * x;
 }
 
-// The falloff's integral over directions [sr]; ramp: the part of it that lies on the ramp,
-// ramp_share: how much of the ramp there is.
+// Integral of the falloff over directions [sr]. ramp: the part of it that lies on the ramp.
+// ramp_share: share of the ramp's width that the axis leaves.
 FN real spot_solid_angles(real cos_inner, real cos_outer, OUT(real) ramp, OUT(real) ramp_share) {
     real width = spot_ramp(cos_inner, cos_outer);
     ramp_share = min((real(1.0) - cos_outer) / width, real(1.0));
@@ -54,22 +56,23 @@ FN real spot_solid_angles(real cos_inner, real cos_outer, OUT(real) ramp, OUT(re
     return ramp + real(2.0) * PI * max((real(1.0) - cos_outer) - width, real(0.0));
 }
 
-// Unit normal of a triangle's front and its area; (0,0,0) and 0 if it has none.
+// Unit normal of a triangle light's front, and its area; (0,0,0) and 0 if it is degenerate.
 FN vec3 light_normal(IN(LightRecord) l, OUT(real) area) {
     vec3 edge1 = vec3(l.dx, l.dy, l.dz) - light_position(l);
     vec3 edge2 = vec3(l.ex, l.ey, l.ez) - light_position(l);
     real length1, length2;
     vec3 unit1 = unit_and_length(edge1, length1);
     vec3 unit2 = unit_and_length(edge2, length2);
-    vec3 n = unit_and_length(cross3(unit1, unit2), area); // the sine between the edges so far
+    // for now the sine of the angle between the edges
+    vec3 n = unit_and_length(cross3(unit1, unit2), area);
     area = real(0.5) * area * length1 * length2;
     return n;
 }
 
 FN real light_sides(IN(LightRecord) l) { return l.double_sided != 0u ? real(2.0) : real(1.0); }
 
-// Power that a light sends into a scene with this bounding sphere: I times solid angle, E·pi r², pi
-// L A, 4 pi·pi r²·L.
+// Power that a light sends into a scene with this bounding sphere, from colour (I, E or L) and
+// geometry: I times the solid angle, E·pi r², pi L A, 4 pi·pi r²·L.
 FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
     real factor = real(0.0);
     if (is_light(l, kinds, light_point)) {
@@ -89,14 +92,13 @@ FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
     return light_color(l) * factor;
 }
 
-// Mean over the channels of an emissive triangle's power per area and side, for choosing lights in
-// proportion to power.
+// Mean over the channels of an emissive triangle's power per area and side: its weight when lights
+// are chosen in proportion to power.
 FN real light_weight_of_emitter(vec3 radiance) { return PI * mean_component(radiance); }
 
-// Density, in solid angle, with which a light chosen in proportion to these weights, of which
-// light_weight is the sum, and light_sample find the point of an emissive triangle that is met at
-// this distance, under this cosine (above 0) to its normal. The triangle's area does not matter: a
-// larger one is chosen more often.
+// Solid-angle density with which light sampling finds a point on an emissive triangle at this
+// distance and cosine (above 0) to its normal. Lights are chosen in proportion to their weights,
+// whose sum is light_weight. The triangle's area cancels: a larger one is chosen more often.
 FN real emitter_density(vec3 radiance, real sides, real light_weight, real distance, real cosine) {
     real weight = light_weight_of_emitter(radiance) * sides;
     return weight / light_weight * distance * distance / cosine;
@@ -112,7 +114,7 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
     s.wi = unit_and_length(q - p, s.distance);
     real cosine = -dot3(s.wi, n);
     cosine = l.double_sided != 0u ? abs(cosine) : cosine;
-    // Edge-on, or in the triangle's plane but for rounding: no light arrives.
+    // Edge-on up to rounding: no light arrives.
     if (!(cosine > real(1e-6)) || !(area > real(0.0))) {
         return false;
     }
@@ -120,15 +122,15 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
     s.radiance = light_color(l) * solid_angle;
     s.pdf = real(1.0) / solid_angle;
     s.delta = false;
-    // What rounding the ends, and the intersection with the emitter, can make of the distance.
+    // Rounding errors of both ends and of the intersection with the emitter.
     real slack = (error.x + max_component(abs(p)) * error_bound(16)) / cosine;
     s.distance = max(s.distance - slack, real(0.0)) * (real(1.0) - error_bound(16));
     return is_finite(s.pdf) && s.pdf > real(0.0);
 }
 
-// Samples a direction towards the light from p, the very origin of the shadow ray: seen from the
-// surface's point the emitter lies elsewhere, by the offset of the origin, which on a large floor
-// is more than the rounding allowed for here. False where none of its light arrives.
+// Samples a direction from p towards the light. p must be the origin of the shadow ray: it is
+// offset from the surface, and on a large floor the offset exceeds the rounding errors allowed for
+// here. Returns false where none of the light arrives.
 FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSample) s) {
     s.wi = -light_direction(l);
     s.distance = real(far_away);
@@ -163,16 +165,16 @@ FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSam
     return share > real(0.0) && is_finite3(s.radiance);
 }
 
-// Direction of a spot's photon, exactly in proportion to the falloff. On the ramp, where it grows
-// with the square of the distance from the outer cosine, that distance is the largest of three
-// uniform numbers.
+// Direction of a spot's photon, exactly in proportion to the falloff. On the ramp the falloff is
+// the square of the distance from the outer cosine, so that distance is distributed like the
+// largest of three uniform numbers.
 FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     real cos_inner = real(l.cos_inner);
     real cos_outer = real(l.cos_outer);
     real ramp, ramp_share;
     real all = spot_solid_angles(cos_inner, cos_outer, ramp, ramp_share);
     real width = spot_ramp(cos_inner, cos_outer);
-    real below = ((real(1.0) - cos_outer) - width) * u.z; // 1 - cos θ, in the full cone
+    real below = ((real(1.0) - cos_outer) - width) * u.z; // 1 - cos θ, inside the inner cone
     if (u.x * all < ramp) {
         below = (real(1.0) - cos_outer) - max(u.z, max(v.x, v.y)) * ramp_share * width;
     }
@@ -183,10 +185,10 @@ FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     return to_world(make_frame(light_direction(l)), vec3(sine * c, sine * s, real(1.0) - below));
 }
 
-// Emits a photon. flux: what it carries if it is the light's only one, the light's power. normal:
-// of the emitting surface on the photon's side, (0,0,0) if it does not leave one; the origin has
-// then been moved off the surface already. Directional light and the sky start on a disc that
-// covers the bounding sphere, outside of it.
+// Emits a photon. flux: the light's power, which the photon carries if it is the light's only one.
+// normal: of the emitting surface on the photon's side, with the origin already moved off the
+// surface; (0,0,0) if there is no surface. Photons of directional lights and the sky start on a
+// disc that covers the bounding sphere from outside.
 FN bool light_emit(IN(LightRecord) l, uint kinds, vec4 u, vec4 v, vec3 center, real radius,
                    OUT(vec3) origin, OUT(vec3) direction, OUT(vec3) normal, OUT(vec3) flux) {
     origin = light_position(l);

@@ -13,21 +13,21 @@ FN real max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 FN real mean_component(vec3 v) { return (v.x + v.y + v.z) * real(0.33333333333333333333); }
 
-// Of linear RGB with the primaries of BT.709.
+// Luminance of linear RGB with BT.709 primaries.
 FN real luminance(vec3 c) { return real(0.2126) * c.x + real(0.7152) * c.y + real(0.0722) * c.z; }
 
-// For differences of squares, which rounding may have made slightly negative.
+// For differences of squares, which rounding may make slightly negative.
 FN real safe_sqrt(real x) { return sqrt(max(x, real(0.0))); }
 
-// Products written out: drivers are free in the order in which their built-in ones add.
+// Products are written out because drivers may add the terms of built-ins in any order.
 FN real dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 FN vec3 cross3(vec3 a, vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// Unit vector along v and the length of v; (0,0,0) and 0 where v is zero or not finite. Scaled by
-// the largest component first, so that no square over- or underflows.
+// Unit vector along v and the length of v; (0,0,0) and 0 if v is zero or not finite. Scales by the
+// largest component first, so that no square over- or underflows.
 FN vec3 unit_and_length(vec3 v, OUT(real) v_length) {
     real largest = max_component(abs(v));
     v_length = real(0.0);

@@ -1,4 +1,4 @@
-// Morton codes: cells of a box numbered by the interleaved bits of their coordinates, x highest.
+// Morton codes number the cells of a box by the interleaved bits of their coordinates, x highest.
 #ifndef ARGAND_SHARED_MORTON_H
 #define ARGAND_SHARED_MORTON_H
 
@@ -6,7 +6,7 @@
 
 ARGAND_SHARED_BEGIN
 
-// Spreads the lowest ten bits to every third place.
+// Spreads the lowest ten bits to every third bit.
 FN uint spread_bits(uint v) {
     v = v & 0x3ffu;
     v = (v | (v << 16u)) & 0x030000ffu;
@@ -15,11 +15,11 @@ FN uint spread_bits(uint v) {
     return (v | (v << 2u)) & 0x09249249u;
 }
 
-// Cell of x of `cells` between low and high. Outside, the nearest; 0 where there is no extent or x
-// is NaN.
+// Index of the cell of x, of `cells` cells between low and high. Clamps outside; 0 if the extent is
+// 0 or x is NaN.
 FN uint morton_cell(real x, real low, real high, real cells) {
     real extent = high - low;
-    // Halves, so that a box as large as single precision's range has a finite extent.
+    // Scaled down, so that a box as large as single precision's range has a finite extent.
     if (!is_finite(extent)) {
         x *= real(0.25);
         low *= real(0.25);
@@ -28,11 +28,11 @@ FN uint morton_cell(real x, real low, real high, real cells) {
     if (!(x > low) || !(extent > real(0.0))) {
         return 0u;
     }
-    // The quotient is at most about 1, or x lies outside.
+    // The quotient exceeds 1 by more than rounding only if x lies outside.
     return uint(min(min((x - low) / extent, real(1.0)) * cells, cells - real(1.0)));
 }
 
-// 30 bits, ten for each axis.
+// 30-bit code, ten bits for each axis.
 FN uint morton30(vec3 p, vec3 low, vec3 high) {
     uint x = morton_cell(p.x, low.x, high.x, real(1024.0));
     uint y = morton_cell(p.y, low.y, high.y, real(1024.0));
@@ -40,7 +40,7 @@ FN uint morton30(vec3 p, vec3 low, vec3 high) {
     return (spread_bits(x) << 2u) | (spread_bits(y) << 1u) | spread_bits(z);
 }
 
-// 63 bits, 21 for each axis, low and high word.
+// 63-bit code, 21 bits for each axis; low word and high word.
 FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
     uint x = morton_cell(p.x, low.x, high.x, real(2097152.0));
     uint y = morton_cell(p.y, low.y, high.y, real(2097152.0));
@@ -55,17 +55,17 @@ FN uvec2 morton63(vec3 p, vec3 low, vec3 high) {
 // Zero bits above the highest one; 32 for 0.
 FN uint leading_zeros(uint v) { return uint(31 - findMSB(v)); }
 
-// How far two leaves are apart whose codes are neighbours in their order: the highest bit in which
-// the codes differ as if each were followed by its place, which makes equal ones differ (Karras
-// 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Codes of 32
-// bits are the high word.
+// Distance of two leaves whose codes are neighbours in their order: the index of the highest bit in
+// which the codes differ, each followed by its leaf's index so that equal codes differ too (Karras
+// 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). 30-bit codes
+// are the high word.
 FN uint code_distance(uvec2 code_a, uint place_a, uvec2 code_b, uint place_b) {
     return code_a.y != code_b.y   ? 95u - leading_zeros(code_a.y ^ code_b.y)
            : code_a.x != code_b.x ? 63u - leading_zeros(code_a.x ^ code_b.x)
                                   : 31u - leading_zeros(place_a ^ place_b);
 }
 
-// To where there is no leaf.
+// Distance beyond the first or last leaf.
 CONSTANT uint no_neighbour = 96u;
 
 ARGAND_SHARED_END

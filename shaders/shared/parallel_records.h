@@ -5,24 +5,24 @@
 
 ARGAND_SHARED_BEGIN
 
-// How many elements there are: `number`, or where `on_device` is not 0 the uint at `index` of a
-// buffer, but at most `number`.
+// A number of elements: `number`, or, if on_device is not 0, the uint at `index` of a buffer, at
+// most `number`.
 struct CountRecord {
     uint number;
     uint index;
     uint on_device;
 };
 
-// The elements fall into `parts` contiguous parts of part_size() elements; trailing parts may be
-// short or empty. A part is worked on by one work-group, or on devices that run lanes serially by
-// one lane.
+// The elements are divided into `parts` contiguous parts of part_size() elements; trailing parts
+// may be short or empty. One work-group processes a part; on devices that run lanes serially, one
+// lane does.
 struct PartsRecord {
     uint parts;
-    uint grain; // elements; a part's size is a multiple of it
+    uint grain; // in elements; the size of a part is a multiple of it
 };
 
-// Elements per part. The number of grains is odd: parts that start at multiples of a power of two
-// would compete for the same few sets of a CPU's cache.
+// Elements per part. The number of grains is odd because parts that start at multiples of a power
+// of two would compete for the same few sets of a CPU's cache.
 FN uint part_size(uint count, PartsRecord parts) {
     uint spread = parts.parts * parts.grain;
     uint grains = count / spread + (count % spread > 0u ? 1u : 0u);
@@ -32,7 +32,7 @@ FN uint part_size(uint count, PartsRecord parts) {
 CONSTANT uint reduce_op_sum = 0u;
 CONSTANT uint reduce_op_min = 1u;
 CONSTANT uint reduce_op_max = 2u;
-CONSTANT uint reduce_op_count = 3u; // of the elements that are not 0
+CONSTANT uint reduce_op_count = 3u; // elements that are not 0
 
 struct ReduceParams {
     CountRecord count;
@@ -66,11 +66,12 @@ struct CompactParams {
 
 CONSTANT uint sort_digit_bits = 8u;
 CONSTANT uint sort_digits = 256u;
-// Elements that a group of 128 sorts at a time: an odd number per lane, for banks of shared memory.
+// Elements that a work-group of 128 sorts at a time. An odd number per lane avoids conflicts
+// between banks of shared memory.
 CONSTANT uint sort_items = 15u;
 CONSTANT uint sort_tile = 1920u;
 
-// One pass of the radix sort: by the digit at `shift` of word `word` of keys of `key_words` words.
+// One pass of the radix sort: by the digit at `shift` of word `word`, in keys of `key_words` words.
 struct SortParams {
     CountRecord count;
     PartsRecord parts;

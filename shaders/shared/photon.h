@@ -7,13 +7,13 @@
 
 ARGAND_SHARED_BEGIN
 
-// The highest bit of a photon's code is whether it is caustic; so far apart are those that differ
-// in it.
+// The highest bit of a photon's code tells whether it is a caustic photon. kind_distance is the
+// code distance of two photons that differ in it.
 CONSTANT uint photon_kind_bit = 0x80000000u;
 CONSTANT uint kind_distance = 95u;
 
-// A unit vector in 2×15 bits, the caustic bit, and on top the bit of area samples; all bits set
-// stand for a slot without a record.
+// A packed photon normal: a unit vector in 2×15 bits, the caustic bit, and on top the area sample
+// bit. All bits set: the slot holds no record.
 CONSTANT uint no_photon = 0xffffffffu;
 CONSTANT uint photon_normal_mask = 0x3fffffffu;
 CONSTANT uint photon_caustic_bit = 0x40000000u;
@@ -32,11 +32,11 @@ FN vec3 unpack_photon_normal(uint packed) {
     return unpack_unit(x | (y << 16));
 }
 
-// Photons of more scatterings count as of so many.
+// Larger counts of scatterings are stored as this one.
 CONSTANT uint most_scatterings_known = 63u;
 
-// Where a photon came from, with the number of its scatterings in the lowest bits of both
-// coordinates. Read by unpack_unit as it is, the direction is off by at most 1e-3.
+// Packs the direction from which a photon came, and its number of scatterings in the lowest bits of
+// both coordinates. unpack_unit can read it as it is; the direction is then off by at most 1e-3.
 FN uint pack_photon_direction(vec3 direction, uint scatterings) {
     uint n = scatterings < most_scatterings_known ? scatterings : most_scatterings_known;
     return (pack_unit(direction) & 0xfff8fff8u) | (n & 7u) | ((n >> 3) << 16);
@@ -46,21 +46,22 @@ FN uint photon_scatterings(uint packed) { return (packed & 7u) | ((packed >> 13)
 
 FN bool photon_is_caustic(uint packed) { return (packed & photon_caustic_bit) != 0u; }
 
-// Epanechnikov's kernel in two dimensions, at a squared distance in the tangent plane in units of
-// the squared radius r2: times kernel_scale / r2 its integral over the disc is 1.
+// Epanechnikov's kernel in two dimensions: squared_distance is in the tangent plane, in units of
+// the squared radius r2. Times kernel_scale / r2 its integral over the disc is 1.
 FN real kernel_weight(real squared_distance) {
     return max(real(0.0), real(1.0) - squared_distance);
 }
 
 CONSTANT real kernel_scale = real(0.63661977236758134308); // 2 / π
 
-// The part of a disc that lies on surfaces is known from few samples of them: where it is small, it
-// is not trusted.
+// Least share of a disc that may lie on surfaces: a smaller value, known from few area samples, is
+// not trusted.
 CONSTANT real least_coverage = real(0.1);
 
-// Photons off the tangent plane by more than this share of the radius belong to another surface.
+// Photons whose height over the tangent plane exceeds this share of the radius belong to another
+// surface.
 CONSTANT real disc_half_height = real(0.1);
-// Cosine of the angle between normals from which on a photon belongs to another surface.
+// Photons whose normal is at an angle with a cosine below this belong to another surface.
 CONSTANT real same_surface_cosine = real(0.5);
 
 // Rounds a flux to units of the fixed-point sums.

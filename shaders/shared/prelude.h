@@ -1,9 +1,9 @@
-// The common subset of GLSL, CUDA and C++ in which everything under shared/ is written: free
-// functions, plain structs, literals written real(0.1). In C++ and CUDA the code lives in namespace
-// argand (float) or, where ARGAND_REAL_DOUBLE is defined before the first include, in
-// argand::oracle (double): the same text is its own double-precision truth. A translation unit is
-// one or the other, never both. Constants that take more than one rounding are written out: glslang
-// folds constant expressions in double precision, C++ operation by operation.
+// Everything under shared/ is written in the common subset of GLSL, CUDA and C++: free functions,
+// plain structs, literals written real(0.1). In C++ and CUDA the code lives in namespace argand
+// (float) or, if ARGAND_REAL_DOUBLE is defined before the first include, in argand::oracle
+// (double): the same text in double precision is the reference for tests. A translation unit uses
+// one of the two, never both. Constants that need more than one rounding are written out, because
+// glslang folds constant expressions in double precision and C++ operation by operation.
 #ifndef ARGAND_SHARED_PRELUDE_H
 #define ARGAND_SHARED_PRELUDE_H
 
@@ -20,7 +20,7 @@
 #define OUT(T) T&
 #define INOUT(T) T&
 #define CONSTANT static constexpr
-// An array of constants, as NVIDIA's devices see it.
+// A constant array that device code can read too.
 #ifdef __CUDA_ARCH__
 #define TABLE static constexpr __device__
 #else
@@ -55,7 +55,7 @@ typedef glm::uvec4 uvec4;
 typedef glm::ivec4 ivec4;
 typedef glm::bvec3 bvec3;
 typedef glm::bvec4 bvec4;
-// Lanes of records in buffers are single precision whatever `real` is.
+// Fields of records in buffers are single precision whatever `real` is.
 typedef float float32;
 typedef glm::vec<4, float> lane4;
 

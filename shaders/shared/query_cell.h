@@ -8,11 +8,11 @@
 
 ARGAND_SHARED_BEGIN
 
-// Steps of a cell's normal on either side of 0, on the octahedron: the axes are in the middle of
-// theirs.
+// Steps on either side of 0 in which a cell's normal is quantised on the octahedron. Each axis is
+// in the middle of a step.
 CONSTANT real cell_normal_steps = real(7.0);
-// Height of a cell over its edge: densities are estimated within a few per cent of the radius off
-// the tangent plane.
+// Height of a cell over its edge. It is small because density estimation counts photons only within
+// a small share of the radius off the tangent plane.
 CONSTANT real cell_height = real(0.25);
 CONSTANT real largest_cell_index = real(1073741824.0);
 
@@ -20,11 +20,11 @@ FN uint cell_index(real x) {
     return uint(int(floor(clamp(x, -largest_cell_index, largest_cell_index))) + 0x40000000);
 }
 
-// The cell of a point on a surface of unit normal `normal`: its place along two axes of the plane
-// across the rounded normal, the plane's place, and on what scale and which normal. largest: edge
-// of the largest cells, at least 1e-30; size: that is wanted, which is rounded down to the largest
-// by a power of two. Points are moved along the surface by up to half an edge, at random by their
-// bits, so that borders of cells become noise.
+// The cell of a point on a surface with this unit normal: its coordinates along two axes
+// perpendicular to the quantised normal, the coordinate along the normal, and a word that packs
+// scale and normal. largest: edge of the largest cells, at least 1e-30. size: the requested edge,
+// rounded down to `largest` over a power of two. A hash of the point's bits jitters it along the
+// surface by up to half an edge, which turns the boundaries between cells into noise.
 FN uvec4 query_cell(vec3 p, vec3 normal, real largest, real size) {
     uint exponent = float_bits(float32(clamp(size / largest, real(1e-6), real(1.0)))) >> 23u;
     real inverse = real(1.0) / (largest * real(bits_float(exponent << 23u)));
@@ -43,15 +43,15 @@ FN uvec4 query_cell(vec3 p, vec3 normal, real largest, real size) {
                  cell_index(dot3(frame.z, q) / cell_height), (exponent << 8u) | (nx << 4u) | ny);
 }
 
-// Steps in which directions are rounded where lobes are as wide as GGX of this alpha, positive, and
-// scatter this share of the light: half of the lobe's width, wider where it counts for less, so
-// that what a step changes is little.
+// Number of steps in which to quantise directions for a lobe like GGX of this alpha (positive) that
+// scatters this share of the light. A step is half of the lobe's width, and wider where the lobe
+// counts for less, so that the answer changes little within it.
 FN uint direction_steps(real alpha, real share) {
     return uint(ceil(clamp(PI / alpha * sqrt(share), real(1.0), real(60.0))));
 }
 
-// Of a unit vector, its cell of so many steps on either side of 0 on the octahedron; borders are
-// moved at random, by a quarter of a step.
+// The cell of a unit vector, with this many steps on either side of 0 on the octahedron. Boundaries
+// are jittered by a quarter of a step.
 FN uint direction_cell(vec3 v, uint steps, uint random) {
     uint packed = pack_unit(v);
     real scale = real(steps) / real(32767.0);
@@ -62,9 +62,9 @@ FN uint direction_cell(vec3 v, uint steps, uint random) {
     return (uint(int(floor(x)) + 64) << 8u) | uint(int(floor(y)) + 64);
 }
 
-// A number by which slots are ordered at random, and the slot of a number: the first of a cell's
-// slots would be one at the same side of every cell. The constants are each other's inverse modulo
-// 2^32.
+// Orders slots at random, and inverts that order. A cell's owner is the first in this order: the
+// first slot itself would lie on the same side of every cell. The constants are each other's
+// inverse modulo 2^32.
 FN uint shuffled_slot(uint slot) {
     uint v = slot * 0x9e3779b1u;
     return v ^ (v >> 16u);

@@ -5,50 +5,50 @@
 
 ARGAND_SHARED_BEGIN
 
-// A point at which the photon map is asked for the radiance that estimated lobes scatter towards
-// the eye.
+// A query of the photon map: a point at which estimated lobes scatter radiance towards the eye.
 struct QueryRecord {
     float32 x, y, z;
     uint material;
-    float32 throughput_r, throughput_g,
-        throughput_b;      // by which the answer counts for the path to the eye
+    // Weight of the answer in the eye path.
+    float32 throughput_r, throughput_g, throughput_b;
     uint direction;        // towards the eye, packed (pack_unit)
-    uint geometric_normal; // towards the eye's side, packed
+    uint geometric_normal; // on the eye's side, packed
     uint shading_normal;   // packed
-    uint lobes;            // LOBE_* to be estimated
+    uint lobes;            // LOBE_* to estimate
     uint flags;            // query_*
 };
 
-CONSTANT uint query_front = 1u; // the surface is seen from its front
-CONSTANT uint query_white =
-    2u; // Lambertian, with its albedo in the throughput: asks for what albedo 1 scatters
-CONSTANT uint query_steps_shift =
-    10u; // above: steps of directions in which an answer may be shared; 0 where white
-// With final gather the first estimated vertex of an eye path asks for caustics only, and the next
-// one for all light of a limited number of scatterings, which is indirect light as the eye sees it.
+CONSTANT uint query_front = 1u; // the eye sees the front of the surface
+// The surface is Lambertian and its albedo is in the throughput; the answer is for albedo 1.
+CONSTANT uint query_white = 2u;
+// The bits from here up: steps of directions within which an answer may be shared; 0 where white.
+CONSTANT uint query_steps_shift = 10u;
+// With final gather, the first estimated vertex of an eye path queries caustic photons only. The
+// next one queries all photons up to a number of scatterings; the eye sees their light as indirect.
 CONSTANT uint query_caustics = 4u;
 CONSTANT uint query_gathers = 8u;
-CONSTANT uint query_scatterings_shift = 4u; // six bits: the most of a photon that counts (photon.h)
+// Six bits: most scatterings of a photon that counts (photon.h).
+CONSTANT uint query_scatterings_shift = 4u;
 CONSTANT uint query_scatterings_mask = 0x3fu;
 
-// Flags of paths that ask: for what they ask is found together.
+// Flags of paths that query. Queries with the same flags are answered together.
 CONSTANT uint asks_map = 1u;
-CONSTANT uint asks_caustics = 2u; // by query_caustics
+CONSTANT uint asks_caustics = 2u; // with query_caustics
 
-// What the photon map answers: radiance towards the eye.
+// Answer of the photon map: radiance towards the eye.
 struct EstimateRecord {
     float32 indirect_r, indirect_g, indirect_b, pad0;
     float32 caustic_r, caustic_g, caustic_b, pad1;
 };
 
-// How queries nearby share an answer (query_cells).
+// How nearby queries share an answer (query_cells).
 struct QueryShareParams {
-    float32 cell; // edge of a cell at most [length]; 0: nothing is shared
-    float32 pixel,
-        pixel_slope; // a cell is no larger than pixel + pixel_slope × distance from the eye
-    uint mask;       // entries of the table - 1, a power of two - 1
+    float32 cell; // edge of the largest cells [length]; 0: answers are not shared
+    // A cell's edge is at most pixel + pixel_slope × distance from the eye.
+    float32 pixel, pixel_slope;
+    uint mask; // entries of the hash table - 1; the number of entries is a power of two
     float32 eye_x, eye_y, eye_z;
-    uint asks; // asks_*: which queries this is about
+    uint asks; // asks_*: which queries to process
 };
 
 CONSTANT uint no_query = 0xffffffffu;

@@ -5,11 +5,11 @@
 
 ARGAND_SHARED_BEGIN
 
-// Which random numbers a path takes. The first few vertices share quasi-random sequences, where
-// good distribution pays most; further on a hash does as well and is cheaper.
+// Random numbers of paths. The first few vertices use quasi-random sequences, where good
+// distribution pays most; at later vertices a hash does as well and is cheaper.
 CONSTANT uint sobol_dimensions = 4u;
 
-// Eye paths: a sequence over the samples of each pixel.
+// Eye paths: one sequence per pixel over its samples.
 FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
     if (dimension < sobol_dimensions) {
         return sobol_random4(seed, pixel, sample_index, dimension);
@@ -17,7 +17,7 @@ FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
     return random4(seed, pixel, sample_index, dimension);
 }
 
-// Photons: one sequence over all of them, or, for comparison, a hash everywhere.
+// Photons: one sequence over all of them or, for comparison, the hash at all vertices.
 FN vec4 photon_random4(uint seed, uint photon, uint dimension, bool quasi_random) {
     const uint of_photons = 0x40000000u; // no pixel has this number
     if (quasi_random && dimension < sobol_dimensions) {

@@ -5,23 +5,23 @@
 
 ARGAND_SHARED_BEGIN
 
-// What kernels need to know of the whole scene; one of these in a storage buffer.
+// Data of the whole scene for kernels; a storage buffer holds one of these.
 struct SceneRecord {
     float32 center_x, center_y, center_z, radius; // bounding sphere
     float32 sky_r, sky_g, sky_b;                  // uniform radiance [cd/m²]
     uint light_count;
     float32 light_weight;    // sum of the lights' selection weights
-    float32 sky_probability; // that a choice of light gives the sky
+    float32 sky_probability; // probability that a choice of light selects the sky
     uint triangle_count;
-    float32
-        follow_roughness; // glossy lobes at most this rough are followed from the eye, see follow.h
+    // Glossy lobes of at most this roughness are followed from the eye; see follow.h.
+    float32 follow_roughness;
 };
 
-// One row of the alias table (Walker 1977) that chooses a light in proportion to its weight.
+// A row of the alias table (Walker 1977) that chooses a light in proportion to its weight.
 struct LightChoice {
-    float32 keep;        // probability to stay in this row
+    float32 keep;        // probability of staying in this row
     uint alias;          // the row to take otherwise
-    float32 probability; // of the light of this row
+    float32 probability; // of this row's light
     uint pad;
 };
 

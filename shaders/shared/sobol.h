@@ -5,11 +5,11 @@
 
 ARGAND_SHARED_BEGIN
 
-// Sobol' points with Owen's scrambling by hashes (Burley 2020, "Practical Hash-based Owen
-// Scrambling"): four dimensions jointly well distributed over consecutive indices; further sets of
-// four by a shuffle of the indices of its own each.
+// Sobol' points with hash-based Owen scrambling (Burley 2020, "Practical Hash-based Owen
+// Scrambling"). Four dimensions are jointly well distributed over consecutive indices; each further
+// set of four shuffles the indices in its own way.
 
-// Direction numbers of the third and fourth dimension (Joe and Kuo 2008); those of the first two
+// Direction numbers of the third and fourth dimension (Joe and Kuo 2008). Those of the first two
 // are computed.
 #ifdef __cplusplus
 TABLE uvec2 sobol_directions[32] = {
@@ -62,8 +62,8 @@ FN uint reverse_bits(uint v) {
     return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
 }
 
-// Owen's scrambling of a number whose bits are reversed: each bit is flipped as a hash of the lower
-// ones says (Laine and Karras 2011, constants by Vegdahl 2021).
+// Owen scrambling of a number with reversed bits: a hash of the lower bits flips each bit (Laine
+// and Karras 2011, constants by Vegdahl 2021).
 FN uint owen_scramble_reversed(uint v, uint seed) {
     v ^= v * 0x3d20adeau;
     v += seed;
@@ -77,7 +77,7 @@ FN uint owen_scramble(uint v, uint seed) {
     return reverse_bits(owen_scramble_reversed(reverse_bits(v), seed));
 }
 
-// The index-th of the unscrambled points, as 32-bit fractions.
+// The unscrambled point with this index, as 32-bit fractions.
 FN uvec4 sobol4(uint index) {
     uvec4 p = uvec4(reverse_bits(index), 0u, 0u, 0u);
     uint second = 0x80000000u;
@@ -92,8 +92,7 @@ FN uvec4 sobol4(uint index) {
     return p;
 }
 
-// Four numbers in [0, 1) for the index-th sample of the sequence that belongs to (seed, stream,
-// dimension).
+// Four numbers in [0, 1) for sample `index` of the sequence of (seed, stream, dimension).
 FN vec4 sobol_random4(uint seed, uint stream, uint index, uint dimension) {
     uvec4 hash = pcg4d(uvec4(stream, dimension, seed, 0x68bc21ebu));
     uvec4 p = sobol4(owen_scramble(index, hash.x));

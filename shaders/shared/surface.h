@@ -6,13 +6,14 @@
 
 ARGAND_SHARED_BEGIN
 
-// The point of a triangle that a ray has hit, seen from the ray's side.
+// The point of a triangle that a ray hit, seen from the ray's side.
 struct Surface {
     vec3 position;
     vec3 error;            // bound of the position's absolute error, per component
-    vec3 geometric_normal; // unit, towards the side the ray came from
-    vec3 shading_normal;   // unit, interpolated, within 90° of the ray's origin
-    bool front; // the ray came from the side from which the vertices run counter-clockwise
+    vec3 geometric_normal; // unit, on the side of the ray's origin
+    vec3 shading_normal;   // unit, interpolated, within 90° of the direction to the ray's origin
+    // The ray came from the side from which the vertices run counter-clockwise.
+    bool front;
 };
 
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
@@ -21,7 +22,7 @@ FN vec3 normalize_or(vec3 v, vec3 fallback) {
     return size > real(0.0) ? unit : fallback;
 }
 
-// A surface whose vertices have no normals.
+// For triangles whose vertices have no normals.
 FN Surface make_flat_surface(vec3 v0, vec3 v1, vec3 v2, real u, real v, vec3 ray_direction) {
     Surface s;
     s.position = hit_point(v0, v1, v2, u, v, s.error);
@@ -32,14 +33,14 @@ FN Surface make_flat_surface(vec3 v0, vec3 v1, vec3 v2, real u, real v, vec3 ray
     return s;
 }
 
-// The normals of the vertices are (0,0,0) where the file gives none.
+// Vertices have the normal (0,0,0) where the file gives none.
 FN Surface make_surface(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, real u, real v,
                         vec3 ray_direction) {
     Surface s = make_flat_surface(v0, v1, v2, u, v, ray_direction);
     vec3 shading = normalize_or(n0 * (real(1.0) - u - v) + n1 * u + n2 * v, s.geometric_normal);
     shading = dot3(shading, s.geometric_normal) < real(0.0) ? -shading : shading;
-    // A shading normal that faces away from the viewer would make the surface black: there the
-    // geometric one serves.
+    // A shading normal that faces away from the viewer would make the surface black, so the
+    // geometric normal replaces it.
     s.shading_normal = dot3(shading, ray_direction) < real(0.0) ? shading : s.geometric_normal;
     return s;
 }

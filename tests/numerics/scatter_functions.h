@@ -19,7 +19,7 @@ CONSTANT uint of_ggx_reflection_pdf = 35u;
 CONSTANT uint of_phong_power = 36u;
 CONSTANT uint of_phong_sample = 37u;
 CONSTANT uint of_phong_lobe = 38u;
-CONSTANT uint of_bsdf_border = 39u;
+CONSTANT uint of_bsdf_delta_lobes = 39u;
 CONSTANT uint of_refracted = 40u;
 CONSTANT uint of_lobe_probabilities = 41u;
 CONSTANT uint of_bsdf_albedo = 42u;
@@ -110,8 +110,8 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         r.y[0] = phong_lobe(number_at(a, 0), number_at(a, 1));
         r.y[1] = phong_pdf(number_at(a, 0), number_at(a, 1));
         r.y[2] = phong_albedo(number_at(a, 0), number_at(a, 1));
-    } else if (function == of_bsdf_border) {
-        Border b = bsdf_border(material_at(a, 1), number_at(a, 0), small_at(a, 15) != 0u);
+    } else if (function == of_bsdf_delta_lobes) {
+        DeltaLobes b = bsdf_delta_lobes(material_at(a, 1), number_at(a, 0), small_at(a, 15) != 0u);
         r.y[0] = b.cosine_refracted > real(0.0) ? real(1.0) : real(0.0);
         put3(r, 1, b.reflected);
         put3(r, 4, b.transmitted);

@@ -232,7 +232,7 @@ std::vector<Function> scatter_table() {
              d.put(d.share());
          },
          2, "111", ulp, 5},
-        {"bsdf_border", of_bsdf_border, "cosines 0 … 1, any material",
+        {"bsdf_delta_lobes", of_bsdf_delta_lobes, "cosines 0 … 1, any material",
          [](Draw& d) {
              d.put(d.share());
              put_material(d);
