@@ -31,7 +31,7 @@ FeatureText text_of(Feature feature) {
         return {"alpha", "alpha", ""};
     case Feature::smooth_normals:
         return {"smooth_normals", "interpolated normals",
-                fmt::format("{} bytes a vertex; three of them read at every hit", lane)};
+                fmt::format("{} bytes per vertex; every hit reads three vertices", lane)};
     case Feature::point_light:
         return {"point_light", "point lights", ""};
     case Feature::spot_light:
@@ -43,33 +43,33 @@ FeatureText text_of(Feature feature) {
     case Feature::sky:
         return {"sky", "uniform sky", ""};
     case Feature::several_lights:
-        return {"several_lights", "choice of a light",
-                fmt::format("{} bytes a light", sizeof(LightChoice))};
+        return {"several_lights", "choice among lights",
+                fmt::format("{} bytes per light", sizeof(LightChoice))};
     case Feature::followed_paths:
         return {"followed_paths", "followed paths",
-                "a round of tracing and shading for every surface on the way"};
+                "a round of tracing and shading for every surface that a path meets"};
     case Feature::glossy_estimates:
-        return {"glossy_estimates", "estimates off Lambertian surfaces",
-                "the BSDF for every photon that an estimate finds"};
+        return {"glossy_estimates", "estimates on non-Lambertian surfaces",
+                "the BSDF is evaluated for every photon of an estimate"};
     case Feature::direct_light:
         return {"direct_light", "shadow rays",
-                fmt::format("a ray at every eye vertex; {} bytes an eye path",
+                fmt::format("a ray at every eye vertex; {} bytes per eye path",
                             sizeof(RayRecord) + sizeof(ShadowRecord) + word)};
     case Feature::photon_map:
         return {"photon_map", "photon map",
-                fmt::format("{} bytes a photon stored, {} an eye path",
+                fmt::format("{} bytes per stored photon, {} per eye path",
                             2 * sizeof(PhotonRecord) + 3 * word,
                             sizeof(QueryRecord) + sizeof(EstimateRecord) + sizeof(GatherRecord) +
                                 4 * word)};
     case Feature::differentials:
         return {"differentials", "photon differentials",
-                fmt::format("{} bytes a photon on its way, {} a photon stored",
+                fmt::format("{} bytes per traced photon, {} per stored photon",
                             sizeof(DifferentialRecord), 2 * lane)};
     case Feature::caustics:
-        return {"caustics", "caustic photons", "asked apart by every eye path"};
+        return {"caustics", "caustic photons", "every eye path queries them separately"};
     case Feature::final_gather:
         return {"final_gather", "final gather",
-                "a round of tracing and shading before the photon map is asked"};
+                "a round of tracing and shading before the photon map is queried"};
     }
     return {"", "", ""};
 }

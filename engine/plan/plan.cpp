@@ -36,7 +36,7 @@ std::string named(const char* kind, const std::string& name, std::size_t index) 
     return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
 }
 
-/// Collects what is required; the first to require a feature is named.
+/// Collects the required features, each with the name of the first object that requires it.
 class Requirements {
 public:
     void add(Feature feature, const std::string& by, bool is_required = true) {
@@ -45,7 +45,7 @@ public:
         }
     }
     std::map<Feature, std::string> take() { return std::move(required_); }
-    /// The object that requires a feature, or an empty text.
+    /// The object that requires a feature, or "".
     std::string by(Feature feature) const {
         const auto found = required_.find(feature);
         return found != required_.end() ? found->second : "";
@@ -55,7 +55,7 @@ private:
     std::map<Feature, std::string> required_;
 };
 
-/// Returns whether the material has estimated lobes.
+/// Adds the features that a material requires. Returns whether it has estimated lobes.
 bool add_material(Requirements& requirements, const Material& material, const std::string& by,
                   float follow_roughness) {
     const MaterialRecord record = material_record(material);
@@ -80,7 +80,7 @@ bool is_smooth(const Scene& scene, std::size_t triangle) {
     return scene.normals[t.x] != none || scene.normals[t.y] != none || scene.normals[t.z] != none;
 }
 
-/// Returns whether some surface has estimated lobes.
+/// Adds the features that surfaces require. Returns whether any has estimated lobes.
 bool add_surfaces(Requirements& requirements, const Scene& scene, float follow_roughness) {
     std::vector<bool> seen(scene.materials.size(), false);
     bool estimated = false;
@@ -119,7 +119,7 @@ void add_lights(Requirements& requirements, const Scene& scene) {
     requirements.add(Feature::several_lights, fmt::format("{} lights", lights), lights > 1);
 }
 
-/// The first light, or an empty text.
+/// Name of the first light, or "".
 std::string first_light(const Requirements& requirements) {
     for (const Bit& light : light_bits) {
         if (const std::string by = requirements.by(light.feature); !by.empty()) {
@@ -163,7 +163,7 @@ Plan make_plan(const Scene& scene, const PlanRequest& request) {
     add_lights(found, scene);
     const std::string light = first_light(found);
     const auto has = [&](Feature feature) { return !found.by(feature).empty(); };
-    // Smooth lobes have nothing to sample lights for.
+    // Delta lobes cannot use light samples.
     const bool rough = has(Feature::diffuse) || has(Feature::ggx) || has(Feature::phong);
     found.add(Feature::direct_light, light, !light.empty() && rough);
     found.add(Feature::photon_map, "the method");

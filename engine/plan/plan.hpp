@@ -9,67 +9,69 @@
 
 namespace argand {
 
-/// What a renderer has and a scene may do without: code, buffers, passes.
+/// A part of the renderer (code, buffers, passes) that some scenes do not need.
 enum class Feature : std::uint8_t {
-    // Of surfaces.
+    // Surfaces.
     diffuse,
     ggx,   ///< glossy reflection by GGX
     phong, ///< glossy reflection by modified Phong
     mirror,
     transmission,
-    refraction,     ///< at the border of a solid
-    alpha,          ///< light passes some surface
-    smooth_normals, ///< interpolated from those of the vertices
-    // Of lights.
+    refraction,     ///< at the interface of a solid
+    alpha,          ///< some surface lets light pass
+    smooth_normals, ///< interpolated from the vertices' normals
+    // Lights.
     point_light,
     spot_light,
     directional_light,
     emissive_triangles,
     sky,
-    several_lights, ///< between which is chosen
-    // Of paths: what lobes of the scene are followed or estimated (docs/design.md, "Which path is
-    // whose").
+    several_lights, ///< requires choosing a light
+    // Paths. A path continues through followed lobes (smooth ones, and glossy ones up to
+    // follow_roughness); light arriving at estimated lobes is estimated (docs/path-classes.md).
     followed_paths,
-    glossy_estimates, ///< estimated where the surface is not Lambertian
+    glossy_estimates, ///< some estimated lobe is not Lambertian
     direct_light,     ///< shadow rays
-    // Of the request.
+    // Request.
     photon_map,
-    differentials, ///< of photons
+    differentials, ///< photon differentials
     caustics,      ///< photons that only followed lobes have scattered
     final_gather
 };
 
-/// What of a request matters for that.
+/// The parts of a request on which features depend.
 struct PlanRequest {
-    float follow_roughness = 0.25f; ///< glossy lobes at most this rough are followed
+    float follow_roughness = 0.25f; ///< glossy lobes of at most this roughness are followed
     bool photon_map = true;
-    bool footprints = true; ///< of photons
+    bool footprints = true; ///< photons have footprints
     bool final_gather = false;
-    bool everything =
-        false; ///< whatever the scene is: to measure and test what doing without it changes
+    /// Require all features regardless of the scene, to measure and test the effect of leaving
+    /// features out.
+    bool everything = false;
 };
 
-/// What a scene and a request require, each with the first object that does: "material 'gold'".
+/// The features that a scene and a request require, each with the first object that requires it:
+/// "material 'gold'".
 struct Plan {
     PlanRequest request;
     std::map<Feature, std::string> required;
 
     bool needs(Feature feature) const { return required.contains(feature); }
-    /// LOBE_* and MATERIAL_* of shared/bsdf.h.
+    /// LOBE_* and MATERIAL_* bits of shared/bsdf.h.
     std::uint32_t material_features() const;
-    /// A bit for each of the lights' kinds, 1 << light_* of shared/light_record.h.
+    /// Bits of the light kinds: 1 << light_* of shared/light_record.h.
     std::uint32_t light_kinds() const;
 };
 
-/// What the scene's triangles, their materials and its lights require; materials of no triangle do
-/// not count. What it leaves out changes no bit of any result.
+/// The features required by the scene's triangles, their materials, and its lights; unused
+/// materials do not count. Leaving out all other features changes no bit of any result.
 Plan make_plan(const Scene& scene, const PlanRequest& request);
 
-/// A feature for people to read.
+/// Texts about a feature, for the user.
 struct FeatureText {
     const char* key;  ///< "smooth_normals"
     const char* name; ///< "interpolated normals"
-    std::string cost; ///< bytes and passes that it takes, where it is more than code
+    std::string cost; ///< memory and passes that it costs, if it is more than code
 };
 FeatureText text_of(Feature feature);
 

@@ -6,11 +6,11 @@
 
 namespace argand {
 
-/// `v` scaled to length 1 in double precision, whatever its magnitude; zero if it has no direction
-/// (zero, infinite, NaN).
+/// `v` scaled to length 1 in double precision, whatever its magnitude; zero if `v` is zero,
+/// infinite or NaN.
 inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    // Not below the smallest normal number, where v / largest would be coarse.
+    // Well above the smallest normal number, so that v / largest is accurate.
     if (!(largest >= 1e-300) || !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
         return glm::dvec3(0);
     }

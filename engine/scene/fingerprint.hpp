@@ -5,8 +5,8 @@
 
 namespace argand {
 
-/// Of a scene's geometry and of which material each triangle has; `before`: of what comes before
-/// it.
+/// Fingerprint of a scene's geometry and of the material of each triangle. `before`: the
+/// fingerprint to continue from.
 std::uint64_t fingerprint(const Scene& scene, std::uint64_t before = empty_fingerprint);
 
 } // namespace argand

@@ -16,7 +16,7 @@ Camera frame_bounds(const Bounds& box) {
 
     constexpr double angle = std::numbers::pi / 4;
     const double slope = std::tan(angle / 2);
-    double distance = 0; // at which every corner is within the picture
+    double distance = 0; // at which every corner is inside the image
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 offset =
             half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);

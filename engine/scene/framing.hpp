@@ -4,8 +4,8 @@
 
 namespace argand {
 
-/// A perspective camera (45° vertically) that sees the whole box from the front (glTF's +Z), a
-/// little from the right and from above; everything fits into a square picture and into wider ones.
+/// A perspective camera (45° vertically) that sees the whole box from the front (glTF's +Z),
+/// slightly from the right and from above. Everything fits into square and wider images.
 Camera frame_bounds(const Bounds& box);
 
 } // namespace argand

@@ -6,8 +6,8 @@
 namespace argand {
 namespace {
 
-// An accessor without data is all zeros; this bounds the memory that a few bytes of JSON can ask
-// for.
+// An accessor without data is all zeros, so a few bytes of JSON could request any amount of memory.
+// This bounds it.
 constexpr std::size_t most_zeros = std::size_t(1) << 22;
 
 std::size_t component_size(int type) {
@@ -22,7 +22,7 @@ std::size_t component_size(int type) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return 4;
     default:
-        return 0; // glTF has no other
+        return 0; // glTF has no other component type
     }
 }
 
@@ -37,7 +37,7 @@ int component_count(int type) {
     case TINYGLTF_TYPE_VEC4:
         return 4;
     default:
-        return 0; // matrices are no vertex attributes
+        return 0; // vertex attributes are never matrices
     }
 }
 
@@ -58,8 +58,8 @@ std::uint32_t load_index(const std::uint8_t* from, int type) {
     }
 }
 
-/// Where `count` elements of `size` bytes, `stride` apart, begin; checked to lie within view and
-/// buffer.
+/// Address of the first of `count` elements of `size` bytes, `stride` apart. Checks that all of
+/// them lie within view and buffer.
 const std::uint8_t* locate(const GltfSource& source, int view_index, std::size_t offset,
                            std::size_t count, std::size_t size, std::size_t stride,
                            const std::string& what) {

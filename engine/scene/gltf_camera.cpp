@@ -9,7 +9,8 @@ namespace {
 
 bool is_positive(double value) { return value > 0 && std::isfinite(static_cast<float>(value)); }
 
-/// glTF's cameras look along −Z, with +Y up. False if the transform leaves no direction to look in.
+/// Places a camera; glTF's cameras look along −Z with +Y up. Returns false if the transform leaves
+/// the camera no direction.
 bool place(const GltfSource& source, const glm::dmat4& to_world, Camera& camera,
            const std::string& what) {
     camera.position = position_of(source, to_world, what);
@@ -31,7 +32,8 @@ Camera read_camera(const GltfSource& source, const tinygltf::Camera& from,
     if (from.type == "orthographic") {
         camera.kind = CameraKind::orthographic;
         const double x =
-            std::abs(from.orthographic.xmag); // negative would mirror: allowed, but not recommended
+            // Negative values mirror the image; allowed but discouraged.
+            std::abs(from.orthographic.xmag);
         const double y = std::abs(from.orthographic.ymag);
         if (!is_positive(x) || !is_positive(y)) {
             source.fail("{} shows an area of {} by {}; both must be positive", what, 2 * x, 2 * y);

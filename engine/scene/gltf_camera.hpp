@@ -6,8 +6,8 @@
 
 namespace argand {
 
-/// Adds the cameras that the nodes carry, in world space; a node's scale and shear do not change a
-/// camera. Error for cameras that do not exist or whose angle or extent is not positive.
+/// Adds the cameras that nodes carry, in world space. A node's scale and shear do not affect its
+/// camera. Throws Error for cameras that do not exist or whose angle or extent is not positive.
 void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene);
 
 } // namespace argand

@@ -15,15 +15,16 @@ using nlohmann::json;
 
 constexpr int deepest_nesting = 64; // glTF itself needs about ten
 constexpr std::uint64_t largest_int = std::numeric_limits<std::int32_t>::max();
-constexpr std::uint64_t largest_size = std::uint64_t(1) << 53; // what JSON's numbers hold exactly
+// The integers that JSON numbers represent exactly.
+constexpr std::uint64_t largest_size = std::uint64_t(1) << 53;
 
-// Properties that hold an index, or a list of them, wherever they occur in core glTF.
+// Properties that hold an index or a list of indices wherever they occur in core glTF.
 constexpr std::array index_keys{
     "buffer",   "bufferView", "camera", "children", "indices", "input",    "joints",
     "material", "mesh",       "mode",   "node",     "nodes",   "output",   "sampler",
     "scene",    "skeleton",   "skin",   "source",   "index",   "texCoord", "componentType"};
 constexpr std::array size_keys{"byteOffset", "byteLength", "byteStride", "count"};
-// Properties that are a number, or numbers.
+// Properties that hold a number or several.
 constexpr std::array number_keys{"alphaCutoff",
                                  "aspectRatio",
                                  "baseColorFactor",
@@ -59,12 +60,12 @@ void check_number(const json& value, const std::string& key) {
     }
 }
 
-// `index`: the value, or each scalar of the array, is an index whatever its key.
+// `index`: each scalar in `value` is an index, whatever the key.
 void check_value(const json& value, const std::string& key, bool index) {
     index = index || is_one_of(key, index_keys);
     if (value.is_object()) {
         const bool attributes =
-            key == "attributes" || key == "targets"; // of a mesh's primitive: name → accessor
+            key == "attributes" || key == "targets"; // of a mesh primitive: name → accessor
         for (const auto& [name, member] : value.items()) {
             if (name != "extensions" && name != "extras") {
                 check_value(member, name, attributes);
@@ -87,7 +88,7 @@ void check_value(const json& value, const std::string& key, bool index) {
     }
 }
 
-// tinygltf keeps a sparse accessor's count and offsets in an int.
+// tinygltf stores the count and offsets of a sparse accessor as int.
 void check_sparse(const json& root) {
     const auto accessors = root.find("accessors");
     if (accessors == root.end() || !accessors->is_array()) {
@@ -139,14 +140,14 @@ void check_gltf_version(const json& root) {
     if (asset == root.end() || !asset->is_object() || !asset->contains("version")) {
         fail("it is not glTF: it has no \"asset\" with a \"version\"");
     }
-    // minVersion, where there is one, says what a reader must support at least: glTF 2.0,
+    // minVersion, where given, is the version that a reader must support at least: glTF 2.0,
     // section 3.2.
     const json& version =
         asset->contains("minVersion") ? (*asset)["minVersion"] : (*asset)["version"];
     const std::string text = version.is_string() ? version.get<std::string>() : "";
     const bool good = asset->contains("minVersion") ? text == "2.0" : text.starts_with("2.");
     if (!good) {
-        fail("it is glTF of version {}; only version 2.0 is understood",
+        fail("it is glTF of version {}; only version 2.0 is supported",
              one_line(version.dump(-1, ' ', true), 40));
     }
 }

@@ -5,18 +5,18 @@
 
 namespace argand {
 
-bool understands_extension(std::string_view name) {
-    constexpr std::array<std::string_view, 7> understood{
+bool supports_extension(std::string_view name) {
+    constexpr std::array<std::string_view, 7> supported{
         "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
         "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_volume",
         "KHR_mesh_quantization"};
-    return std::find(understood.begin(), understood.end(), name) != understood.end();
+    return std::find(supported.begin(), supported.end(), name) != supported.end();
 }
 
 void add_extensions(const GltfSource& source, Scene& scene) {
     for (const std::string& name : source.model.extensionsRequired) {
-        if (!understands_extension(name)) {
-            source.fail("it requires the extension {}, which is not understood yet",
+        if (!supports_extension(name)) {
+            source.fail("it requires the extension {}, which is not supported yet",
                         one_line(name, 80));
         }
     }
@@ -26,8 +26,8 @@ void add_extensions(const GltfSource& source, Scene& scene) {
             continue;
         }
         scene.extensions_used.push_back(one_line(name));
-        if (!understands_extension(name)) {
-            add_note(scene, fmt::format("the extension {} is not understood and is ignored",
+        if (!supports_extension(name)) {
+            add_note(scene, fmt::format("the extension {} is not supported and is ignored",
                                         one_line(name, 80)));
         }
     }

@@ -5,12 +5,11 @@
 
 namespace argand {
 
-/// True if the loader does what the extension says, at least in part (a note then says what it
-/// leaves out).
-bool understands_extension(std::string_view name);
+/// Whether the loader supports the extension, at least in part (a note then says what it ignores).
+bool supports_extension(std::string_view name);
 
-/// Takes over which extensions the file uses. Those not understood are named in a note each; Error
-/// if the file requires one of them.
+/// Adds the file's list of used extensions to the scene, with a note for each that is not
+/// supported. Throws Error if the file requires one that is not supported.
 void add_extensions(const GltfSource& source, Scene& scene);
 
 } // namespace argand

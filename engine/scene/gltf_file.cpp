@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What a .gltf or .glb consists of; views into the file's bytes.
+/// The contents of a .gltf or .glb, as views into the file's bytes.
 struct Container {
     std::string_view json;
     std::span<const std::uint8_t> binary; ///< the BIN chunk, empty if there is none
@@ -41,14 +41,14 @@ constexpr std::uint32_t binary_chunk = 0x004e4942; // "BIN\0"
 /// glTF 2.0 specification, section 4.4 (binary glTF layout).
 Container open_glb(std::span<const std::uint8_t> bytes) {
     if (bytes.size() < 12) {
-        fail("the file is cut off within the 12 bytes of its header");
+        fail("the file is truncated within the 12 bytes of its header");
     }
     if (word(bytes, 4) != 2) {
-        fail("it is a binary glTF of version {}; only version 2 is understood", word(bytes, 4));
+        fail("it is a binary glTF of version {}; only version 2 is supported", word(bytes, 4));
     }
     const std::size_t length = word(bytes, 8);
     if (length > bytes.size()) {
-        fail("the file is cut off: its header says {} bytes, there are {}", length, bytes.size());
+        fail("the file is truncated: its header says {} bytes, there are {}", length, bytes.size());
     }
     Container container;
     container.is_glb = true;
@@ -66,7 +66,7 @@ Container open_glb(std::span<const std::uint8_t> bytes) {
             container.json = text_of(data);
         } else if (chunk == 1 && type == binary_chunk) {
             container.binary = data;
-        } // other chunks are to be ignored
+        } // the specification says to ignore other chunks
         at += 8 + std::size_t(size);
         at += (4 - at % 4) % 4;
     }
@@ -86,8 +86,8 @@ Container open_container(std::span<const std::uint8_t> bytes) {
     return {text_of(bytes), {}, false};
 }
 
-/// The container written anew, with lengths and padding exactly as tinygltf wants them: it reads
-/// beyond the end of some cut off files, and refuses an empty BIN chunk.
+/// Writes the container anew with exact lengths and padding. tinygltf reads beyond the end of some
+/// truncated files and rejects an empty BIN chunk.
 Bytes make_glb(const Container& container) {
     const std::size_t json_size = (container.json.size() + 3) / 4 * 4;
     const std::size_t binary_size = (container.binary.size() + 3) / 4 * 4;
@@ -113,8 +113,8 @@ Bytes make_glb(const Container& container) {
     return glb;
 }
 
-/// RFC 3986, section 2.1; a '%' that two hexadecimal digits do not follow stays. ('+' is a plus in
-/// a path.)
+/// Decodes percent-encoding (RFC 3986, section 2.1). A '%' without two hexadecimal digits after it
+/// stays. ('+' is a plus sign in a path.)
 std::string percent_decoded(const std::string& uri) {
     const auto digit = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'
@@ -135,16 +135,16 @@ std::string percent_decoded(const std::string& uri) {
     return decoded;
 }
 
-/// The external files that tinygltf is going to ask for: those of the buffers, in their order.
-/// Whatever it asks for after them is an image.
+/// External files of the buffers, in the order in which tinygltf reads them. Anything that it
+/// requests after them is an image.
 struct ExternalFiles {
     struct Buffer {
         std::string uri;
-        std::size_t size; ///< bytes wanted; the file may be longer
+        std::size_t size; ///< bytes required; the file may be longer
     };
     std::filesystem::path directory;
-    std::deque<Buffer> wanted;
-    std::string problem; ///< what went wrong, for the user
+    std::deque<Buffer> pending;
+    std::string problem; ///< error message for the user
 };
 
 ExternalFiles list_external_files(const nlohmann::json& root, const std::filesystem::path& path,
@@ -159,12 +159,12 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
         const nlohmann::json& buffer = (*buffers)[i];
         const bool has_uri =
             buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string();
-        if (!has_uri && (!is_glb || i > 0)) { // only the first can be the BIN chunk
+        if (!has_uri && (!is_glb || i > 0)) { // only the first buffer can be the BIN chunk
             fail("buffer {} has no uri, so there is no data for it", i);
         }
         if (!has_uri || !buffer.contains("byteLength") ||
             !buffer["byteLength"].is_number_unsigned()) {
-            continue; // tinygltf says what is wrong
+            continue; // tinygltf reports the mistake
         }
         const std::string uri = buffer["uri"];
         if (uri.empty() || tinygltf::IsDataURI(uri)) {
@@ -175,25 +175,25 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
             fail("buffer {} is at '{}', which is neither a file nor base64 data", i,
                  one_line(uri, 60));
         }
-        files.wanted.push_back({uri, buffer["byteLength"].get<std::size_t>()});
+        files.pending.push_back({uri, buffer["byteLength"].get<std::size_t>()});
     }
     return files;
 }
 
 bool file_exists(const std::string&, void* user) {
-    return !static_cast<ExternalFiles*>(user)->wanted.empty();
+    return !static_cast<ExternalFiles*>(user)->pending.empty();
 }
 
 std::string expand_path(const std::string& path, void*) { return path; }
 
 bool read_external(Bytes* out, std::string*, const std::string&, void* user) {
     auto& files = *static_cast<ExternalFiles*>(user);
-    const ExternalFiles::Buffer buffer = files.wanted.front();
-    files.wanted.pop_front();
+    const ExternalFiles::Buffer buffer = files.pending.front();
+    files.pending.pop_front();
     try {
         *out = read_file(files.directory / percent_decoded(buffer.uri));
         if (out->size() < buffer.size) {
-            fail("'{}' has {} bytes where {} are wanted", one_line(buffer.uri), out->size(),
+            fail("'{}' has {} bytes where {} are required", one_line(buffer.uri), out->size(),
                  buffer.size);
         }
         out->resize(buffer.size);
@@ -265,7 +265,7 @@ GltfSource read_gltf_file(const std::filesystem::path& path, std::vector<std::st
     } catch (const Error& problem) {
         const std::string message = problem.what();
         if (message.starts_with("cannot read '" + source.file)) {
-            throw; // says all there is to say
+            throw; // already a complete message
         }
         source.fail("{}", message);
     }

@@ -49,7 +49,7 @@ void read_cone(const GltfSource& source, const json* spot, Light& light, const s
     light.inner_cone_angle = std::min(static_cast<float>(inner_used), light.outer_cone_angle);
 }
 
-/// The light as its node places it; false if the transform leaves it no direction.
+/// Places a light as its node does. Returns false if the transform leaves the light no direction.
 bool place(const GltfSource& source, const glm::dmat4& to_world, Light& light,
            const std::string& what) {
     light.position = position_of(source, to_world, what);
@@ -80,7 +80,7 @@ Light read_light(const GltfSource& source, const json* object, const std::string
         read_cone(source, find_member(object, "spot"), light, what, scene);
     }
     if (find_member(object, "range")) {
-        add_note(scene, "the range of lights is ignored: their light falls off with the square of "
+        add_note(scene, "the range of lights is ignored: intensity falls off with the square of "
                         "the distance");
     }
     return light;

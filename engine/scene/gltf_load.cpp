@@ -12,18 +12,18 @@
 namespace argand {
 namespace {
 
-/// A light and a camera where the file has none.
-void make_up_what_is_missing(Scene& scene) {
+/// Adds a sky and a camera where the file has no light or no camera.
+void add_missing_objects(Scene& scene) {
     const bool emissive =
         std::any_of(scene.triangle_material.begin(), scene.triangle_material.end(),
                     [&](std::uint32_t material) { return emits(scene.materials[material]); });
     if (scene.lights.empty() && !emissive) {
         scene.sky = glm::vec3(1);
-        add_note(scene, "there is no light: a uniform white sky of radiance 1 is used");
+        add_note(scene, "there is no light: a uniform white sky of radiance 1 is added");
     }
     if (scene.cameras.empty()) {
         scene.cameras.push_back(frame_bounds(bounds(scene)));
-        add_note(scene, "there is no camera: one is placed so that it sees the whole scene");
+        add_note(scene, "there is no camera: one that sees the whole scene is added");
     }
 }
 
@@ -36,7 +36,7 @@ Scene load_gltf(const std::filesystem::path& path) {
     add_extensions(source, scene);
     scene.animations = source.model.animations.size();
     if (scene.animations > 0) {
-        add_note(scene, "animations are not understood yet: nodes stay where they are at rest");
+        add_note(scene, "animations are not supported yet: nodes stay in their rest pose");
     }
     const std::vector<GltfNode> nodes = flatten_nodes(source);
     add_materials(source, scene);
@@ -47,7 +47,7 @@ Scene load_gltf(const std::filesystem::path& path) {
         source.fail(
             "there is nothing to render: it shows no triangle that has an area and can be seen");
     }
-    make_up_what_is_missing(scene);
+    add_missing_objects(scene);
     return scene;
 }
 

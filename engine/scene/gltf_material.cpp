@@ -9,14 +9,14 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads a material's factors, each within its range.
+/// Reads a material's factors, clamped to their ranges.
 struct FactorReader {
     const GltfSource& source;
     Scene& scene;
     std::string what;
 
     float in_range(double value, double low, double high, const char* key) const {
-        // NaN does not occur: JSON cannot say it.
+        // NaN cannot occur: JSON cannot represent it.
         if (value < low || value > high) {
             const double nearest = std::clamp(value, low, high);
             add_note(scene, fmt::format("{} has a {} of {}, which is out of range; {} is used",
@@ -38,7 +38,7 @@ struct FactorReader {
 
 constexpr double unlimited = std::numeric_limits<float>::max();
 
-/// True if the material, or one of its extensions, refers to a texture.
+/// Whether the material or one of its extensions refers to a texture.
 bool uses_texture(const json& value) {
     for (const auto& [key, member] : value.items()) {
         if (member.is_object() && (key.ends_with("Texture") || uses_texture(member))) {
@@ -48,7 +48,7 @@ bool uses_texture(const json& value) {
     return false;
 }
 
-/// Alpha, as the material's mode has it.
+/// Alpha as the material's alphaMode interprets it.
 float coverage_of(const FactorReader& read, const tinygltf::Material& from) {
     if (from.alphaMode == "OPAQUE") {
         return 1;
@@ -66,7 +66,8 @@ float coverage_of(const FactorReader& read, const tinygltf::Material& from) {
 
 void read_core(const FactorReader& read, const tinygltf::Material& from, Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    const std::vector<double>& color = pbr.baseColorFactor; // tinygltf sees to its length, 4
+    // Tinygltf ensures that it has 4 elements.
+    const std::vector<double>& color = pbr.baseColorFactor;
     material.base_color =
         read.in_range(glm::dvec3(color[0], color[1], color[2]), 1, "baseColorFactor");
     material.metallic = read.in_range(pbr.metallicFactor, 0, 1, "metallicFactor");
@@ -85,7 +86,7 @@ void read_emission(const FactorReader& read, const tinygltf::Material& from, con
                       unlimited, "emission");
     material.emission *= material.coverage;
     if (from.emissiveTexture.index >= 0 && emits(material)) {
-        // Such textures are black nearly everywhere: with the factor alone whole objects would
+        // Such textures are black nearly everywhere; with the factor alone, whole objects would
         // glow.
         add_note(read.scene,
                  "emissive textures are not read yet: surfaces that have one do not emit");
@@ -105,26 +106,25 @@ void read_extensions(const FactorReader& read, const json* object, Material& mat
     const json* volume = find_extension(object, "KHR_materials_volume");
     material.thickness = read.number(volume, "thicknessFactor", 0, unlimited);
     if (material.thickness > 0 && find_member(volume, "attenuationDistance")) {
-        add_note(
-            read.scene,
-            "the attenuation of KHR_materials_volume is not understood yet: volumes are clear");
+        add_note(read.scene,
+                 "the attenuation of KHR_materials_volume is not supported yet: volumes are clear");
     }
     if (material.transmission > 0 && material.metallic < 1 && material.roughness > 0) {
         add_note(read.scene,
-                 "rough transmission is not understood yet: such surfaces are rendered smooth");
+                 "rough transmission is not supported yet: such surfaces are rendered smooth");
     }
 
     const double ior =
         number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
-    if (ior != 0 &&
-        !(ior >= 1 && ior <= unlimited)) { // 0: glTF's way to say that the Fresnel term is 1
+    // In glTF an index of 0 means that the Fresnel term is 1.
+    if (ior != 0 && !(ior >= 1 && ior <= unlimited)) {
         read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1",
                          read.what, ior);
     }
     material.ior = static_cast<float>(ior);
 }
 
-/// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}, all of it required.
+/// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}; both members are required.
 void read_phong(const FactorReader& read, const json* object, Material& material) {
     const json* phong = find_member(find_member(object, "extras"), "phong");
     if (!phong) {
@@ -133,7 +133,7 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     const std::string what = read.what + "'s \"phong\"";
     for (const char* key : {"specular", "exponent"}) {
         if (!find_member(phong, key)) {
-            read.source.fail("{} is no object with a \"specular\" and an \"exponent\"", what);
+            read.source.fail("{} is not an object with a \"specular\" and an \"exponent\"", what);
         }
     }
     const glm::dvec3 specular = vector_of(read.source, phong, "specular", glm::dvec3(0), what);

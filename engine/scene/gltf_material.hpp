@@ -4,8 +4,8 @@
 
 namespace argand {
 
-/// Adds the file's materials, in its order. Factors outside their range are brought into it with a
-/// note; textures are not read. Error for an index of refraction between 0 and 1.
+/// Adds the file's materials in their order. Clamps factors to their ranges with a note; does not
+/// read textures. Throws Error for an index of refraction that is neither 0 nor at least 1.
 void add_materials(const GltfSource& source, Scene& scene);
 
 } // namespace argand

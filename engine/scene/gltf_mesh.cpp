@@ -9,10 +9,10 @@
 namespace argand {
 namespace {
 
-constexpr std::size_t most_triangles = std::size_t(1) << 27; // 134 million, some 10 GB on the host
+constexpr std::size_t most_triangles = std::size_t(1) << 27; // 134 million, about 10 GB on the host
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// A primitive's opened accessors.
+/// The opened accessors of a primitive.
 struct Surface {
     GltfAccessor positions;
     GltfAccessor normals;
@@ -20,13 +20,13 @@ struct Surface {
     bool has_normals = false;
     bool has_indices = false;
     int mode = TINYGLTF_MODE_TRIANGLES;
-    std::size_t corner_count = 0; ///< indices, or vertices where there are none
+    std::size_t corner_count = 0; ///< indices, or vertices if there are no indices
 };
 
 struct Transform {
     glm::dmat4 point;
     glm::dmat3 normal;
-    bool mirrors; ///< turns counter-clockwise into clockwise
+    bool mirrors; ///< flips the orientation of triangles
 };
 
 std::size_t triangle_count(int mode, std::size_t corners) {
@@ -36,7 +36,7 @@ std::size_t triangle_count(int mode, std::size_t corners) {
     return corners < 3 ? 0 : corners - 2;
 }
 
-/// Corners of triangle `i`, numbers into the index list: glTF 2.0, section 3.7.2.1.
+/// Corners of triangle `i` as positions in the index list: glTF 2.0, section 3.7.2.1.
 glm::uvec3 triangle_corners(int mode, std::uint32_t i) {
     switch (mode) {
     case TINYGLTF_MODE_TRIANGLE_STRIP:
@@ -49,9 +49,9 @@ glm::uvec3 triangle_corners(int mode, std::uint32_t i) {
 }
 
 Transform make_transform(const glm::dmat4& to_world) {
-    // Normals go by the cofactors of the matrix (the inverse transpose up to a factor, defined for
-    // singular matrices too); the matrix is scaled to about 1 first, so that their products neither
-    // overflow nor vanish.
+    // Normals are transformed by the matrix of cofactors, which is the inverse transpose up to a
+    // factor and exists for singular matrices too. The matrix is first scaled to about 1 so that
+    // products neither overflow nor vanish.
     glm::dmat3 m(to_world);
     double largest = 0;
     for (int column = 0; column < 3; ++column) {
@@ -89,7 +89,8 @@ bool is_attribute_type(const GltfAccessor& accessor) {
            accessor.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-/// False if the primitive has no surface (points, lines, no positions, no corners).
+/// Opens the primitive's accessors. Returns false if it has no surface (points, lines, no
+/// positions, no corners).
 bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive,
                   const std::string& name, Surface& surface, Scene& scene) {
     surface.mode = primitive.mode;
@@ -146,13 +147,13 @@ bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive
     return triangle_count(surface.mode, surface.corner_count) > 0;
 }
 
-void note_what_is_ignored(const tinygltf::Primitive& primitive, Scene& scene) {
+void note_ignored_features(const tinygltf::Primitive& primitive, Scene& scene) {
     if (!primitive.targets.empty()) {
-        add_note(scene, "morph targets are not understood yet: meshes keep their base shape");
+        add_note(scene, "morph targets are not supported yet: meshes keep their base shape");
     }
     for (const auto& [name, accessor] : primitive.attributes) {
         if (name.starts_with("COLOR_")) {
-            add_note(scene, "vertex colours are not understood yet and are ignored");
+            add_note(scene, "vertex colours are not supported yet and are ignored");
         }
     }
 }
@@ -181,9 +182,9 @@ std::size_t stated_count(const GltfSource& source, int accessor) {
                : 0;
 }
 
-/// Error if the nodes show more triangles than can be held. Looked at beforehand, by the counts
-/// that the file states: a short file can show a large mesh many times.
-void refuse_too_many(const GltfSource& source, const std::vector<GltfNode>& nodes) {
+/// Throws Error if the nodes show more triangles than the scene can hold. Checks the counts stated
+/// in the file before anything is read, because a short file can show a large mesh many times.
+void check_triangle_count(const GltfSource& source, const std::vector<GltfNode>& nodes) {
     std::size_t total = 0;
     for (const GltfNode& node : nodes) {
         const int mesh = source.model.nodes[std::size_t(node.index)].mesh;
@@ -206,22 +207,22 @@ void refuse_too_many(const GltfSource& source, const std::vector<GltfNode>& node
     }
 }
 
-/// A vertex of the primitive at hand, in world space.
+/// A vertex of the current primitive, in world space.
 struct StagedVertex {
     glm::vec3 position;
     glm::vec3 normal;
-    std::uint32_t in_scene = none; ///< its number there, once a triangle needs it
+    std::uint32_t in_scene = none; ///< index in the scene, once a triangle uses the vertex
 };
 
-/// Adds meshes; keeps what outlives a primitive.
+/// Adds meshes; holds the state that outlives a primitive.
 struct MeshAdder {
     const GltfSource& source;
     Scene& scene;
     std::vector<StagedVertex> staged;
     std::vector<std::uint32_t>
-        staged_as; ///< by vertex of the primitive: its place in `staged`, or none
+        staged_as; ///< For each vertex of the primitive its index in `staged`, or `none`.
     std::size_t without_area = 0;
-    std::size_t invisible = 0; ///< primitives whose alpha is 0, or below their cutoff
+    std::size_t invisible = 0; ///< primitives whose alpha is 0 or below their cutoff
 
     StagedVertex read_vertex(const Surface& surface, const Transform& transform, std::size_t vertex,
                              const std::string& name) const {
@@ -292,7 +293,7 @@ struct MeshAdder {
                 ++without_area;
             }
         }
-        // Only what was used is reset: many primitives may share one long vertex buffer.
+        // Reset only the entries in use: many primitives may share one long vertex buffer.
         for (std::size_t corner = 0; corner < surface.corner_count; ++corner) {
             staged_as[surface.has_indices ? read_index(surface.indices, corner) : corner] = none;
         }
@@ -303,7 +304,7 @@ struct MeshAdder {
 } // namespace
 
 void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
-    refuse_too_many(source, nodes);
+    check_triangle_count(source, nodes);
     MeshAdder adder{source, scene, {}, {}, 0, 0};
     for (const GltfNode& node : nodes) {
         const tinygltf::Node& shown = source.model.nodes[std::size_t(node.index)];
@@ -317,7 +318,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         if (shown.skin >= 0) {
             add_note(
                 scene,
-                "skins are not understood yet: meshes keep the pose in which they were modelled");
+                "skins are not supported yet: meshes keep the pose in which they were modelled");
         }
         const tinygltf::Mesh& mesh = source.model.meshes[std::size_t(shown.mesh)];
         const std::string name = label("mesh", shown.mesh, mesh.name);
@@ -325,7 +326,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             Surface surface;
             if (open_surface(source, primitive, name, surface, scene)) {
-                note_what_is_ignored(primitive, scene);
+                note_ignored_features(primitive, scene);
                 const std::uint32_t material = material_of(source, primitive, name, scene);
                 if (scene.materials[material].coverage > 0) {
                     adder.add(surface, transform, material, name);
@@ -336,9 +337,9 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         }
     }
     if (adder.invisible > 0) {
-        scene.notes.push_back(fmt::format("{} primitive{} left out, for alpha makes {} invisible",
-                                          adder.invisible, adder.invisible == 1 ? " is" : "s are",
-                                          adder.invisible == 1 ? "it" : "them"));
+        scene.notes.push_back(fmt::format(
+            "{} primitive{} left out because alpha makes {} invisible", adder.invisible,
+            adder.invisible == 1 ? " is" : "s are", adder.invisible == 1 ? "it" : "them"));
     }
     if (adder.without_area > 0) {
         scene.notes.push_back(fmt::format("{} triangle{} without area {} left out",

@@ -26,7 +26,7 @@ glm::dmat4 local_transform(const GltfSource& source, int index) {
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) {
             transform[i / 4][i % 4] =
-                node.matrix[std::size_t(i)]; // columns first, in glTF as in GLM
+                node.matrix[std::size_t(i)]; // column-major, in glTF as in GLM
         }
         return transform;
     }
@@ -83,7 +83,7 @@ std::vector<GltfNode> flatten_nodes(const GltfSource& source) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<GltfNode> flat;
     std::vector<bool> seen(nodes.size(), false);
-    std::vector<GltfNode> waiting; // a stack of our own: files may nest as deeply as they like
+    std::vector<GltfNode> waiting; // an explicit stack, because files may nest arbitrarily deep
     const auto push = [&](const std::vector<int>& indices, const glm::dmat4& parent) {
         for (auto i = indices.rbegin(); i != indices.rend(); ++i) {
             waiting.push_back({*i, parent});

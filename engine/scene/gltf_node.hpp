@@ -5,18 +5,18 @@
 
 namespace argand {
 
-/// A node of the chosen scene with its transform to world space.
+/// A node of the loaded scene with its transform to world space.
 struct GltfNode {
     int index;
     glm::dmat4 to_world;
 };
 
-/// All nodes of the scene to be shown (the default one, else the first, else all root nodes),
-/// parents before children, in the file's order. Error if a node that is named does not exist, or
-/// is reached twice (a cycle or two parents).
+/// All nodes of the loaded scene (the default one, else the first, else all root nodes), parents
+/// before children, in the file's order. Throws Error if a node does not exist or is reached twice
+/// (a cycle or two parents).
 std::vector<GltfNode> flatten_nodes(const GltfSource& source);
 
-/// Where a node's transform puts what it carries. Error, which names that, if it is not finite.
+/// Position that a node's transform gives to the object `what`. Throws Error if it is not finite.
 glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world,
                       const std::string& what);
 

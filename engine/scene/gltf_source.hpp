@@ -9,11 +9,11 @@
 
 namespace argand {
 
-/// A parsed glTF file while a Scene is made of it.
+/// A parsed glTF file from which a Scene is built.
 struct GltfSource {
     tinygltf::Model model;
-    nlohmann::json root; ///< the JSON itself: for extensions, whose integers tinygltf would wrap
-    std::string file;    ///< as messages name it
+    nlohmann::json root; ///< the raw JSON: for extensions, whose integers tinygltf would wrap
+    std::string file;    ///< file name for messages
 
     /// Throws Error: "cannot load 'FILE': ...".
     template <class... Args>
@@ -23,13 +23,13 @@ struct GltfSource {
     }
 };
 
-/// "mesh 3 "Name"": how a message names an object of the file.
+/// Name of an object of the file in messages: mesh 3 "Name".
 inline std::string label(const char* kind, int index, const std::string& name) {
     return name.empty() ? fmt::format("{} {}", kind, index)
                         : fmt::format("{} {} \"{}\"", kind, index, one_line(name, 60));
 }
 
-/// Adds a note for the user unless it has been said already.
+/// Adds a note for the user unless the scene already has it.
 inline void add_note(Scene& scene, const std::string& note) {
     for (const std::string& said : scene.notes) {
         if (said == note) {

@@ -5,7 +5,7 @@
 
 namespace argand {
 
-/// Member `key` of `object`, or null if there is none, or `object` is null or no object.
+/// Member `key` of `object`; null if it is absent or `object` is not an object.
 inline const nlohmann::json* find_member(const nlohmann::json* object, const char* key) {
     if (!object || !object->is_object()) {
         return nullptr;
@@ -28,7 +28,7 @@ inline const nlohmann::json* find_extension(const nlohmann::json* owner, const c
     return extension && extension->is_object() ? extension : nullptr;
 }
 
-/// A number, or `otherwise` if it is absent; `what` names the object in messages.
+/// A number, or `otherwise` if it is absent. `what` names the object in messages.
 inline double number_of(const GltfSource& source, const nlohmann::json* object, const char* key,
                         double otherwise, const std::string& what) {
     const nlohmann::json* value = find_member(object, key);

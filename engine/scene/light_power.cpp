@@ -1,4 +1,4 @@
-// The shared maths in double precision.
+// Use the shared maths in double precision.
 #define ARGAND_REAL_DOUBLE
 #include "scene/light_power.hpp"
 

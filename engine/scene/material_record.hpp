@@ -5,7 +5,8 @@
 
 namespace argand {
 
-/// A material as the kernels see it, which decides its lobes (shared/bsdf.h).
+/// The material as a record for kernels. The record determines the material's lobes
+/// (shared/bsdf.h).
 MaterialRecord material_record(const Material& material);
 
 } // namespace argand

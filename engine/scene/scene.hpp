@@ -12,12 +12,11 @@ namespace argand {
 
 /// Modified Phong BRDF (Lafortune and Willems 1994): base_color/π + specular (n + 2)/(2π) cosⁿ.
 struct Phong {
-    glm::vec3 specular{0}; ///< with base_color at most 1 in each channel
+    glm::vec3 specular{0}; ///< at most 1 in each channel together with base_color
     float exponent = 0;    ///< n >= 0
 };
 
-/// Surface description in glTF's terms (metallic-roughness with the extensions named beside the
-/// fields).
+/// A surface in glTF's terms: metallic-roughness and the extensions named beside the fields.
 struct Material {
     std::string name;
     glm::vec3 base_color{1};
@@ -26,12 +25,12 @@ struct Material {
     float specular = 1;          ///< KHR_materials_specular; 0 makes a dielectric purely Lambertian
     glm::vec3 specular_color{1}; ///< KHR_materials_specular
     glm::vec3 emission{0}; ///< radiance [cd/m²], KHR_materials_emissive_strength and alpha included
-    float coverage = 1; ///< alpha: the share of the surface that is there; the rest lets light pass
+    float coverage = 1; ///< alpha: the share of the surface that is present; the rest passes light
     float transmission = 0; ///< KHR_materials_transmission
     float ior = 1.5f;       ///< KHR_materials_ior
-    float thickness = 0;    ///< KHR_materials_volume; 0: thin-walled, else a solid that refracts
+    float thickness = 0;    ///< KHR_materials_volume; 0: thin wall, else a refracting solid
     bool double_sided = false;
-    std::optional<Phong> phong; ///< instead of metal, dielectric and transmission, if present
+    std::optional<Phong> phong; ///< if present, replaces metal, dielectric and transmission
 };
 
 enum class LightKind : std::uint32_t { point, spot, directional };
@@ -41,7 +40,7 @@ struct Light {
     std::string name;
     LightKind kind = LightKind::point;
     glm::vec3 position{0};         ///< point, spot
-    glm::vec3 direction{0, 0, -1}; ///< unit, the way the light travels: spot, directional
+    glm::vec3 direction{0, 0, -1}; ///< unit, direction in which light travels: spot, directional
     glm::vec3 intensity{1};        ///< colour × intensity: [cd] point and spot, [lux] directional
     float inner_cone_angle = 0;    ///< [rad] spot
     float outer_cone_angle = 0.7853982f; ///< [rad] spot
@@ -65,7 +64,7 @@ struct Bounds {
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
 };
 
-/// Immutable description on the host of all that is in a file: triangles in world space, materials,
+/// Immutable description of a file's contents on the host: triangles in world space, materials,
 /// lights, cameras.
 struct Scene {
     std::string name;                  ///< file name without directory
@@ -76,26 +75,26 @@ struct Scene {
     std::vector<Material> materials;              ///< at least one
     std::vector<Light> lights;
     std::optional<glm::vec3> sky; ///< uniform radiance from all directions [cd/m²]
-    std::vector<Camera> cameras;  ///< at least one after loading (a framing one is made up)
+    std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none
     std::size_t animations = 0;
     std::vector<std::string> extensions_used; ///< as the file lists them
     std::vector<std::string>
-        notes; ///< what was made up or not understood: one line each, for the user
+        notes; ///< unsupported features and added objects, one line each, for the user
 };
 
-/// Bounding box of the vertices that triangles refer to; low > high if there is none.
+/// Bounding box of the vertices that triangles use; low > high if there are none.
 Bounds bounds(const Scene& scene);
 
-/// Area of one triangle, in double precision.
+/// Area of a triangle, in double precision.
 double area(const Scene& scene, std::size_t triangle);
 
 /// Sum of the areas of all triangles, in double precision.
 double surface_area(const Scene& scene);
 
-/// Roughness in glTF's terms of about the same width as Phong's lobe: GGX's alpha² = 2/(n + 2).
+/// Roughness in glTF's terms that matches the width of a Phong lobe: GGX's alpha² = 2/(n + 2).
 float roughness_of_phong(float exponent);
 
-/// True if the material's triangle emits light.
+/// Whether triangles of this material emit light.
 bool emits(const Material& material);
 
 } // namespace argand

@@ -13,7 +13,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 template <class Vector> json numbers(const Vector& v) {
-    return json::array({v.x + 0, v.y + 0, v.z + 0}); // −0 + 0 is 0, which reads better
+    return json::array({v.x + 0, v.y + 0, v.z + 0}); // −0 + 0 is 0
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -207,7 +207,7 @@ std::string describe(const Material& material) {
     if (material.phong) {
         return "Phong";
     }
-    // KHR_materials_transmission is for the dielectric part: metal does not transmit.
+    // KHR_materials_transmission applies to the dielectric part: metal does not transmit.
     if (material.metallic >= 1) {
         return material.roughness <= 0 ? "mirror" : "metal";
     }
@@ -231,7 +231,7 @@ json summary_json(const Scene& scene) {
                    camera_json);
     json extensions = json::array();
     for (const std::string& name : scene.extensions_used) {
-        extensions.push_back({{"name", name}, {"understood", understands_extension(name)}});
+        extensions.push_back({{"name", name}, {"understood", supports_extension(name)}});
     }
     return {{"name", scene.name},
             {"triangles", scene.triangles.size()},
@@ -272,7 +272,7 @@ std::string summary_text(const Scene& scene) {
     line("animations", fmt::format("{}", scene.animations));
     append_list(text, "extensions", summary["extensions"], [](const json& extension) {
         return extension["name"].get<std::string>() +
-               (extension["understood"].get<bool>() ? "" : " (not understood)");
+               (extension["understood"].get<bool>() ? "" : " (not supported)");
     });
     append_list(text, "notes", summary["notes"],
                 [](const json& note) { return note.get<std::string>(); });
