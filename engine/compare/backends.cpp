@@ -25,7 +25,7 @@ bool keep_going(double) { return true; }
 
 RenderResult render_timed(Device& device, const Scene& scene, const RenderSettings& settings,
                           double& seconds) {
-    render(device, scene, settings, keep_going); // compiles what it needs
+    render(device, scene, settings, keep_going); // compiles the kernels
     const Clock::time_point start = Clock::now();
     RenderResult result = render(device, scene, settings, keep_going);
     seconds = seconds_since(start);
@@ -44,10 +44,10 @@ std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& s
 BackendComparison compare_backends(Device& a, Device& b, const Scene& scene,
                                    const RenderSettings& settings) {
     BackendComparison result;
-    const RenderResult picture_a = render_timed(a, scene, settings, result.seconds_a);
-    const RenderResult picture_b = render_timed(b, scene, settings, result.seconds_b);
+    const RenderResult image_a = render_timed(a, scene, settings, result.seconds_a);
+    const RenderResult image_b = render_timed(b, scene, settings, result.seconds_b);
     result.rel_mse =
-        compare(picture_b.layers.front().image, picture_a.layers.front().image, "B", "A").rel_mse;
+        compare(image_b.layers.front().image, image_a.layers.front().image, "B", "A").rel_mse;
     result.isolated = compare_stages(a, b, scene, settings, Pairing::isolated);
     result.end_to_end = compare_stages(a, b, scene, settings, Pairing::end_to_end);
     return result;
@@ -72,7 +72,7 @@ bool passes_isolated(const StageComparison& stage) {
 bool passes_end_to_end(const StageComparison& stage) { return within(stage, end_to_end_tolerance); }
 
 bool passes(const BackendComparison& comparison) {
-    return comparison.rel_mse <= picture_tolerance &&
+    return comparison.rel_mse <= image_tolerance &&
            std::all_of(comparison.isolated.begin(), comparison.isolated.end(), passes_isolated) &&
            std::all_of(comparison.end_to_end.begin(), comparison.end_to_end.end(),
                        passes_end_to_end);
@@ -106,8 +106,8 @@ std::vector<StageComparison> compare_with_golden(const Golden& golden, const std
              method);
     }
     if (scene.name != golden.scene || fingerprint(scene) != golden.fingerprint) {
-        fail("comparing '{}' with a golden capture: it is of '{}' as that was; take that scene, or "
-             "record it anew",
+        fail("comparing '{}' with a golden capture: it was recorded from another version of '{}'; "
+             "compare with that scene, or record it anew",
              scene.name, golden.scene);
     }
     GoldenDevice recorded(golden, capture->second);

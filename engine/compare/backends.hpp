@@ -10,43 +10,45 @@
 
 namespace argand {
 
-/// Two backends' work on one picture.
+/// Comparison of two backends that render the same image.
 struct BackendComparison {
-    std::vector<StageComparison>
-        isolated; ///< every stage of the second on what the first had before it
-    std::vector<StageComparison> end_to_end; ///< the second on its own
-    double rel_mse = 0; ///< of the second's picture, made by itself, against the first's
-    double seconds_a = 0, seconds_b = 0; ///< of rendering, the second time
+    /// Every stage of the second backend, run on the first one's input.
+    std::vector<StageComparison> isolated;
+    /// Every stage of the second backend, run on its own results.
+    std::vector<StageComparison> end_to_end;
+    double rel_mse = 0; ///< of the second backend's own image against the first one's
+    double seconds_a = 0, seconds_b = 0; ///< of the second rendering on each backend
 };
 
-/// Renders the scene on both devices, by themselves and side by side.
+/// Renders the scene on each device separately and then on both side by side.
 BackendComparison compare_backends(Device& a, Device& b, const Scene& scene,
                                    const RenderSettings& settings);
 
-/// What a device does while it renders the scene with these settings.
+/// Records the results of every stage while a device renders the scene with these settings.
 GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings);
 
 /// The settings with which a capture was recorded.
 RenderSettings settings_of(const Golden& golden, const std::string& method);
 
-/// As BackendComparison::isolated, with the recorded device as the first one. Throws Error if the
-/// scene or this version takes other stages than were recorded, or there is no capture of that
-/// method.
+/// Like BackendComparison::isolated, with the recorded device as the first one. Throws Error if the
+/// scene or this version of Argand runs other stages than were recorded, or the file has no capture
+/// of that method.
 std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method,
                                                  Device& device, const Scene& scene);
 
-/// Whether all of a stage's items must be equal to the bit: integers, and floats with hardly any
-/// arithmetic.
+/// Whether all items of a stage must be equal to the bit. True for integers, and for floats with
+/// hardly any arithmetic.
 bool must_be_equal(const StageComparison& stage);
 
-/// Of a stage's items, the share that may have diverged where the second backend starts from the
-/// first one's input (they differ by more than 1e-5), and where it goes on by itself (1e-3).
+/// Largest share of a stage's items that may diverge if the second backend starts from the first
+/// one's input (items diverge if they differ by more than 1e-5), and if it continues from its own
+/// (1e-3).
 inline constexpr double isolated_tolerance = 1e-4;
 inline constexpr double end_to_end_tolerance = 1e-2;
-/// Of the picture.
-inline constexpr double picture_tolerance = 1e-5;
+/// Largest relMSE between the images.
+inline constexpr double image_tolerance = 1e-5;
 
-/// Whether a stage is the same on both, within what it is allowed.
+/// Whether the differences of a stage, or of the whole comparison, are within these tolerances.
 bool passes_isolated(const StageComparison& stage);
 bool passes_end_to_end(const StageComparison& stage);
 bool passes(const BackendComparison& comparison);

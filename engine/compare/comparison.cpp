@@ -8,7 +8,7 @@ namespace argand {
 
 namespace {
 
-/// Floats numbered in their order, so that neighbours differ by 1 and both zeros are one number.
+/// Numbers floats in their order: neighbours differ by 1, and both zeros share a number.
 std::int64_t ordinal(std::uint32_t bits) {
     const auto magnitude = static_cast<std::int64_t>(bits & 0x7fffffffu);
     return (bits >> 31) != 0 ? -magnitude : magnitude;
@@ -20,7 +20,7 @@ struct Difference {
     bool diverged = false;
 };
 
-/// The largest finite float of each word over all items.
+/// For each word of an item, the largest finite float over all items.
 std::vector<double> largest_floats(std::span<const std::uint32_t> words, std::string_view layout) {
     std::vector<double> largest(layout.size(), 0.0);
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -56,7 +56,7 @@ Difference difference(std::span<const std::uint32_t> a, std::span<const std::uin
     return worst;
 }
 
-/// Both zeros are one number.
+/// Both zeros are equal.
 bool same_value(std::uint32_t a, std::uint32_t b, char kind) {
     return a == b || (kind == 'f' && ((a | b) & 0x7fffffffu) == 0);
 }

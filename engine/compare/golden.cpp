@@ -20,8 +20,9 @@ using Words = std::vector<std::uint32_t>;
 constexpr int format = 2;
 constexpr std::uint64_t most_bytes = std::uint64_t(64) << 20;
 
-/// A file is, packed by zlib: the number of bytes of a JSON text, the text (padded to a multiple of
-/// 4), and the words that it counts, in its order: of each write the runs, then what is in them.
+/// A golden file is compressed by zlib. It contains the number of bytes of a JSON text, the text
+/// (padded to a multiple of 4), and the words that the text counts, in its order: for each write
+/// its runs, then their contents.
 struct Unpacked {
     Json header;
     Words words;
@@ -41,7 +42,7 @@ std::vector<std::uint8_t> packed(const std::vector<std::uint8_t>& bytes) {
 Unpacked unpack(const std::vector<std::uint8_t>& bytes) {
     std::uint64_t size = 0;
     if (bytes.size() < sizeof(size)) {
-        fail("it is cut short");
+        fail("it is truncated");
     }
     std::memcpy(&size, bytes.data(), sizeof(size));
     if (size > most_bytes || size % sizeof(std::uint32_t) != 0) {
@@ -72,7 +73,7 @@ public:
 
     std::span<const std::uint32_t> take(std::uint64_t count) {
         if (count > words_.size() - at_) {
-            fail("its data are cut short");
+            fail("its data are truncated");
         }
         at_ += count;
         return std::span(words_).subspan(at_ - count, count);
@@ -102,7 +103,7 @@ template <class T> T within(const Json& value, std::uint64_t low, std::uint64_t 
     const auto number = value.get<std::int64_t>();
     if (number < 0 || static_cast<std::uint64_t>(number) < low ||
         static_cast<std::uint64_t>(number) > high) {
-        fail("it asks for what cannot be rendered");
+        fail("its settings are out of range");
     }
     return static_cast<T>(number);
 }
@@ -112,7 +113,7 @@ std::string line(const Json& value) { return one_line(value.get<std::string>(), 
 Golden golden_of(const Unpacked& file) {
     const Json& header = file.header;
     if (header.at("format").get<int>() != format) {
-        fail("it has another format than this version reads");
+        fail("this version cannot read its format");
     }
     Golden golden;
     golden.scene = line(header.at("scene"));
@@ -137,7 +138,7 @@ Golden golden_of(const Unpacked& file) {
         }
     }
     if (golden.captures.empty() || !reader.at_end()) {
-        fail("it holds nothing, or more than it says");
+        fail("it is empty or has surplus data");
     }
     return golden;
 }
@@ -215,7 +216,7 @@ void write_golden(const std::filesystem::path& file, const Golden& golden) {
     bytes.resize(head + data.size());
     std::memcpy(bytes.data() + head, data.data(), data.size());
     if (bytes.size() > most_bytes) {
-        fail("recording '{}': the capture is larger than {} MiB; take a smaller picture or fewer "
+        fail("recording '{}': the capture is larger than {} MiB; use a smaller picture or fewer "
              "photons",
              file.string(), most_bytes >> 20);
     }
@@ -227,7 +228,8 @@ Golden read_golden(const std::filesystem::path& file) {
     try {
         return golden_of(unpack(bytes));
     } catch (const Json::exception&) {
-        fail("reading golden capture '{}': it is not one; record it with `argand compare-backends "
+        fail("reading golden capture '{}': it is not a capture; record one with `argand "
+             "compare-backends "
              "--record`",
              file.string());
     } catch (const Error& error) {

@@ -63,8 +63,8 @@ GoldenDevice::GoldenDevice(const Golden& golden, const GoldenCapture& capture)
 void GoldenDevice::play(const std::string& stage, std::span<const BufferView> written) {
     if (next_ == capture_.size() || capture_[next_].stage != stage ||
         capture_[next_].writes.size() != written.size()) {
-        fail("comparing with a golden capture: its step {} is {}, not {}; it is of another scene "
-             "or version, record it anew",
+        fail("comparing with a golden capture: step {} was {}, not {}; it was recorded from "
+             "another scene or version, record it anew",
              next_ + 1, next_ < capture_.size() ? capture_[next_].stage : "none", stage);
     }
     for (std::size_t i = 0; i < written.size(); ++i) {
@@ -75,9 +75,8 @@ void GoldenDevice::play(const std::string& stage, std::span<const BufferView> wr
 
 void GoldenDevice::expect_end() const {
     if (next_ != capture_.size()) {
-        fail("comparing with a golden capture: its step {}, {}, does not come; it is of another "
-             "scene or version, record it "
-             "anew",
+        fail("comparing with a golden capture: step {}, {}, was not run; it was recorded from "
+             "another scene or version, record it anew",
              next_ + 1, capture_[next_].stage);
     }
 }

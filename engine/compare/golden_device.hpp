@@ -5,8 +5,8 @@
 
 namespace argand {
 
-/// Plays a capture back: instead of running a stage, it writes what the recorded device wrote.
-/// Throws Error where what is asked for is not what was recorded next.
+/// Plays a capture back: instead of running a stage, writes the results that were recorded for it.
+/// Throws Error if a stage is requested that is not the next one in the capture.
 class GoldenDevice final : public host::HostDevice {
 public:
     GoldenDevice(const Golden& golden, const GoldenCapture& capture);
@@ -15,10 +15,10 @@ public:
                   std::uint64_t threads) override;
     Primitives* primitives() override { return primitives_.get(); }
 
-    /// Throws Error if there are steps that were recorded and have not been played.
+    /// Throws Error if recorded steps remain.
     void expect_end() const;
 
-    /// The next step, which is to be this stage, on the buffers that it writes.
+    /// Plays the next step, which must be this stage, into the buffers that it writes.
     void play(const std::string& stage, std::span<const BufferView> written);
 
 private:

@@ -12,10 +12,10 @@ namespace argand {
 
 namespace {
 
-// Of the items that one rounding may change.
+// Items diverge above this relative difference; one rounding error stays below it.
 constexpr double isolated_divergence = 1e-5;
 constexpr double end_to_end_divergence = 1e-3;
-// What the host downloads to decide by; more is data.
+// Larger downloads are data, smaller ones are counts by which the host decides.
 constexpr std::size_t most_decision_bytes = 256;
 
 PairedBuffer& paired(const Buffer& buffer) { return static_cast<PairedBuffer&>(*buffer.storage()); }
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> words_of(Device& device, const BufferView& range) {
 PairedDevice::PairedDevice(Device& a, Device& b, Pairing pairing)
     : a_(a), b_(b), pairing_(pairing), info_(a.info()),
       primitives_(make_paired_primitives(*this, a, b)) {
-    // What kernels must do without on one of them, they do without on both.
+    // Kernels use only what both devices offer.
     info_.driver += " and " + b.info().driver;
     info_.limits.storage_range =
         std::min(a.info().limits.storage_range, b.info().limits.storage_range);
@@ -162,7 +162,7 @@ void PairedDevice::compare_cells(const std::vector<std::vector<std::uint32_t>>& 
     }
     std::vector<std::uint32_t> owners_a, owners_b;
     for (std::size_t query = 0; query < old.size(); ++query) {
-        // Slots of paths that have ended hold what earlier batches left there.
+        // Slots of finished paths hold leftovers of earlier batches.
         if (a.sources[query] != old[query] || b.sources[query] != old[query]) {
             owners_a.push_back(owner_of(a, query));
             owners_b.push_back(owner_of(b, query));

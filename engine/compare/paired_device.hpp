@@ -12,8 +12,8 @@
 namespace argand {
 
 enum class Pairing {
-    isolated,  ///< every stage of the second device starts from what the first one had before it
-    end_to_end ///< the second device goes on with its own results
+    isolated,  ///< every stage of the second device starts from the first one's input
+    end_to_end ///< the second device continues with its own results
 };
 
 /// A buffer on either device.
@@ -21,8 +21,8 @@ struct PairedBuffer final : BufferStorage {
     Buffer a, b;
 };
 
-/// Two devices as one: what is recorded runs on both, stage by stage, and what they write is
-/// compared. What is downloaded is the first device's.
+/// Two devices as one: runs commands on both, stage by stage, and compares their results. Downloads
+/// return the first device's data.
 class PairedDevice final : public Device {
 public:
     PairedDevice(Device& a, Device& b, Pairing pairing);
@@ -53,21 +53,21 @@ public:
         return a_.validation_messages();
     }
 
-    /// In the order of their first runs.
+    /// In the order of the stages' first runs.
     const std::vector<StageComparison>& comparisons() const { return comparisons_; }
 
-    /// Runs a stage on both devices, compares what it wrote, and if isolated gives the first one's
-    /// to the second.
+    /// Runs a stage on both devices and compares the results. If isolated, then copies the first
+    /// device's results to the second.
     void run(const std::string& stage, const std::function<void()>& on_a,
              const std::function<void()>& on_b, const std::vector<WrittenBinding>& written);
 
-    /// From now on, what the first device does is added to a capture.
+    /// From now on, appends the first device's results to a capture.
     void record(GoldenCapture& capture) { recorder_ = &capture; }
 
 private:
     StageComparison& comparison(const std::string& stage);
     double tolerance() const;
-    /// Compares what query_cells found, whatever entries of its table the cells have.
+    /// Compares the owners that query_cells found, wherever its hash table stores the cells.
     void compare_cells(const std::vector<std::vector<std::uint32_t>>& before,
                        const std::vector<WrittenBinding>& written, StageComparison& found);
 

@@ -9,7 +9,7 @@ namespace argand {
 
 class PairedDevice;
 
-/// Sort, scan, reduce and compact of two devices, each as it does them by itself.
+/// Sort, scan, reduce and compact on two devices, each with its own implementation.
 std::unique_ptr<Primitives> make_paired_primitives(PairedDevice& pair, Device& a, Device& b);
 
 } // namespace argand

@@ -6,12 +6,12 @@
 
 namespace argand {
 
-/// A backend's side of a buffer; backends derive from it.
+/// The backend's part of a buffer; backends derive from it.
 struct BufferStorage {
     std::string name;
-    std::uint64_t size = 0; ///< bytes asked for
-    std::uint64_t read_epoch =
-        0; ///< barrier epoch of the last recorded read and write, see HazardTracker
+    std::uint64_t size = 0; ///< requested bytes
+    /// Barrier epochs of the last recorded read and write, see HazardTracker.
+    std::uint64_t read_epoch = 0;
     std::uint64_t write_epoch = 0;
 
     BufferStorage() = default;
@@ -20,8 +20,8 @@ struct BufferStorage {
     virtual ~BufferStorage() = default;
 };
 
-/// Memory on a device, known by a name. A handle: copies share the memory, the last one frees it,
-/// and commands that are under way keep it alive.
+/// Named memory on a device. A Buffer is a handle: copies share the memory, the last one frees it,
+/// and pending commands keep it alive.
 class Buffer {
 public:
     Buffer() = default;

@@ -6,11 +6,11 @@
 
 namespace argand {
 
-/// How many elements a stage works on: a number that the host knows, or a uint in a buffer that
-/// only the device knows, with the host's upper bound, for which scratch memory is allocated.
+/// Number of elements that a stage processes. Either the host knows it, or only the device does, as
+/// a uint in a buffer; then the host gives an upper bound, for which scratch memory is allocated.
 struct Count {
     std::uint64_t bound;     ///< the number itself, or its upper bound
-    Buffer buffer;           ///< empty: `bound` is the number
+    Buffer buffer;           ///< empty: the number is `bound`
     std::uint32_t index = 0; ///< of the uint in `buffer`
 
     Count(std::uint64_t number) : bound(number) {} // NOLINT(google-explicit-constructor)

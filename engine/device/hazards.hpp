@@ -5,11 +5,11 @@
 
 namespace argand {
 
-/// Decides from declared reads and writes when a command needs a barrier before it. Whole buffers
-/// are tracked: two ranges of one buffer count as the same.
+/// Decides from declared reads and writes whether a command needs a barrier before it. Tracks whole
+/// buffers: accesses to different ranges of a buffer conflict too.
 class HazardTracker {
 public:
-    /// True if accessing the buffer conflicts with what was recorded since the last barrier.
+    /// Whether accessing the buffer conflicts with commands recorded since the last barrier.
     bool conflicts(const BufferStorage& buffer, Access access) const {
         const bool writes = access != Access::read;
         return buffer.write_epoch == epoch_ || (writes && buffer.read_epoch == epoch_);

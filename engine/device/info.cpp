@@ -117,10 +117,10 @@ std::string unmet_requirement(const Limits& limits) {
     for (const std::string& unmet :
          {check("its storage buffer range in bytes", limits.storage_range,
                 Requirements::storage_range),
-          check("its number of invocations a work-group", limits.invocations,
+          check("its number of invocations per work-group", limits.invocations,
                 Requirements::invocations),
           check("its shared memory in bytes", limits.shared_memory, Requirements::shared_memory),
-          check("its number of storage buffers a shader stage", limits.storage_buffers,
+          check("its number of storage buffers per shader stage", limits.storage_buffers,
                 Requirements::storage_buffers)}) {
         if (!unmet.empty()) {
             return unmet;

@@ -10,8 +10,8 @@ enum class DeviceKind : std::uint8_t { discrete, integrated, virtual_gpu, cpu, o
 
 const char* to_string(DeviceKind kind);
 
-/// Faster paths that a device may offer. Each has a fallback, which ARGAND_DISABLE=name,name,...
-/// forces.
+/// Optional features for which there are faster code paths. Each path has a fallback, which
+/// ARGAND_DISABLE=name,name,... forces.
 struct Features {
     bool subgroups = false; ///< arithmetic, ballot and shuffle in compute shaders ("subgroups")
     bool push_descriptors = false; ///< VK_KHR_push_descriptor ("push_descriptors")
@@ -19,8 +19,8 @@ struct Features {
     bool lane_serial = false;      ///< see DeviceInfo::lane_serial() ("lane_serial")
 };
 
-/// What a device allows. ARGAND_LIMIT=storage_range=1MiB,invocations=128,... lowers them, so that
-/// tests reach splitting and fallbacks cheaply.
+/// Limits of a device. ARGAND_LIMIT=storage_range=1MiB,invocations=128,... lowers them, so that
+/// small tests reach splitting and fallbacks.
 struct Limits {
     std::uint64_t storage_range = 0;   ///< bytes of one storage buffer binding ("storage_range")
     std::uint64_t memory = 0;          ///< bytes of the device's largest local heap ("memory")
@@ -33,23 +33,22 @@ struct Limits {
 
 struct DeviceInfo {
     std::string backend;     ///< one of backend_names()
-    std::uint32_t index = 0; ///< as `argand devices` numbers them
+    std::uint32_t index = 0; ///< index in the list of `argand devices`
     std::string name;
-    std::string driver; ///< driver's name and version
+    std::string driver; ///< name and version of the driver
     std::string api_version;
     DeviceKind kind = DeviceKind::other;
     std::uint32_t subgroup_size = 1;
     Features features;
     Limits limits;
-    std::string unsuitable; ///< why it cannot be used; empty: it can
+    std::string unsuitable; ///< why the device cannot be used; empty if it can
 
-    /// True for devices that run an invocation's lanes one block after another on CPU cores, where
-    /// contiguous chunks per lane beat co-operation between lanes.
+    /// Whether a CPU core runs the lanes of a work-group one after another. There, a contiguous
+    /// chunk per lane is faster than co-operation between lanes.
     bool lane_serial() const { return features.lane_serial; }
 };
 
-/// What Argand needs beyond what Vulkan 1.2 guarantees, checked when a device is opened; all in one
-/// place.
+/// Requirements beyond Vulkan 1.2's guarantees, checked when a device is opened.
 struct Requirements {
     static constexpr std::uint64_t storage_range = 1ull << 20;
     static constexpr std::uint32_t invocations = 128;
@@ -57,11 +56,11 @@ struct Requirements {
     static constexpr std::uint32_t storage_buffers = 24;
 };
 
-/// Applies the environment's ARGAND_DISABLE and ARGAND_LIMIT; throws UsageError on an unknown name
-/// or a bad number.
+/// Applies ARGAND_DISABLE and ARGAND_LIMIT. Throws UsageError for an unknown name or a malformed
+/// number.
 void apply_environment(DeviceInfo& info);
 
-/// Names the first requirement that the limits do not meet, or returns an empty string.
+/// Describes the first requirement that the limits do not meet; empty if they meet all.
 std::string unmet_requirement(const Limits& limits);
 
 } // namespace argand

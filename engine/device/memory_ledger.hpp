@@ -7,7 +7,7 @@
 
 namespace argand {
 
-/// Bytes in use by name of allocation.
+/// Bytes in use, by name of the allocation.
 struct MemoryLedger {
     std::map<std::string, MemoryUse> by_name;
     MemoryUse total;
@@ -16,12 +16,12 @@ struct MemoryLedger {
     void freed(const std::string& name, std::uint64_t bytes);
 };
 
-/// Throws Error if a buffer of so many bytes is more than a kernel can address, or than the device
-/// has left.
+/// Throws Error if a buffer of this size exceeds the memory that a kernel can address or that the
+/// device has left.
 void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name,
                       std::uint64_t bytes);
 
-/// Throws Error: the device has not got the memory that it said it had.
+/// Throws Error: an allocation failed although the device reported enough memory.
 [[noreturn]] void fail_out_of_memory(const MemoryLedger& ledger, const std::string& name,
                                      std::uint64_t bytes);
 

@@ -22,15 +22,15 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-/// What devices there are, and why a backend that this build has offers none.
-struct Offer {
+/// All devices, and for each backend without a device the reason.
+struct DeviceList {
     std::vector<DeviceInfo> devices;
     std::map<std::string, std::string> missing;
-    std::size_t first_cuda = 0; ///< place of CUDA's first device; Vulkan's are the first
+    std::size_t first_cuda = 0; ///< index of the first CUDA device; Vulkan's devices come first
 };
 
-Offer offer() {
-    Offer result;
+DeviceList find_devices() {
+    DeviceList result;
     const auto add = [&](std::vector<DeviceInfo> devices) {
         for (DeviceInfo& device : devices) {
             device.index = static_cast<std::uint32_t>(result.devices.size());
@@ -54,11 +54,11 @@ Offer offer() {
     return result;
 }
 
-/// The chosen device among those of a backend, or of all backends if it is empty.
-const DeviceInfo& choose(const Offer& offer, const std::string& choice,
+/// The chosen device among those of a backend; of all backends if `backend` is empty.
+const DeviceInfo& choose(const DeviceList& list, const std::string& choice,
                          const std::string& backend) {
     std::vector<const DeviceInfo*> devices;
-    for (const DeviceInfo& device : offer.devices) {
+    for (const DeviceInfo& device : list.devices) {
         if (backend.empty() || device.backend == backend) {
             devices.push_back(&device);
         }
@@ -66,7 +66,7 @@ const DeviceInfo& choose(const Offer& offer, const std::string& choice,
     if (devices.empty()) {
         fail("opening a device of backend {}: {}; or try another backend, as `argand devices` "
              "lists them",
-             backend, offer.missing.at(backend));
+             backend, list.missing.at(backend));
     }
     if (choice.empty()) {
         const std::vector<std::string>& order = backend_names();
@@ -104,25 +104,27 @@ const std::vector<std::string>& backend_names() {
 }
 
 std::string why_missing(const std::string& backend) {
-    const Offer offered = offer();
-    const auto found = offered.missing.find(backend);
-    return found == offered.missing.end() ? "" : found->second;
+    const DeviceList list = find_devices();
+    const auto found = list.missing.find(backend);
+    return found == list.missing.end() ? "" : found->second;
 }
 
-std::vector<DeviceInfo> list_devices() { return offer().devices; }
+std::vector<DeviceInfo> list_devices() { return find_devices().devices; }
 
 std::unique_ptr<Device> open_device(const std::string& choice, const std::string& backend) {
-    const std::string wanted = backend.empty() ? environment("ARGAND_BACKEND") : backend;
+    const std::string chosen_backend = backend.empty() ? environment("ARGAND_BACKEND") : backend;
     const std::vector<std::string>& names = backend_names();
-    if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end()) {
-        throw UsageError(fmt::format("choosing backend '{}': this build has {}", wanted,
+    if (!chosen_backend.empty() &&
+        std::find(names.begin(), names.end(), chosen_backend) == names.end()) {
+        throw UsageError(fmt::format("choosing backend '{}': this build has {}", chosen_backend,
                                      fmt::join(names, ", ")));
     }
-    const Offer offered = offer();
-    // Who names a backend does not mean a device that the environment names of another.
+    const DeviceList list = find_devices();
+    // A caller who names a backend gets no device from the environment, which may name one of
+    // another backend.
     const bool from_environment = choice.empty() && backend.empty();
     DeviceInfo info =
-        choose(offered, from_environment ? environment("ARGAND_DEVICE") : choice, wanted);
+        choose(list, from_environment ? environment("ARGAND_DEVICE") : choice, chosen_backend);
     apply_environment(info);
     if (info.unsuitable.empty()) {
         info.unsuitable = unmet_requirement(info.limits);
@@ -136,7 +138,7 @@ std::unique_ptr<Device> open_device(const std::string& choice, const std::string
     }
 #if ARGAND_CUDA
     if (info.backend == "cuda") {
-        const auto ordinal = static_cast<int>(info.index - offered.first_cuda);
+        const auto ordinal = static_cast<int>(info.index - list.first_cuda);
         return cuda::open(std::move(info), ordinal);
     }
 #endif

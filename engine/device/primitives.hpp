@@ -6,9 +6,8 @@
 
 namespace argand {
 
-/// Sort, scan, reduce and compact as a backend's own libraries do them, in place of Argand's
-/// kernels; what each does is said where parallel/ offers it. Integers come out the same to the
-/// bit.
+/// Sort, scan, reduce and compact by a backend's own libraries instead of Argand's kernels.
+/// parallel/ documents what each does. Integer results are equal to the bit.
 class Primitives {
 public:
     Primitives() = default;
@@ -16,8 +15,8 @@ public:
     Primitives& operator=(const Primitives&) = delete;
     virtual ~Primitives() = default;
 
-    /// Keys of one or two words (low, high), with a word beside each or, if `values` is empty,
-    /// without.
+    /// Sorts keys of one or two words (low, high). Each value moves with its key; `values` may be
+    /// empty.
     virtual void sort(const Buffer& keys, const Buffer& values, const Count& count,
                       std::uint32_t bits, std::uint32_t key_words) = 0;
     virtual void scan(const Buffer& in, const Buffer& out, const Count& count, bool inclusive) = 0;

@@ -5,8 +5,8 @@
 
 namespace argand {
 
-/// Messages of the API's validation since the process began, those about devices that are closed by
-/// now, too (only if it is on: debug builds, or ARGAND_VALIDATION=1).
+/// Messages of the API's validation since the process started, including those about closed
+/// devices. Validation is on in debug builds or with ARGAND_VALIDATION=1.
 std::vector<std::string> all_validation_messages();
 
 } // namespace argand

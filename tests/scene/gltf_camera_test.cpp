@@ -110,7 +110,7 @@ TEST(FramingCamera, SeesTheWholeScene) {
         GltfBuilder builder;
         builder.add_triangles(corners);
         const Scene scene = builder.load();
-        EXPECT_TRUE(has_note(scene, "no camera: one is placed"));
+        EXPECT_TRUE(has_note(scene, "no camera: one that sees"));
         ASSERT_EQ(scene.cameras.size(), 1u);
         const Camera& camera = scene.cameras[0];
         EXPECT_FLOAT_EQ(camera.vertical_angle, 0.7853982f);

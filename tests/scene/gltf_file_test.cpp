@@ -89,7 +89,7 @@ TEST_F(GltfFile, SaysWhatIsWrongWithABuffer) {
     };
     EXPECT_THAT(problem("missing.bin"), HasSubstr("missing.bin': there is no such file"));
     directory.write("short.bin", Bytes(8, 0));
-    EXPECT_THAT(problem("short.bin"), HasSubstr("'short.bin' has 8 bytes where 36 are wanted"));
+    EXPECT_THAT(problem("short.bin"), HasSubstr("'short.bin' has 8 bytes where 36 are required"));
     EXPECT_THAT(problem("."), HasSubstr("it is a directory"));
     EXPECT_THAT(problem("/../../../../../../../../../dev/zero"), HasSubstr("cannot read"));
     EXPECT_THAT(problem("https://example.org/a.bin"), HasSubstr("neither a file nor base64 data"));
@@ -151,9 +151,9 @@ TEST_F(GltfFile, SaysWhatIsWrongWithAGlb) {
     };
     const Bytes good = one_triangle().glb();
     EXPECT_THAT(problem(Bytes(good.begin(), good.begin() + 9)),
-                HasSubstr("cut off within the 12 bytes of its header"));
+                HasSubstr("truncated within the 12 bytes of its header"));
     EXPECT_THAT(problem(Bytes(good.begin(), good.end() - 1)),
-                HasSubstr("the file is cut off: its header says"));
+                HasSubstr("the file is truncated: its header says"));
     Bytes bad = good;
     bad[4] = 1;
     EXPECT_THAT(problem(bad), HasSubstr("binary glTF of version 1"));

@@ -105,7 +105,7 @@ TEST(GltfMaterial, MaskedSurfacesAreThereOrNot) {
     builder.add_triangles({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.triangles.size(), 1u);
-    EXPECT_TRUE(has_note(scene, "1 primitive is left out, for alpha makes it invisible"));
+    EXPECT_TRUE(has_note(scene, "1 primitive is left out because alpha makes it invisible"));
 }
 
 TEST(GltfMaterial, BlendedSurfacesOfAlphaZeroAreNotThere) {
@@ -174,7 +174,7 @@ TEST(GltfMaterial, RefusesBadPhong) {
     for (const json& phong : {json(5), json::array({1, 2}), json("shiny"), json(nullptr),
                               json::object(), json{{"specular", good}}, json{{"exponent", 5}}}) {
         EXPECT_THAT(with_material(with_phong(phong)).problem(),
-                    HasSubstr("is no object with a \"specular\" and an \"exponent\""));
+                    HasSubstr("is not an object with a \"specular\" and an \"exponent\""));
     }
 }
 
@@ -266,7 +266,7 @@ TEST(GltfExtensions, AreListedAndNamedWhereNotUnderstood) {
     EXPECT_THAT(scene.extensions_used,
                 ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
     EXPECT_TRUE(
-        has_note(scene, "the extension KHR_materials_unlit is not understood and is ignored"));
+        has_note(scene, "the extension KHR_materials_unlit is not supported and is ignored"));
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
 

@@ -106,8 +106,8 @@ TEST(Summary, SaysTheSameInText) {
           "emits 1 cd/m2", "wall: Lambertian", "bulb: point, 2 candela, power 25.13",
           "sun: directional, 3 lux", "stage: spot", "cone 0 to 28.65 degrees",
           "emissive    1 triangles, area 2, power 6.283", "sky         none",
-          "main: perspective, 28.65 degrees high", "animations  1",
-          "EXT_something (not understood)", "animations are not understood yet"}) {
+          "main: perspective, 28.65 degrees high", "animations  1", "EXT_something (not supported)",
+          "animations are not supported yet"}) {
         EXPECT_THAT(text, HasSubstr(part));
     }
     EXPECT_EQ(text.back(), '\n');

@@ -10,10 +10,10 @@ namespace argand::cuda {
 
 namespace {
 
-// Runs of stages whose events are kept before they are added up.
+// Stage runs whose events are kept before collect() adds them up.
 constexpr std::size_t most_runs = 512;
-// Threads that are launched where only the device knows the count; kernels go on in strides of as
-// many.
+// Threads to launch if only the device knows the count; kernels loop over the rest with this
+// stride.
 constexpr std::uint64_t indirect_threads = 1u << 20;
 
 CudaBuffer& cuda(const Buffer& buffer) { return static_cast<CudaBuffer&>(*buffer.storage()); }
@@ -22,7 +22,7 @@ std::byte* pointer_of(const Buffer& buffer, std::uint64_t offset) {
     return static_cast<std::byte*>(cuda(buffer).pointer) + offset;
 }
 
-/// The kernel driver's version and a space, where it is told.
+/// The kernel driver's version followed by a space; empty if unknown.
 std::string driver_version() {
     std::ifstream file("/proc/driver/nvidia/version");
     for (std::string word; file >> word;) {
@@ -49,8 +49,8 @@ void check(cudaError_t result, const std::string& doing, const std::string& devi
 }
 
 CudaBuffer::~CudaBuffer() {
-    // cudaFree waits for what is under way. It fails where a kernel did, which has been said
-    // already.
+    // cudaFree waits for pending work. It fails after a kernel has failed; that failure was
+    // reported before.
     cudaSetDevice(device);
     cudaFree(pointer);
     if (allocated > 0) {
@@ -79,7 +79,7 @@ CudaDevice::~CudaDevice() {
 }
 
 void CudaDevice::make_current() const {
-    check(cudaSetDevice(ordinal_), "turning to a device", info_.name);
+    check(cudaSetDevice(ordinal_), "selecting a device", info_.name);
 }
 
 Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
@@ -90,11 +90,11 @@ Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
     storage->size = bytes;
     storage->device = ordinal_;
     storage->ledger = ledger_;
-    // Kernels read fours of 32-bit words, of buffers of no elements too.
+    // Kernels read four 32-bit words at a time, even from buffers without elements.
     const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     const cudaError_t result = cudaMalloc(&storage->pointer, rounded);
     if (result == cudaErrorMemoryAllocation) {
-        cudaGetLastError(); // this one is not for the next call to report
+        cudaGetLastError(); // clear the error so that the next call does not report it
         fail_out_of_memory(*ledger_, storage->name, bytes);
     }
     check(result, fmt::format("allocating '{}'", storage->name), info_.name);
@@ -108,7 +108,7 @@ void CudaDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const 
     check(cudaMemcpyAsync(pointer_of(to, offset), data.data(), data.size(), cudaMemcpyHostToDevice,
                           stream_),
           "uploading", info_.name);
-    wait(); // the caller may change the data next
+    wait(); // the caller may change the data after return
 }
 
 void CudaDevice::fill(const BufferView& to, std::uint32_t value) {

@@ -9,10 +9,10 @@
 
 namespace argand::cuda {
 
-/// Throws DeviceFault naming what was being done, to which device, unless the result is success.
+/// Throws DeviceFault with the activity and the device's name, unless the result is success.
 void check(cudaError_t result, const std::string& doing, const std::string& device);
 
-/// A device's memory. The device is current again when it is freed.
+/// Memory of a CUDA device. Its destructor makes that device current.
 struct CudaBuffer final : BufferStorage {
     void* pointer = nullptr;
     int device = 0;
@@ -22,14 +22,14 @@ struct CudaBuffer final : BufferStorage {
     ~CudaBuffer() override;
 };
 
-/// CUDA's devices, in its own order; empty if there is no driver. `missing`: why there are none.
+/// CUDA's devices, in CUDA's order; empty if there is no driver, with the reason in `missing`.
 /// Never throws.
 std::vector<DeviceInfo> list_devices(std::string& missing);
 
-/// Runs the kernels' twins on an NVIDIA GPU, in the order of one stream.
+/// Runs the CUDA twins of kernels on an NVIDIA GPU, in the order of one stream.
 class CudaDevice final : public Device {
 public:
-    /// `ordinal`: CUDA's number of the device.
+    /// `ordinal`: CUDA's index of the device.
     CudaDevice(DeviceInfo info, int ordinal);
     ~CudaDevice() override;
 
@@ -60,7 +60,7 @@ private:
     /// Events around one run of a stage.
     struct StageRun {
         std::size_t stage;
-        cudaEvent_t begin, end; ///< end: null if a fault came first
+        cudaEvent_t begin, end; ///< end: null if an error prevented it
     };
 
     void make_current() const;
@@ -79,10 +79,10 @@ private:
     std::vector<cudaEvent_t> idle_events_;
 };
 
-/// Opens the device at this place of list_devices().
+/// Opens the device with this index in list_devices().
 std::unique_ptr<Device> open(DeviceInfo info, int ordinal);
 
-/// Repeats a word on a stream; the call's error is left to cudaGetLastError.
+/// Fills memory with a word on a stream. cudaGetLastError reports errors.
 void fill_words(void* to, std::uint64_t count, std::uint32_t value, cudaStream_t stream);
 
 /// CUB's sort, scan, reduce and compact on a device's stream.

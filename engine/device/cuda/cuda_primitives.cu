@@ -16,7 +16,7 @@ template <class T> T* pointer_of(const Buffer& buffer) {
     return static_cast<T*>(static_cast<CudaBuffer&>(*buffer.storage()).pointer);
 }
 
-/// A sum and whether a segment begins in what it sums.
+/// A sum, and whether a segment starts within the summed elements.
 struct SegmentSum {
     uint sum;
     uint head;
@@ -126,7 +126,7 @@ public:
     }
 
 private:
-    /// CUB wants to know counts on the host: a count on the device is waited for.
+    /// CUB needs counts on the host, so this waits for a count that is on the device.
     std::uint64_t number_of(const Count& count) {
         if (!count.on_device()) {
             return count.bound;
@@ -135,7 +135,7 @@ private:
         return number < count.bound ? number : count.bound;
     }
 
-    /// Calls for the bytes of temporary storage, and again with them.
+    /// Calls `call` to get the size of the temporary storage, then again with the storage.
     template <class Call> void with_storage(const char* doing, const Call& call) {
         std::size_t bytes = 0;
         check(call(nullptr, bytes), doing, device_.info().name);

@@ -14,7 +14,7 @@ namespace argand::host {
 namespace {
 
 constexpr std::align_val_t alignment{64};
-// Invocations that a core takes at a time: neighbours, as they read the same memory.
+// Invocations that a core takes at a time; neighbours, because they read the same memory.
 constexpr std::uint64_t chunk = 64;
 
 HostBuffer& host(const Buffer& buffer) { return static_cast<HostBuffer&>(*buffer.storage()); }
@@ -50,7 +50,7 @@ DeviceInfo describe() {
     info.features.lane_serial = true;
     info.limits.memory = physical_memory();
     info.limits.storage_range = std::min(info.limits.memory, most_addressable);
-    // No kernel works in groups here.
+    // Limits of work-groups do not apply: kernels run without groups here.
     info.limits.invocations = UINT32_MAX;
     info.limits.shared_memory = UINT32_MAX;
     info.limits.storage_buffers = max_bindings;
@@ -71,7 +71,7 @@ Buffer HostDevice::allocate(std::string name, std::uint64_t bytes) {
     storage->name = std::move(name);
     storage->size = bytes;
     storage->ledger = ledger_;
-    // Kernels read fours of 32-bit words, of buffers of no elements too.
+    // Kernels read four 32-bit words at a time, even from buffers without elements.
     const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     storage->bytes = static_cast<std::byte*>(::operator new(rounded, alignment, std::nothrow));
     if (storage->bytes == nullptr) {

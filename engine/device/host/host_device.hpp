@@ -9,7 +9,7 @@
 
 namespace argand::host {
 
-/// Memory of the host, aligned to a cache line.
+/// Host memory, aligned to a cache line.
 struct HostBuffer final : BufferStorage {
     std::byte* bytes = nullptr;
     std::uint64_t allocated = 0; ///< bytes counted in the ledger
@@ -24,7 +24,8 @@ std::span<std::uint32_t> words_of(const BufferView& view);
 /// Describes the host's cores as a device.
 DeviceInfo describe();
 
-/// Runs the kernels' twins on the host's cores. Nothing is put off: what is recorded is done.
+/// Runs the C++ twins of kernels on the host's cores. Executes every command immediately instead of
+/// recording it.
 class HostDevice : public Device {
 public:
     explicit HostDevice(DeviceInfo info) : info_(std::move(info)) {}

@@ -37,7 +37,7 @@ template <class Elements, class Less> void stable_sort(Elements& elements, Less 
 #endif
 }
 
-/// Sorts by the lowest bits of keys of type Key.
+/// Sorts by the masked bits of the keys.
 template <class Key> void sort_pairs(std::span<Key> keys, std::span<uint> values, Key mask) {
     struct Pair {
         Key key;
@@ -66,7 +66,8 @@ void HostPrimitives::sort(const Buffer& keys, const Buffer& values, const Count&
                           std::uint32_t bits, std::uint32_t key_words) {
     const std::uint64_t n = number_of(count);
     if (key_words == 2) {
-        // A low word before a high one, as on all hosts that Vulkan knows, is a 64-bit word.
+        // The low word comes first: on the little-endian hosts that Vulkan supports, both words are
+        // one 64-bit integer.
         sort_pairs(elements<std::uint64_t>(keys, n), elements<uint>(values, n),
                    lowest_bits<std::uint64_t>(bits));
     } else if (values) {

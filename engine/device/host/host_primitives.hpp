@@ -4,7 +4,8 @@
 
 namespace argand::host {
 
-/// The standard library's algorithms, in libstdc++'s parallel mode where there is one.
+/// Implements the primitives by the standard library's algorithms, in libstdc++'s parallel mode
+/// where available.
 class HostPrimitives final : public Primitives {
 public:
     void sort(const Buffer& keys, const Buffer& values, const Count& count, std::uint32_t bits,

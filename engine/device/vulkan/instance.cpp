@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
-bool validation_wanted() {
+bool wants_validation() {
     const std::string wanted = environment("ARGAND_VALIDATION");
 #ifdef NDEBUG
     return wanted == "1";
@@ -45,8 +45,8 @@ bool has_instance_extension(const char* name) {
                        });
 }
 
-/// Of the whole process: an instance gives messages until it is destroyed, and there may be several
-/// in turn.
+/// Messages of the whole process. An instance may report messages until it is destroyed, and a
+/// process may create several in turn.
 ValidationLog& process_log() {
     static ValidationLog log;
     return log;
@@ -70,16 +70,15 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 
 Instance::Instance() {
     if (const std::filesystem::path cache = cache_directory(); !cache.empty()) {
-        // Mesa keeps compiled shaders in a cache of its own; beside ours they are found and cleared
-        // together.
-        std::error_code unwritable; // then Mesa keeps none
+        // Mesa has its own cache of compiled shaders. Keeping it beside ours makes both easy to
+        // find and clear.
+        std::error_code unwritable; // then Mesa caches nothing
         std::filesystem::create_directories(cache, unwritable);
         set_default_environment("MESA_SHADER_CACHE_DIR", (cache / "mesa").string());
     }
     if (volkInitialize() != VK_SUCCESS) {
         fail("starting Vulkan: no Vulkan loader was found; install libvulkan1 and a driver, for "
-             "instance "
-             "mesa-vulkan-drivers");
+             "instance mesa-vulkan-drivers");
     }
     if (volkGetInstanceVersion() < VK_API_VERSION_1_2) {
         fail("starting Vulkan: the loader supports Vulkan 1.{}, Argand needs 1.2; update it",
@@ -103,7 +102,7 @@ Instance::Instance() {
     features.pEnabledValidationFeatures = &synchronization;
     features.pNext = &messenger;
 
-    const bool validate = validation_wanted() && has_layer(validation_layer);
+    const bool validate = wants_validation() && has_layer(validation_layer);
     if (validate) {
         layers.push_back(validation_layer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

@@ -10,17 +10,17 @@
 
 namespace argand::vulkan {
 
-/// Messages of the validation layers; the debug callback appends to it.
+/// Messages of the validation layers. The debug callback appends to it.
 struct ValidationLog {
     std::mutex mutex;
     std::vector<std::string> messages;
 };
 
-/// The Vulkan loader, an instance, and validation where it is on. Shared by all devices of the
+/// The Vulkan loader, an instance, and validation if it is on. Shared by all devices of the
 /// process.
 class Instance {
 public:
-    /// Throws Error if there is no loader or no Vulkan 1.2.
+    /// Throws Error if the system has no Vulkan loader or no Vulkan 1.2.
     Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
@@ -36,17 +36,17 @@ private:
     ValidationLog validation_;
 };
 
-/// The process's instance, made at the first call and destroyed with its last user.
+/// The process's instance, created at the first call and destroyed with its last user.
 std::shared_ptr<Instance> instance();
 
-/// What a physical device is and offers, without what the environment takes away.
+/// Describes a physical device, before the environment's restrictions are applied.
 DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index);
 
 /// Names of the extensions that a physical device offers.
 std::vector<std::string> device_extensions(VkPhysicalDevice physical);
 
-/// Index of the queue family to compute on: one without graphics is not preferred, for its queues
-/// can be slower to start. UINT32_MAX if there is none.
+/// Index of the queue family for compute; UINT32_MAX if there is none. Prefers a family that also
+/// supports graphics, because the queues of others can be slower to start.
 std::uint32_t compute_queue_family(VkPhysicalDevice physical);
 
 } // namespace argand::vulkan

@@ -9,13 +9,13 @@ namespace argand::vulkan {
 
 namespace {
 
-/// Index of the memory type with the wanted properties, or with the required ones alone; UINT32_MAX
+/// Index of a memory type with the required and, if possible, the preferred properties; UINT32_MAX
 /// if there is none.
 std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed,
-                          VkMemoryPropertyFlags required, VkMemoryPropertyFlags wanted) {
+                          VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) {
     VkPhysicalDeviceMemoryProperties properties;
     vkGetPhysicalDeviceMemoryProperties(physical, &properties);
-    for (const VkMemoryPropertyFlags flags : {required | wanted, required}) {
+    for (const VkMemoryPropertyFlags flags : {required | preferred, required}) {
         for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
             if ((allowed & (1u << i)) &&
                 (properties.memoryTypes[i].propertyFlags & flags) == flags) {
@@ -50,7 +50,8 @@ VkBufferView VulkanBuffer::texels(std::uint64_t offset, std::uint64_t bytes) {
     if (!view) {
         VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
         create.buffer = buffer;
-        create.format = VK_FORMAT_R32G32B32A32_UINT; // every device has it for such buffers
+        // Every device supports this format for uniform texel buffers.
+        create.format = VK_FORMAT_R32G32B32A32_UINT;
         create.offset = offset;
         create.range = bytes / 16 * 16;
         check(vkCreateBufferView(device->handle, &create, nullptr, &view),
@@ -70,8 +71,8 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
     storage->device = device;
     storage->ledger = ledger;
 
-    // Buffers of no elements are bound too, and Vulkan has none of size 0; kernels read fours of
-    // 32-bit words.
+    // Buffers without elements are bound too, and Vulkan does not allow size 0. Kernels read four
+    // 32-bit words at a time.
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
     create.usage = kind == MemoryKind::device

@@ -11,8 +11,7 @@
 
 namespace argand::vulkan {
 
-/// Owner of the VkDevice; buffers share it, so that they may outlive the Device that allocated
-/// them.
+/// Owns the VkDevice. Buffers share it, so they may outlive the Device that allocated them.
 struct LogicalDevice {
     std::shared_ptr<Instance> instance;
     VkDevice handle = VK_NULL_HANDLE;
@@ -33,11 +32,11 @@ struct VulkanBuffer final : BufferStorage {
 
     ~VulkanBuffer() override;
 
-    /// A view of a range as rgba32ui texels, made at its first use.
+    /// A view of a range as rgba32ui texels, created on first use.
     VkBufferView texels(std::uint64_t offset, std::uint64_t bytes);
 };
 
-/// Throws Error if the device has not got the memory.
+/// Throws Error if the device lacks the memory.
 std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
                                               const std::shared_ptr<LogicalDevice>& device,
                                               const std::shared_ptr<MemoryLedger>& ledger,

@@ -23,9 +23,9 @@ std::filesystem::path cache_file_of(const VkPhysicalDeviceProperties& properties
            fmt::format("pipelines-{:x}-{:x}-{}.bin", properties.vendorID, properties.deviceID, id);
 }
 
-/// The cache is only a help: a file that cannot be read counts as empty, and drivers reject one
-/// that is not theirs.
-std::vector<std::uint8_t> read_if_there(const std::filesystem::path& file) {
+/// Returns the cache file's contents. An unreadable file counts as empty because the cache is
+/// optional; drivers reject a file that is not theirs.
+std::vector<std::uint8_t> read_if_exists(const std::filesystem::path& file) {
     try {
         return read_file(file);
     } catch (const Error&) {
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> read_if_there(const std::filesystem::path& file) {
 Pipelines::Pipelines(VkDevice device, bool push_descriptors,
                      const VkPhysicalDeviceProperties& properties)
     : device_(device), push_descriptors_(push_descriptors), cache_file_(cache_file_of(properties)) {
-    const std::vector<std::uint8_t> data = read_if_there(cache_file_);
+    const std::vector<std::uint8_t> data = read_if_exists(cache_file_);
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     create.initialDataSize = data.size();
     create.pInitialData = data.data();
@@ -70,7 +70,7 @@ void Pipelines::save() const {
         return;
     }
     data.resize(size);
-    if (data == read_if_there(cache_file_)) {
+    if (data == read_if_exists(cache_file_)) {
         return;
     }
     std::error_code ignored;
@@ -78,7 +78,7 @@ void Pipelines::save() const {
     try {
         write_atomically(cache_file_, data);
     } catch (const Error&) {
-        // The next process compiles again.
+        // The next process compiles the kernels again.
     }
 }
 

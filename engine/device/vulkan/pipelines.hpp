@@ -16,7 +16,7 @@ struct Pipeline {
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
 };
 
-/// Pipelines of a device, made at their first use and kept on disk from one process to the next.
+/// Pipelines of a device, created on first use and cached on disk between processes.
 class Pipelines {
 public:
     Pipelines(VkDevice device, bool push_descriptors, const VkPhysicalDeviceProperties& properties);
@@ -29,7 +29,7 @@ public:
 private:
     using Key = std::pair<const KernelInfo*, std::vector<std::uint32_t>>;
 
-    /// How many buffers a kernel binds, and which of them as texels (a bit each).
+    /// Number of buffers that a kernel binds, and a bit mask of those bound as texels.
     struct Slots {
         std::uint32_t count = 0;
         std::uint32_t texels = 0;

@@ -5,7 +5,7 @@
 
 namespace argand::vulkan {
 
-/// Throws an Error that says in words what the driver reported, unless the call succeeded.
+/// Throws an Error that explains the driver's result code, unless the call succeeded.
 void check(VkResult result, std::string_view doing);
 
 } // namespace argand::vulkan

@@ -9,7 +9,7 @@
 
 namespace argand::vulkan {
 
-/// Time stamps of one submission: pairs of queries, each pair belonging to a stage.
+/// Time stamp queries of one submission: pairs of queries, each pair belonging to a stage.
 struct StageQueries {
     static constexpr std::uint32_t capacity = 512;
 
@@ -18,7 +18,7 @@ struct StageQueries {
     std::uint32_t used = 0;
 };
 
-/// Sums GPU time by stage. A stage that is open when commands are submitted goes on in the next
+/// Sums GPU time by stage. A stage that is open when commands are submitted continues in the next
 /// submission.
 class StageTimer {
 public:
@@ -31,7 +31,7 @@ public:
     bool open() const { return current_ != none; }
     void stamp_begin(StageQueries& queries, VkCommandBuffer commands) const;
     void stamp_end(StageQueries& queries, VkCommandBuffer commands) const;
-    /// Adds up the queries of a submission that has finished.
+    /// Adds the queries of a completed submission to the times.
     void collect(const StageQueries& queries);
 
     const std::vector<StageTime>& times() const { return times_; }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t max_in_flight = 4;
 constexpr std::uint32_t indirect_slots = 1024;
 constexpr std::uint64_t indirect_slot_bytes = 16;
-constexpr std::uint64_t inline_upload_bytes = 65536; // the most vkCmdUpdateBuffer takes
+constexpr std::uint64_t inline_upload_bytes = 65536; // limit of vkCmdUpdateBuffer
 
 VulkanBuffer& vulkan(const Buffer& buffer) { return static_cast<VulkanBuffer&>(*buffer.storage()); }
 
@@ -42,7 +42,7 @@ VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice 
     }
     const std::vector<std::string> offered = device_extensions(physical_);
     constexpr const char* portability =
-        "VK_KHR_portability_subset"; // must be enabled where it is offered
+        "VK_KHR_portability_subset"; // must be enabled where the device offers it
     if (std::find(offered.begin(), offered.end(), portability) != offered.end()) {
         extensions.push_back(portability);
     }
@@ -107,7 +107,7 @@ void VulkanDevice::destroy(Submission& submission) {
     vkDestroyCommandPool(device_->handle, submission.command_pool, nullptr);
 }
 
-/// The command buffer that is being recorded; begins one if there is none.
+/// The current command buffer; starts one if there is none.
 VkCommandBuffer VulkanDevice::commands() {
     if (recording_) {
         return recording_->commands;
@@ -149,8 +149,8 @@ void VulkanDevice::barrier_for(std::span<const Use> uses) {
                                 VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
         constexpr VkPipelineStageFlags work =
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-        // Indirect counts are read by a stage of their own: it is waited for as well, for the next
-        // may overwrite them.
+        // A separate pipeline stage reads indirect counts. The barrier includes it because the next
+        // command may overwrite them.
         vkCmdPipelineBarrier(recording, work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                              work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &barrier, 0, nullptr,
                              0, nullptr);
@@ -201,21 +201,21 @@ void VulkanDevice::copy(const BufferView& from, const BufferView& to) {
 }
 
 VkDescriptorSet VulkanDevice::allocate_set(VkDescriptorSetLayout layout) {
-    constexpr std::uint32_t sets_a_pool = 64;
-    constexpr std::uint32_t texels_a_set = 4;
+    constexpr std::uint32_t sets_per_pool = 64;
+    constexpr std::uint32_t texels_per_set = 4;
     if (recording_->descriptor_sets_left == 0) {
         const std::array<VkDescriptorPoolSize, 2> sizes{
-            {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets_a_pool * max_bindings},
-             {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sets_a_pool * texels_a_set}}};
+            {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets_per_pool * max_bindings},
+             {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sets_per_pool * texels_per_set}}};
         VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-        create.maxSets = sets_a_pool;
+        create.maxSets = sets_per_pool;
         create.poolSizeCount = sizes.size();
         create.pPoolSizes = sizes.data();
         VkDescriptorPool pool = VK_NULL_HANDLE;
         check(vkCreateDescriptorPool(device_->handle, &create, nullptr, &pool),
               "creating a descriptor pool");
         recording_->descriptor_pools.push_back(pool);
-        recording_->descriptor_sets_left = sets_a_pool;
+        recording_->descriptor_sets_left = sets_per_pool;
     }
     VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     allocate.descriptorPool = recording_->descriptor_pools.back();
@@ -237,7 +237,8 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
     if (arguments.buffer_count > info_.limits.storage_buffers ||
         kernel.local_size[0] * kernel.local_size[1] * kernel.local_size[2] >
             info_.limits.invocations) {
-        fail("running kernel {}: it needs {} storage buffers and {} invocations a group, '{}' "
+        fail("running kernel {}: it needs {} storage buffers and {} invocations per work-group, "
+             "'{}' "
              "allows {} and {}; try "
              "another device with --device",
              kernel.name, arguments.buffer_count, kernel.local_size[0], info_.name,
@@ -394,7 +395,8 @@ void VulkanDevice::download(const Buffer& from, std::uint64_t offset, std::span<
 }
 
 void VulkanDevice::begin_stage(std::string_view name) {
-    // A submission holds so many time stamps; a long one is cut here, where nothing is open.
+    // A submission holds a fixed number of time stamps. Submit here, between stages, before they
+    // run out.
     if (recording_ && recording_->queries.used + 2 > StageQueries::capacity) {
         submit();
     }

@@ -13,7 +13,7 @@
 
 namespace argand::vulkan {
 
-/// Commands on their way to the device, and what they need until they are done.
+/// Submitted commands, with the objects that must live until they are complete.
 struct Submission {
     VkCommandPool command_pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -83,7 +83,7 @@ private:
     Buffer download_staging_;
 };
 
-/// Vulkan's devices, in its own order.
+/// Vulkan's devices, in Vulkan's order.
 std::vector<DeviceInfo> list_devices();
 
 /// Opens the device at info.index of list_devices().

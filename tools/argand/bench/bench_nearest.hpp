@@ -6,8 +6,8 @@
 
 namespace argand {
 
-/// Estimates over the k nearest photons per second, for several k, at points spread like the
-/// photons are, beside nanoflann finding the same neighbours.
+/// Benchmarks estimates over the k nearest photons, for several k, at points distributed like the
+/// photons, against nanoflann finding the same neighbours.
 std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
                                     PhotonWorkspace& workspace, const StoredPhotons& stored);
 

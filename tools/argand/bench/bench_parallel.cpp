@@ -31,14 +31,14 @@ template <class T> std::vector<T> random_data(std::size_t n) {
     return data;
 }
 
-/// What one size's measurements share.
+/// Data that all measurements of one size share.
 struct Bench {
     Device& device;
     std::size_t n;
     double copy_bytes_per_second;
     std::vector<BenchRow>& rows;
 
-    void add(const char* name, double bytes_an_item, double seconds, const char* peer,
+    void add(const char* name, double bytes_per_item, double seconds, const char* peer,
              double peer_seconds) const {
         const auto items = static_cast<double>(n);
         rows.push_back({.name = name,
@@ -46,7 +46,7 @@ struct Bench {
                         .seconds = seconds,
                         .rate = items / seconds,
                         .unit = "elements/s",
-                        .bound = copy_bytes_per_second / bytes_an_item,
+                        .bound = copy_bytes_per_second / bytes_per_item,
                         .peer = peer,
                         .peer_rate = items / peer_seconds});
     }
@@ -56,7 +56,7 @@ void nothing() {}
 
 void bench_reduce(const Bench& bench, const std::vector<std::uint32_t>& data, const Buffer& in) {
     const Buffer out = bench.device.allocate("bench: result", sizeof(std::uint32_t));
-    volatile std::uint32_t sum = 0; // so that the peer's work is not optimised away
+    volatile std::uint32_t sum = 0; // keeps the compiler from removing the peer's work
     bench.add("reduce_sum", 4,
               median_device_seconds(bench.device, nothing,
                                     [&] { reduce_sum(bench.device, in, out, 0, bench.n); }),
@@ -109,7 +109,7 @@ template <class Element> double sort_seconds(const std::vector<Element>& data) {
                                });
 }
 
-/// A pass reads the keys twice, the values once, and writes both.
+/// Each pass of a sort reads the keys twice and the values once, and writes both.
 void bench_sorts(const Bench& bench, const std::vector<std::uint32_t>& data, const Buffer& in) {
     Device& device = bench.device;
     const std::size_t n = bench.n;
@@ -144,7 +144,7 @@ void bench_sorts(const Bench& bench, const std::vector<std::uint32_t>& data, con
 std::vector<BenchRow> bench_parallel(Device& device) {
     std::vector<BenchRow> rows;
     const double copied = copy_rate(device);
-    // The largest buffer holds the 64-bit keys.
+    // The 64-bit keys need the largest buffer.
     const std::uint64_t most = device.info().limits.storage_range / sizeof(std::uint64_t);
     for (std::uint32_t log_n = 10; log_n <= 24 && std::uint64_t(1) << log_n <= most; log_n += 2) {
         const Bench bench{device, std::size_t(1) << log_n, copied, rows};

@@ -42,12 +42,13 @@ std::vector<BenchRow> bench_photons(Device& device) {
                                              });
 
     std::vector<BenchRow> rows;
-    // A photon's ray, hit, path and ledger are written and read once a bounce, and the record once.
+    // At each bounce a photon's ray, hit, path and ledger are written and read; the record is
+    // written once.
     const double bounces = 1 + stored / photons;
     const double traced_bytes = bounces * 2 * (32 + 16 + 16) + 64 + stored / photons * 32;
     rows.push_back({"photons, Cornell box", photons, traced, photons / traced, "photons/s",
                     copied / traced_bytes, "", 0});
-    // Codes and order pass through four passes of the sort, records are read and written once.
+    // Codes and order go through the four passes of the sort; records are read and written once.
     rows.push_back({"photon map", left.slots, built, stored / built, "photons/s",
                     copied / (4 * 2 * 8 + 2 * 32 + 16), "", 0});
 
@@ -55,7 +56,7 @@ std::vector<BenchRow> bench_photons(Device& device) {
         rows.push_back(std::move(row));
     }
 
-    // Of a render's stages only the device's own time stamps tell.
+    // Only the device's time stamps can time a stage of a render.
     if (!device.info().features.timestamps) {
         return rows;
     }

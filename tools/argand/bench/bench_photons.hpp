@@ -4,8 +4,8 @@
 
 namespace argand {
 
-/// Photons emitted, traced and stored per second in a Cornell box; photons sorted and built into a
-/// map; eye paths with a query of the map each; the nearest photons.
+/// Benchmarks photons in a Cornell box: tracing and storing them, sorting them into a map, eye
+/// paths with a query each, and queries for the nearest photons.
 std::vector<BenchRow> bench_photons(Device& device);
 
 } // namespace argand

@@ -14,7 +14,7 @@ namespace argand {
 
 namespace {
 
-constexpr std::uint32_t edge = 1024; // of the square picture
+constexpr std::uint32_t edge = 1024; // of the square image
 
 void nothing() {}
 
@@ -76,7 +76,7 @@ struct RayBench {
     }
 };
 
-/// One ray for each hit, in its surface's cosine-distributed directions, or towards the light.
+/// One ray per hit, in a cosine-distributed direction or towards the light.
 struct Bounces {
     BenchRays diffuse;
     BenchRays shadow;
@@ -92,7 +92,7 @@ Bounces bounce(const BenchScene& scene, const BenchRays& rays, const std::vector
         glm::vec3 origin = rays.origins[i];
         glm::vec3 direction = rays.directions[i];
         glm::vec3 to_light(0, 0, 1);
-        float end = -1; // no hit, no ray
+        float end = -1; // a miss gets no ray
         if (hits[i].triangle != no_triangle) {
             const glm::uvec4 triangle = scene.triangles[hits[i].triangle];
             const glm::vec3 a(scene.positions[triangle.x]);
@@ -135,10 +135,10 @@ std::vector<BenchRow> bench_rays(Device& device) {
         device, nothing, [&] { bvh = build_triangle_bvh(device, positions, triangles, count); });
     rows.push_back(make_row("bvh build", count, seconds, "triangles/s"));
 
-    std::vector<std::uint32_t> everyone(std::uint64_t(edge) * edge);
-    std::iota(everyone.begin(), everyone.end(), 0u);
-    RayBench bench{device, peer, bvh, make_traversal(device, everyone.size()),
-                   upload(device, "bench active", everyone)};
+    std::vector<std::uint32_t> all_rays(std::uint64_t(edge) * edge);
+    std::iota(all_rays.begin(), all_rays.end(), 0u);
+    RayBench bench{device, peer, bvh, make_traversal(device, all_rays.size()),
+                   upload(device, "bench active", all_rays)};
     device.fill(bench.traversal.unfinished, 0);
     const BenchRays primary = primary_rays(scene, edge);
     std::vector<HitRecord> hits;

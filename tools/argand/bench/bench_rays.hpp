@@ -7,8 +7,8 @@
 
 namespace argand {
 
-/// LBVH build, and primary, shadow and diffuse rays over the bench scene; beside them Embree, one
-/// ray at a time on as many threads as the machine has, where the build found it.
+/// Benchmarks the LBVH build and primary, shadow and diffuse rays in the bench scene, against
+/// Embree (if the build found it) tracing one ray at a time on all of the machine's threads.
 std::vector<BenchRow> bench_rays(Device& device);
 
 } // namespace argand

@@ -59,7 +59,7 @@ BenchScene make_bench_scene() {
         add_wall(scene, axis, room);
     }
     for (int i = 0; i < 19; ++i) {
-        // A spiral that fills the room, larger spheres below.
+        // A spiral that fills the room, with larger spheres below.
         const double angle = 2.4 * i;
         const double distance = 0.95 * std::sqrt(i + 0.3);
         const double height = -3.6 + 0.38 * i;

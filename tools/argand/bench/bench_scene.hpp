@@ -6,7 +6,7 @@
 
 namespace argand {
 
-/// What the ray benchmarks look at: a closed room with bumpy spheres, about 80,000 triangles.
+/// Scene of the ray benchmarks: a closed room with bumpy spheres, about 80,000 triangles.
 struct BenchScene {
     std::vector<glm::vec4> positions;
     std::vector<glm::uvec4> triangles;
@@ -17,7 +17,7 @@ struct BenchScene {
 
 BenchScene make_bench_scene();
 
-/// The scene's camera rays through the centres of the pixels of a square picture, in 4 x 8 tiles.
+/// Camera rays through the pixel centres of a square image, in tiles of 8 x 4 pixels.
 struct BenchRays {
     std::vector<glm::vec3> origins;
     std::vector<glm::vec3> directions;

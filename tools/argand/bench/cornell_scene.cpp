@@ -14,7 +14,7 @@ std::uint32_t add_material(Scene& scene, glm::vec3 color, glm::vec3 emission = g
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-/// A parallelogram whose front is where u × v points.
+/// A parallelogram whose front faces along u × v.
 void add_quad(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     for (const glm::vec3& position : {corner, corner + u, corner + u + v, corner + v}) {
@@ -26,7 +26,7 @@ void add_quad(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 
     scene.triangle_material.insert(scene.triangle_material.end(), 2, material);
 }
 
-/// A closed box that stands on the floor, turned around the vertical.
+/// A closed box standing on the floor, rotated around the vertical.
 void add_box(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 u, glm::vec3 v,
              float height) {
     const glm::vec3 up(0, height, 0);

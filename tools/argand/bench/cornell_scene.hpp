@@ -4,7 +4,8 @@
 
 namespace argand {
 
-/// A Cornell box of edge 2 with two boxes, all Lambertian, lit by a square under its ceiling.
+/// A Cornell box with edges of length 2 that contains two boxes. All surfaces are Lambertian; a
+/// square below the ceiling is the light.
 Scene cornell_scene();
 
 } // namespace argand

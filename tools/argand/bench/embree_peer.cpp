@@ -60,7 +60,7 @@ RTCRay make_ray(const BenchRays& rays, std::size_t i) {
     return ray;
 }
 
-/// Runs of trace(i) for all rays per second, in chunks that the threads take as they come to them.
+/// Rays per second of trace(i) over all rays; threads take chunks dynamically.
 template <class Function> double rate(std::size_t count, Function&& trace) {
     constexpr std::size_t chunk = 4096;
     const auto trace_all = [&] {

@@ -7,7 +7,7 @@
 namespace argand {
 
 /// Embree on the same scene and rays, one ray at a time, on all of the machine's threads. Rates are
-/// 0 where the build did not find it.
+/// 0 if the build did not find Embree.
 class EmbreePeer {
 public:
     explicit EmbreePeer(const BenchScene& scene);

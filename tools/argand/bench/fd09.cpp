@@ -15,7 +15,7 @@ constexpr const char* own_scenes[] = {"cornell_point", "cornell_area", "cornell_
                                       "glossy",        "spot"};
 constexpr std::uint32_t bounces = 2;
 
-/// As many as the paper emits in the scene of that name, else in its small ones.
+/// The paper's number of photons for a scene of this name, or else for its small scenes.
 std::uint64_t photons_in_paper(const std::string& name) {
     return name.starts_with("sibenik") ? 512'000 : name.starts_with("sponza") ? 256'000 : 128'000;
 }
@@ -27,7 +27,7 @@ std::vector<std::string> files(const Fd09Settings& settings) {
             const std::string file = fmt::format("assets/{}.glb", name);
             if (!std::filesystem::exists(file)) {
                 fail("measuring '{}': there is no such file here; run in the project's folder, or "
-                     "name scenes by --scene",
+                     "name scenes with --scene",
                      file);
             }
             found.push_back(file);
@@ -49,7 +49,7 @@ std::vector<std::string> fd09_parts() {
 }
 
 std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings) {
-    const auto wanted = [&](const char* part) {
+    const auto includes = [&](const char* part) {
         return settings.parts.empty() || std::find(settings.parts.begin(), settings.parts.end(),
                                                    part) != settings.parts.end();
     };
@@ -69,25 +69,25 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
         render.samples = 1;
         render.bounces = bounces;
         render.photons = settings.photons > 0 ? settings.photons : photons_in_paper(scene.name);
-        if (wanted("table1")) {
+        if (includes("table1")) {
             measure_trees(device, scene, render, settings.runs, linear, heuristic, builds);
         }
-        if (wanted("table3")) {
+        if (includes("table3")) {
             measure_radii(device, scene, render, radii);
         }
-        if (wanted("figure5")) {
+        if (includes("figure5")) {
             measure_shares(device, scene, render, settings.runs, shares);
         }
-        if (wanted("budgets")) {
+        if (includes("budgets")) {
             RenderSettings whole;
             whole.width = whole.height = settings.size;
             measure_budgets(device, scene, whole, settings.budgets, settings.reference_samples,
                             budgets);
         }
-        if (wanted("table2") || wanted("figure4")) {
+        if (includes("table2") || includes("figure4")) {
             render.width = render.height = settings.error_size;
             render.samples = 8;
-            render.query_cell = 0; // estimators are compared, so everybody asks
+            render.query_cell = 0; // every point queries the map, to compare estimators alone
             measure_errors(device, scene, render, settings.reference_samples, estimators, kernels);
         }
     }

@@ -10,20 +10,21 @@
 
 namespace argand {
 
-/// What is measured of Fabianowski and Dingliana 2009, "Interactive global photon mapping", and
-/// how.
+/// Settings of the benchmark that repeats the measurements of Fabianowski and Dingliana 2009,
+/// "Interactive global photon mapping".
 struct Fd09Settings {
-    std::vector<std::string> scenes;          ///< glTF files; none: this project's own
-    std::vector<std::string> parts;           ///< of fd09_parts(); none: all
-    int size = 256;                           ///< of the square pictures whose speed is measured
-    int error_size = 96;                      ///< of those whose error is
-    std::uint64_t photons = 0;                ///< emitted; 0: as many as in the paper
-    std::uint32_t reference_samples = 256;    ///< a pixel, of each of two references
-    std::vector<double> budgets{3.5, 11, 40}; ///< seconds in which the methods' errors are compared
+    std::vector<std::string> scenes;          ///< glTF files; empty: this project's own scenes
+    std::vector<std::string> parts;           ///< of fd09_parts(); empty: all
+    int size = 256;                           ///< edge of the square images for timing
+    int error_size = 96;                      ///< edge of the square images for errors
+    std::uint64_t photons = 0;                ///< emitted photons; 0: as many as in the paper
+    std::uint32_t reference_samples = 256;    ///< per pixel, of each of two references
+    std::vector<double> budgets{3.5, 11, 40}; ///< seconds at which errors are compared
     int runs = 7;
 };
 
-/// One column per row of the paper's kind: JSON objects with the same keys.
+/// A table of the paper, transposed for printing: each row is a JSON object, all with the same
+/// keys.
 struct PaperTable {
     std::string title;
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -31,23 +32,23 @@ struct PaperTable {
 
 std::vector<std::string> fd09_parts();
 
-/// Measures scene by scene.
+/// Measures one scene after the other.
 std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings);
 
-/// The table in Markdown, a line per key and a column per row.
+/// The table in Markdown, with a line per key and a column per row.
 std::string markdown(const PaperTable& table);
 
-// The parts; each adds what it found about a scene to its tables.
+// Each of the following adds its results for a scene to its tables.
 
-/// Table 1: rates of gathering over leaf sizes, both builds; and how long these take.
+/// Table 1: gathering rates over leaf sizes for both builds, and the build times.
 void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs,
                    PaperTable& linear, PaperTable& heuristic, PaperTable& builds);
 
-/// Table 2 and figure 4: time at equal error of the estimators and of the kernels.
+/// Table 2 and figure 4: time at equal error, of estimators and of kernels.
 void measure_errors(Device& device, const Scene& scene, const RenderSettings& render,
                     std::uint32_t reference_samples, PaperTable& estimators, PaperTable& kernels);
 
-/// The error that each method reaches in so many seconds of the clock.
+/// Error of each method after the given seconds of wall clock time.
 void measure_budgets(Device& device, const Scene& scene, RenderSettings render,
                      const std::vector<double>& budgets, std::uint32_t reference_samples,
                      PaperTable& table);
@@ -56,7 +57,7 @@ void measure_budgets(Device& device, const Scene& scene, RenderSettings render,
 void measure_radii(Device& device, const Scene& scene, const RenderSettings& render,
                    PaperTable& radii);
 
-/// Figure 5: where the time of a picture goes.
+/// Figure 5: how the time of an image divides into phases.
 void measure_shares(Device& device, const Scene& scene, const RenderSettings& render, int runs,
                     PaperTable& shares);
 

@@ -16,7 +16,7 @@ void measure_budgets(Device& device, const Scene& scene, RenderSettings settings
         for (const std::string& method : method_names()) {
             settings.method = method;
             settings.budget.reset();
-            render_all(device, scene, settings); // so that no run waits for kernels to be compiled
+            render_all(device, scene, settings); // so that no timed run compiles kernels
             settings.budget = budget;
             std::vector<double> seconds;
             double error = 0;

@@ -11,16 +11,16 @@ namespace argand {
 namespace {
 
 constexpr int runs = 3;
-constexpr double ladder[] = {0.25, 0.5, 1, 2, 4}; // photons of the methods that are compared with
+constexpr double ladder[] = {0.25, 0.5, 1, 2, 4}; // factors on the photons of the other methods
 
-/// A picture's time [s], its error, and what the map was like.
+/// Time [s] and error of an image, and statistics of its map.
 struct Point {
     double seconds = 0, error = 0;
     RenderStatistics statistics;
 };
 
-/// One more measurement of a point: medians are taken at the end, so that runs of several can be
-/// interleaved.
+/// Repeated measurements of a point. Runs of several series can be interleaved, because point()
+/// takes the median at the end.
 struct Series {
     RenderSettings settings;
     std::vector<double> seconds, errors;
@@ -45,9 +45,9 @@ struct Series {
     }
 };
 
-/// Time at which the error is as given, interpolated in logarithms between points of growing number
-/// of photons. If it is never reached or always undercut, that at the nearest end, marked as a
-/// bound.
+/// Time at which the error has the given value, interpolated logarithmically between points in
+/// order of increasing photons. If the error is never reached or always undercut, the time of the
+/// nearest end, marked as a bound.
 nlohmann::ordered_json time_at(const std::vector<Point>& points, double error) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const Point& a = points[i - 1];

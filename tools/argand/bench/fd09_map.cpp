@@ -15,7 +15,7 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
     paper.render.method = "footprints";
     paper.render.photons = std::min(render.photons, max_photons_per_pass(device));
     paper.render.photons_per_pass =
-        std::max<std::uint64_t>(paper.render.photons, 1); // one map of all
+        std::max<std::uint64_t>(paper.render.photons, 1); // one map of all photons
     paper.statistics =
         argand::render(device, scene, paper.render, [](double) { return true; }).statistics;
     if (!paper.statistics.footprint_scale || paper.statistics.photons_stored == 0) {

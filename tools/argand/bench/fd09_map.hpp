@@ -8,10 +8,10 @@
 
 namespace argand {
 
-/// The photons of a picture by the method `footprints`, and what its map is built with.
+/// Photons of an image rendered by the method `footprints`, and the settings of its map.
 struct PaperMap {
     RenderSettings render;
-    RenderStatistics statistics; ///< of the picture
+    RenderStatistics statistics; ///< of the image
     DeviceScene scene;
     PhotonWorkspace workspace;
     StoredPhotons stored;
@@ -19,17 +19,16 @@ struct PaperMap {
     EyeWorkspace eye;
 };
 
-/// Renders the picture once, which says how large footprints are, and traces its photons again, all
-/// in one pass.
+/// Renders the image once, which determines the size of footprints, and traces its photons again in
+/// one pass.
 PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSettings& render);
 
-/// A map that stays as it is when others are built from the same photons, but for its footprints'
-/// order.
+/// A map that stays valid when others are built from the same photons; only the order of its
+/// footprints changes.
 PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size);
 
-/// How long the work and all that is recorded before its end take [s]. On a device that is this
-/// machine's processor, its time on all cores, which others' work does not change much; else by the
-/// clock.
+/// Time [s] that the work and the commands recorded by it take. If the device is this machine's
+/// processor: CPU time on all cores, which other processes hardly affect; else wall clock time.
 double seconds_of(Device& device, const std::function<void()>& work);
 
 } // namespace argand

@@ -11,19 +11,19 @@ namespace argand {
 
 namespace {
 
-constexpr std::size_t bins = 21;      // of 0.05, and one for all that are larger
+constexpr std::size_t bins = 21;      // 20 of width 0.05 and one for everything larger
 constexpr double paper_largest = 0.7; // the paper's r_max, in its units
-constexpr float beyond_any = 1e6f;
+constexpr float unclamped = 1e6f;
 
 } // namespace
 
 void measure_radii(Device& device, const Scene& scene, const RenderSettings& render,
                    PaperTable& radii) {
     PaperMap paper = trace_paper_map(device, scene, render);
-    // As the differentials give them, before they are clamped.
+    // Undo the clamping, to see the sizes that the differentials give.
     FootprintScale& scale = *paper.settings.footprints;
     const double largest = scale.radius_max;
-    scale.radius_max = scale.caustic_max = beyond_any * paper.scene.record.radius;
+    scale.radius_max = scale.caustic_max = unclamped * paper.scene.record.radius;
     scale.caustic_min = scale.radius_min;
     const PhotonMap map = build(device, paper, 0);
     const auto count = download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];

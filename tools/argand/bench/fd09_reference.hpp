@@ -4,7 +4,7 @@
 
 namespace argand {
 
-/// Two pictures of the same, by path tracing, whose noise is independent.
+/// Two path-traced images of the same view with independent noise.
 struct References {
     RenderResult a, b;
 };
@@ -12,10 +12,10 @@ struct References {
 References trace_references(Device& device, const Scene& scene, RenderSettings settings,
                             std::uint32_t samples);
 
-/// relMSE of a layer, without the references' noise (image/metrics.hpp).
+/// relMSE of a layer, corrected for the references' noise (image/metrics.hpp).
 double rel_mse(const RenderResult& result, const References& references, const std::string& layer);
 
-/// To the end.
+/// Renders to the end.
 RenderResult render_all(Device& device, const Scene& scene, const RenderSettings& settings);
 
 } // namespace argand

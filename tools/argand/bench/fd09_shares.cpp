@@ -15,7 +15,7 @@ struct Phase {
     std::vector<std::string_view> stages;
 };
 
-/// Whatever is no part of the first two is rendering.
+/// All other stages count as rendering.
 const std::array<Phase, 2> phases{
     {{"tracing", {"emit photons", "trace photons", "scatter photons", "sum flux"}},
      {"building", {"sample areas", "sort photons", "build photon map"}}}};

@@ -13,18 +13,18 @@ constexpr std::uint32_t leaf_sizes[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512};
 
 struct Candidate {
     PhotonMap map;
-    std::vector<double> seconds; ///< of each run, over all queries of the picture
+    std::vector<double> seconds; ///< of each run, over all queries of the image
 };
 
-/// The time of every candidate's gathering for all of the picture's queries. Runs are interleaved:
-/// whatever else the machine does, it does to all.
+/// Times gathering for all of the image's queries with each candidate. Runs are interleaved so that
+/// other load on the machine affects all candidates alike.
 void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& candidates, int runs,
                       std::uint64_t& queries) {
     for (Candidate& candidate : candidates) {
         candidate.seconds.assign(static_cast<std::size_t>(runs), 0.0);
     }
     EyeWorkspace& eye = paper.eye;
-    // Queries go on until they are done, also where some take more steps than one dispatch allows.
+    // Resume queries until complete, even if some take more steps than one dispatch allows.
     eye.traversal.careful = true;
     const auto gather = [&](const Count& asking, std::uint32_t part) {
         const GatherTarget target = query_target(eye, part);
@@ -50,7 +50,7 @@ void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& c
                     [](double) { return true; });
 }
 
-/// Rates over leaf sizes, and how near T_auto, the last candidate, is to the best.
+/// Rates over leaf sizes, and how close T_auto, the last candidate, comes to the best.
 nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper,
                               std::span<const Candidate> candidates, std::uint64_t queries) {
     nlohmann::ordered_json row{

@@ -9,8 +9,8 @@ namespace argand {
 inline constexpr const char* nanoflann_name = "nanoflann";
 
 /// Queries per second for the k nearest points, one query at a time on all of the machine's
-/// threads: the median of several runs; 0 where the build did not find nanoflann. Building its tree
-/// does not count.
+/// threads: median of several runs, without building the tree; 0 if the build did not find
+/// nanoflann.
 double nanoflann_rate(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& queries,
                       std::uint32_t k);
 

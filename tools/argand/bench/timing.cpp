@@ -16,7 +16,7 @@ double clock_seconds() {
         .count();
 }
 
-/// Runs for a while and returns the median of what `run` returns.
+/// Median of the values that `run` returns, over several runs.
 double median_of_runs(const std::function<double()>& run) {
     run(); // warms up caches and compiles kernels
     std::vector<double> seconds;
