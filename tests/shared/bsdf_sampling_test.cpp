@@ -1,5 +1,5 @@
-// Sampling tests that invert what they sample: directions are counted in cells, whose probabilities
-// are integrals of bsdf_pdf, and mean weights are compared with integrals of bsdf_eval.
+// Compares samplers with the densities that they claim: counts sampled directions in cells, whose
+// probabilities are integrals of bsdf_pdf, and compares mean weights with integrals of bsdf_eval.
 #include "materials.hpp"
 #include "shared/random.h"
 #include "statistics.hpp"
@@ -14,10 +14,10 @@ using namespace argand::testing;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The hemisphere of wi in cells of the half vector h: rows by the share p of GGX's normals (of the
-/// roughness) that are closer to the normal, so that they are fine where the lobe is, columns by
-/// the angle around. Rows are equal in q = 1 - sqrt(1 - p), by which the density of grazing
-/// reflections stays bounded.
+/// Divides the hemisphere of wi into cells of the half vector h. Rows divide the share p of GGX
+/// normals (of this roughness) that are closer to the surface's normal, so that they are fine where
+/// the lobe is; columns divide the azimuth. Rows are equal in q = 1 - sqrt(1 - p), which bounds the
+/// density of grazing reflections.
 class Cells {
 public:
     Cells(vec3 wo, double alpha) : wo_(wo), alpha_(alpha) {}
@@ -53,7 +53,8 @@ public:
                 if (wi.z <= 0 || cosine <= 0) {
                     continue;
                 }
-                // d tan² / dq, solid angle of h by tan² and angle, solid angle of wi by that of h
+                // d tan² / dq, solid angle of h by tan² and azimuth, solid angle of wi over that of
+                // h
                 const double measure =
                     2 * alpha_ * alpha_ / (rest * rest * rest) * z * z * z / 2 * 4 * cosine;
                 integrals[cell] +=
@@ -97,7 +98,7 @@ void expect_sampling_to_match(const MaterialRecord& m, vec3 wo, uint lobes, int 
             ++counts[cells.cell_of(s.wi)];
         }
     }
-    // What is neither counted nor a smooth lobe's was reflected into the surface.
+    // Samples that are neither counted nor from a delta lobe were reflected into the surface.
     const double inside = std::accumulate(density.begin(), density.end(), 0.0);
     EXPECT_LT(inside, 1.001 - delta_probability);
     const double counted = std::accumulate(counts.begin(), counts.end(), 0.0);
@@ -132,7 +133,7 @@ TEST(BsdfSampling, DielectricFollowsItsDensity) {
     }
 }
 
-// All four lobes at once: the smooth ones take their probability from the others.
+// All four lobes at once: the delta lobes reduce the probability of the others.
 TEST(BsdfSampling, MixedMaterialsFollowTheirDensity) {
     for (const float thickness : {0.0f, 1.0f}) {
         MaterialRecord m = glossy_dielectric(0.6f);
@@ -149,7 +150,7 @@ TEST(BsdfSampling, MixedMaterialsFollowTheirDensity) {
                              60'000);
 }
 
-/// Mean weight of each lobe's samples, by its bit's place.
+/// Mean weight of each lobe's samples, indexed by the lobe's bit.
 std::array<Mean, 5> mean_weights(const MaterialRecord& m, vec3 wo, bool front, uint lobes,
                                  int samples) {
     std::array<Mean, 5> means;
@@ -163,7 +164,7 @@ std::array<Mean, 5> mean_weights(const MaterialRecord& m, vec3 wo, bool front, u
     return means;
 }
 
-// The smooth lobes' mean weights are their albedos, whatever other lobes share the samples.
+// The mean weights of delta lobes are their albedos, whichever other lobes share the samples.
 TEST(BsdfSampling, SmoothLobesKeepTheirAlbedo) {
     std::mt19937 bits(1);
     for (int i = 0; i < 300; ++i) {
@@ -182,7 +183,7 @@ TEST(BsdfSampling, SmoothLobesKeepTheirAlbedo) {
     }
 }
 
-// Splitting the lobes over two masks changes none of them.
+// Splitting the lobes into two masks changes no lobe.
 TEST(BsdfSampling, MasksPartitionTheLobes) {
     MaterialRecord m = glossy_dielectric(0.4f);
     m.metallic = 0.2f;
@@ -201,7 +202,7 @@ TEST(BsdfSampling, MasksPartitionTheLobes) {
     EXPECT_EQ(smooth[0].value() + smooth[1].value(), 0.0);
 }
 
-TEST(Furnace, WhiteLambertianMirrorAndGlassReturnAll) {
+TEST(Furnace, WhiteLambertianMirrorAndGlassReturnAllLight) {
     for (const double angle : {0.0, 30.0, 60.0, 89.0, 89.99}) {
         for (const bool front : {true, false}) {
             for (const MaterialRecord& m :
@@ -219,23 +220,23 @@ TEST(Furnace, WhiteLambertianMirrorAndGlassReturnAll) {
     }
 }
 
-TEST(Furnace, MetalNeverReturnsMoreThanAll) {
+TEST(Furnace, MetalNeverAddsLight) {
     for (const float roughness : {0.04f, 0.2f, 0.5f, 1.0f}) {
         for (const double angle : {0.0, 60.0, 85.0, 89.9}) {
             for (uint i = 0; i < 5000; ++i) {
                 BsdfSample s;
                 if (bsdf_sample(metal(vec3(1), roughness), at_angle(angle), true, LOBES_ALL,
                                 random4(14, i, 0, 0), s)) {
-                    ASSERT_LE(s.weight.x, 1.00001f); // masking only takes
+                    ASSERT_LE(s.weight.x, 1.00001f); // masking can only reduce the weight
                 }
             }
         }
     }
 }
 
-// Single scattering loses little on smooth metal. On the roughest, alpha = 1, the distribution is
-// constant, and seen from above the integral is that of cos / (1 + cos): 1 - ln 2.
-TEST(Furnace, MetalLosesWhatMaskingTakes) {
+// Single scattering loses little on smooth metal. On the roughest, with alpha = 1, the distribution
+// is constant, and the integral for wo along the normal is that of cos / (1 + cos): 1 - ln 2.
+TEST(Furnace, MetalLosesTheLightThatMaskingBlocks) {
     const auto mean_of = [](float roughness) {
         return mean_weights(metal(vec3(1), roughness), at_angle(0), true, LOBES_ALL, 40'000)[1];
     };
@@ -244,8 +245,8 @@ TEST(Furnace, MetalLosesWhatMaskingTakes) {
     EXPECT_NEAR(mean_of(1.0f).value(), 1 - std::log(2.0), 5 * mean_of(1.0f).deviation());
 }
 
-// glTF's mixing by the half vector: no more than all near the normal.
-TEST(Furnace, WhiteDielectricReturnsAboutAll) {
+// Near the normal, glTF's mixing by the half vector returns at most all light.
+TEST(Furnace, WhiteDielectricReturnsNearlyAllLight) {
     for (const float roughness : {0.0f, 0.3f, 1.0f}) {
         MaterialRecord m = white_dielectric();
         m.roughness = roughness;

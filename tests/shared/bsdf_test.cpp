@@ -7,7 +7,7 @@ namespace {
 
 using namespace argand::testing;
 
-/// What bsdf_sample gives for one choice of lobe.
+/// bsdf_sample for a given choice of lobe.
 BsdfSample sample_of(const MaterialRecord& m, vec3 wo, bool front, uint lobes, float choice,
                      bool* scattered) {
     BsdfSample s;
@@ -83,12 +83,12 @@ TEST(Bsdf, AlphaScalesAllLobesAndLetsTheRestPass) {
     }
 }
 
-TEST(Bsdf, PassingGoesStraightOnUntinted) {
+TEST(Bsdf, PassLobeGoesStraightThroughUntinted) {
     bool scattered = false;
     const MaterialRecord white = with_alpha(lambertian(vec3(1)), 0.25f);
     for (const double angle : {0.0, 60.0, 89.9999}) {
         const vec3 wo = at_angle(angle, 33);
-        // White: nothing is absorbed, so that the pass lobe has its share of all choices.
+        // On a white surface nothing is absorbed, so the pass lobe is chosen with its exact share.
         for (const float choice : {0.0f, 0.2499f, 0.2501f, 0.99999994f}) {
             const BsdfSample s = sample_of(white, wo, true, LOBES_ALL, choice, &scattered);
             ASSERT_TRUE(scattered);
@@ -108,7 +108,7 @@ TEST(Bsdf, PassingGoesStraightOnUntinted) {
     EXPECT_EQ(bsdf_lobes(with_alpha(glossy_dielectric(0.5f), 0)), LOBE_PASS);
 }
 
-TEST(Bsdf, NoLobeScattersNothing) {
+TEST(Bsdf, EmptyMaskScattersNothing) {
     BsdfSample s;
     EXPECT_FALSE(bsdf_sample(lambertian(vec3(0)), vec3(0, 0, 1), true, LOBES_ALL, vec4(0.5f), s));
     EXPECT_FALSE(bsdf_sample(white_dielectric(), vec3(0, 0, 1), true, LOBES_DELTA, vec4(0.5f), s));
@@ -143,7 +143,7 @@ TEST(Bsdf, LobesAddUp) {
     }
 }
 
-// The text of glTF's appendix B, written once more for one pair of directions.
+// The formulas of glTF's appendix B, implemented independently for one pair of directions.
 TEST(Bsdf, DielectricAgreesWithTheSpecification) {
     for (const double roughness : {0.1, 0.5, 1.0}) {
         for (const double angle : {0.0, 30.0, 80.0}) {
@@ -187,7 +187,7 @@ TEST(Bsdf, SpecularExtensionScalesTheLayer) {
     MaterialRecord m = glossy_dielectric(0);
     m.specular = 0.5f;
     m.specular_r = 2;
-    m.specular_g = 40; // f0 is cut at 1
+    m.specular_g = 40; // f0 is clamped to 1
     expect_near(bsdf_albedo(m, vec3(0, 0, 1), true, LOBE_MIRROR), glm::dvec3(0.04, 0.5, 0.02),
                 1e-6);
     const vec3 grazing = bsdf_albedo(m, at_angle(89.999), true, LOBE_MIRROR);
@@ -197,7 +197,7 @@ TEST(Bsdf, SpecularExtensionScalesTheLayer) {
     expect_near(bsdf_albedo(m, at_angle(20), true, LOBE_MIRROR), glm::dvec3(0.5), 1e-5);
 }
 
-TEST(Bsdf, ThinGlassPassesStraightOn) {
+TEST(Bsdf, ThinGlassTransmitsStraight) {
     bool scattered = false;
     const MaterialRecord m = with_color(glass(1.5f, 0), vec3(1, 0.5f, 0.25f));
     for (const double angle : {0.0, 45.0, 80.0}) {
@@ -216,7 +216,7 @@ TEST(Bsdf, ThinGlassPassesStraightOn) {
     }
 }
 
-/// Fresnel's equations by the angles.
+/// Fresnel's equations in terms of the angles.
 double fresnel_by_angles(double sine_in, double eta) {
     const double in = std::asin(sine_in);
     const double out = std::asin(sine_in / eta);
@@ -264,7 +264,7 @@ TEST(Bsdf, SolidGlassFollowsSnellAndFresnel) {
     }
 }
 
-TEST(Fresnel, AgreesWithTheAngles) {
+TEST(Fresnel, AgreesWithTheEquationsInAngles) {
     for (const double eta : {0.5, 0.8, 1.000001, 1.2, 1.5, 3.0}) {
         for (double angle = 0.5; angle < 90; angle += 0.5) {
             const double sine = std::sin(angle * 0.017453292519943295);
@@ -300,7 +300,7 @@ TEST(Fresnel, BothSidesReflectAlike) {
     }
 }
 
-TEST(Bsdf, IndexOfZeroReflectsAll) {
+TEST(Bsdf, IndexOfZeroReflectsAllLight) {
     const MaterialRecord m = glass(0, 1);
     for (const double angle : {0.0, 40.0, 89.0}) {
         EXPECT_EQ(bsdf_albedo(m, at_angle(angle), true, LOBE_MIRROR), vec3(1));
@@ -308,7 +308,7 @@ TEST(Bsdf, IndexOfZeroReflectsAll) {
     }
 }
 
-// The same text in single and in double precision, at all angles and roughnesses.
+// The same code in single and in double precision, at all angles and roughnesses.
 TEST(Bsdf, SinglePrecisionIsStable) {
     std::mt19937 bits(5);
     for (int i = 0; i < 200'000; ++i) {
@@ -319,7 +319,7 @@ TEST(Bsdf, SinglePrecisionIsStable) {
         const glm::dvec3 f_truth = truth::bsdf_eval(record_bytes(m), wo, wi, LOBES_ALL);
         const float pdf = bsdf_pdf(m, wo, wi, LOBES_ALL);
         const double pdf_truth = truth::bsdf_pdf(record_bytes(m), wo, wi, LOBES_ALL);
-        // Near the peak the half vector's rounding counts by the peak's width.
+        // Near the peak, the rounding of the half vector counts relative to the peak's width.
         const double alpha = std::max(double(m.roughness) * m.roughness, 1e-3);
         const double bound = 4e-6 + 1e-6 / alpha;
         for (int k = 0; k < 3; ++k) {
@@ -342,10 +342,10 @@ TEST(Bsdf, SinglePrecisionSamplesLikeDouble) {
         const truth::BsdfSample t = truth::bsdf_sample(record_bytes(m), wo, front, LOBES_ALL, u);
         if (!scattered || !t.scattered || s.lobe != t.lobe ||
             std::min(t.wi.z, double(s.wi.z)) < 0.01) {
-            continue; // at the very border between two lobes, or of the horizon
+            continue; // at the boundary between two lobes, or at the horizon
         }
         ++compared;
-        // Where u.z is near 1, at the rim of the normals that wo sees, their height is a small
+        // If u.z is near 1, at the rim of the normals visible from wo, their height is a small
         // difference.
         ASSERT_NEAR(glm::length(glm::dvec3(s.wi) - t.wi), 0, 4e-5 + 1e-8 / (1 - double(u.z))) << i;
         ASSERT_EQ(s.weight.x >= 0, true);

@@ -11,7 +11,7 @@ using namespace argand::testing;
 const glm::dvec3 right(0, 0, -1), up(0, 1, 0), forward(-1, 0, 0);
 constexpr int width = 64, height = 48;
 
-/// half: of the picture's height, at distance 1 (perspective) or in the scene (orthographic).
+/// half: half the image's height, at distance 1 (perspective) or in the scene (orthographic).
 CameraRecord camera(bool perspective, double half, glm::dvec3 position) {
     const glm::dvec3 across = right * (2 * half / height);
     const glm::dvec3 down = -up * (2 * half / height);
@@ -42,7 +42,7 @@ TEST(Camera, PerspectiveRaysSpanTheAngle) {
     expect_near(d, std::cos(half_angle) * forward + std::sin(half_angle) * up, 1e-6);
     camera_ray(c, 32, 48, o, d); // bottom
     expect_near(d, std::cos(half_angle) * forward - std::sin(half_angle) * up, 1e-6);
-    camera_ray(c, 64, 24, o, d); // right, where the picture's shape counts
+    camera_ray(c, 64, 24, o, d); // right, where the aspect ratio matters
     const double across = std::tan(half_angle) * width / height;
     expect_near(d, glm::normalize(forward + across * right), 1e-6);
 }

@@ -1,5 +1,5 @@
-// The shared maths on the device under test: as good as on the host, and where the device rounds as
-// IEEE 754 says, the same to the bit.
+// The shared maths on the device under test. It must be as accurate as on the host, and equal to
+// the bit if the device rounds like IEEE 754.
 #include "device_fixture.hpp"
 #include "kernels/test_elementary.hpp"
 #include "kernels/test_transport.hpp"
@@ -11,8 +11,8 @@
 namespace argand {
 namespace {
 
-/// Whether division and square root are rounded correctly; Vulkan allows them 2.5 units in the last
-/// place.
+/// Whether division and square root are correctly rounded. Vulkan allows an error of 2.5 units in
+/// the last place.
 bool rounds_exactly(const Device& device) {
     return device.info().driver.find("llvmpipe") != std::string::npos;
 }
@@ -57,8 +57,8 @@ TEST_F(SharedMaths, ElementaryFunctionsHaveAFewUlps) {
         const Values host = on_host(inputs[i]);
         const auto truth = truth_of(inputs[i]);
         for (int k = 0; k < function_count; ++k) {
-            // Near zero sine and cosine are as exact as 2 pi is; single precision's smallest is far
-            // below.
+            // Near zero, sine and cosine are as accurate as the constant 2 pi; the error is far
+            // below single precision's smallest number.
             const bool near_zero = k < 2 && std::abs(truth[k]) < 1e-6;
             worst[k] = std::max(worst[k], near_zero ? 0 : testing::ulps(values[i][k], truth[k]));
             differing[k] +=
@@ -123,7 +123,7 @@ TEST_F(SharedMaths, TransportAgreesWithTheHost) {
         }
         unlike += !like;
     }
-    EXPECT_LE(unlike, count / 1000); // a choice may fall on the other side
+    EXPECT_LE(unlike, count / 1000); // rounding may change a choice between lobes
     if (rounds_exactly(device)) {
         EXPECT_EQ(differing, 0u);
     }

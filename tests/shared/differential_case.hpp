@@ -1,5 +1,5 @@
-// Random paths of photons past mirrors and through glass, in the precision of the file that
-// includes this: what the differentials say, and what photons beside them do.
+// Random photon paths past mirrors and through glass, in the precision of the including file.
+// Compares their differentials with photons traced beside them.
 #pragma once
 
 #include "shared/light_differential.h"
@@ -11,7 +11,7 @@
 ARGAND_SHARED_BEGIN
 namespace paths {
 
-/// How the photon begins.
+/// How the photon is emitted.
 enum class Start { point, spot, directional, triangle, sky, paper, cosine, independent };
 constexpr int start_count = 8;
 constexpr real photon_count = 10000;
@@ -90,10 +90,10 @@ inline Begin begin(Start start, uint seed) {
     return b;
 }
 
-/// A triangle with smooth normals in the photon's way.
+/// A triangle with smooth normals in the photon's path.
 struct Wall {
     vec3 v0, v1, v2, n0, n1, n2;
-    real eta; // index behind over index before it; 0: a mirror
+    real eta; // index behind it over index in front; 0: a mirror
 };
 
 inline Wall wall_before(IN(Photon) p, uint seed, uint number) {
@@ -131,7 +131,7 @@ inline WallHit hit_wall(IN(Photon) p, IN(Wall) w) {
     return h;
 }
 
-/// Whether the wall refracts this photon; total reflection makes it a mirror.
+/// Whether the wall refracts this photon. Under total reflection it acts as a mirror.
 inline bool refracts(IN(Wall) w, vec3 direction, vec3 n) {
     const real cosine = -dot3(direction, n);
     return w.eta > real(0) && (w.eta - 1) * (w.eta + 1) + cosine * cosine > real(0);
@@ -151,14 +151,14 @@ inline Photon scattered(IN(WallHit) h, IN(Wall) w, vec3 direction) {
 }
 
 struct Path {
-    PhotonDifferential differential; // at the end
-    vec3 neighbour;    // the end of the photon beside it, if its own end is the origin
-    real conditioning; // the smallest cosine on the way, Snell's included
-    bool alike;        // the neighbour met the same fate
+    PhotonDifferential differential; // at the end of the path
+    vec3 neighbour;    // end of the neighbouring photon, relative to this photon's end
+    real conditioning; // smallest cosine along the path, including refracted ones
+    bool alike;        // the neighbour was reflected or refracted at the same walls
 };
 
-/// Traces photon `seed` past `walls` walls to a plane, and beside it the one that was emitted a
-/// `step` of both parameters away.
+/// Traces photon `seed` past `walls` walls to a plane, and beside it the photon that is emitted a
+/// `step` away in the two parameters.
 inline Path trace(Start start, uint seed, uint walls, vec2 step) {
     const Begin b = begin(start, seed);
     Path path;

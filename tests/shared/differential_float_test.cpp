@@ -1,4 +1,4 @@
-// Differentials in single precision against the truth, and at the ends of what may come.
+// Differentials in single precision, compared with double precision and at extreme inputs.
 #include "differential_case.hpp"
 #include "differential_oracle.hpp"
 #include "numbers.hpp"
@@ -18,7 +18,7 @@ bool finite(const PhotonDifferential& d) {
     return is_finite3(d.dp_du) && is_finite3(d.dp_dv) && is_finite3(d.dd_du) && is_finite3(d.dd_dv);
 }
 
-TEST(DifferentialFloat, IsCloseToTheTruth) {
+TEST(DifferentialFloat, IsCloseToDoublePrecision) {
     double worst = 0;
     std::vector<double> errors;
     for (int start = 0; start < paths::start_count; ++start) {
@@ -49,8 +49,7 @@ TEST(DifferentialFloat, IsCloseToTheTruth) {
     EXPECT_GT(errors.size(), 15'000u);
 }
 
-/// All of single precision's differentials stay finite and their directions bounded, whatever they
-/// meet.
+/// Every differential in single precision stays finite with bounded directions, whatever it meets.
 TEST(DifferentialFloat, ExtremesStayFinite) {
     std::mt19937 bits(3);
     const auto any_vector = [&](int low, int high) {
@@ -60,7 +59,7 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
     for (int i = 0; i < 200'000; ++i) {
         const vec3 n = paths::unit_vector(uint(i), 1);
         const Frame frame = make_frame(n);
-        // Grazing, by down to 1e-7 and less.
+        // Grazing, down to cosines of 1e-7 and less.
         const float cosine = any_magnitude(bits, -27, 0);
         const vec3 direction = glm::normalize(frame.x - n * cosine);
         const float scale = std::exp2(float(int(bits() % 41) - 20));
@@ -76,7 +75,7 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
         case 0:
             reflect_differential(d, direction, n, dn[0], dn[1]);
             break;
-        case 1: { // across total reflection, and indices close to 1
+        case 1: { // near total reflection, and indices close to 1
             const float eta = bits() % 2 == 0 ? 1 + (bits() % 2 == 0 ? 1e-7f : -1e-7f)
                                               : any_magnitude(bits, -2, 2);
             refract_differential(d, direction, n, dn[0], dn[1], eta);
@@ -108,8 +107,7 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
     }
 }
 
-// An index of 1 changes nothing.
-TEST(DifferentialFloat, NoBorderNoChange) {
+TEST(DifferentialFloat, IndexOfOneChangesNothing) {
     for (uint i = 0; i < 1000; ++i) {
         const vec3 n = paths::unit_vector(i, 1);
         const vec3 dd = paths::signed_vector(i, 2);
@@ -119,7 +117,7 @@ TEST(DifferentialFloat, NoBorderNoChange) {
     }
 }
 
-// A scene 2^20 times as small or as large has the same differentials.
+// Scaling the scene by 2^20 or 2^-20 scales the differentials likewise.
 TEST(DifferentialFloat, ScalesWithTheScene) {
     for (const float scale : {0x1p-20f, 0x1p20f}) {
         for (uint i = 0; i < 1000; ++i) {

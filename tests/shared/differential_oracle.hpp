@@ -5,8 +5,8 @@
 
 namespace argand::truth {
 
-/// Positional differentials at the end of a path of differential_case.hpp, in double precision, and
-/// its worst cosine.
+/// Positional differentials at the end of a path of differential_case.hpp in double precision, and
+/// the path's smallest cosine.
 struct PathEnd {
     glm::dvec3 dp_du, dp_dv;
     double conditioning;

@@ -1,4 +1,4 @@
-// Differentials in double precision against central differences of photons that are really traced.
+// Differentials in double precision, compared with central differences of traced photons.
 #define ARGAND_REAL_DOUBLE
 #include "differential_case.hpp"
 #include "differential_oracle.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using paths::Start;
 
-/// Distance of both differentials from central differences, relative to the longer one.
+/// Difference between both differentials and central differences, relative to the longer one.
 double finite_difference_error(Start start, uint seed, uint walls, bool& alike,
                                double& conditioning) {
     const double h = 1e-4;
@@ -86,8 +86,8 @@ MaterialRecord phong(float exponent) {
     return m;
 }
 
-// A lobe's own spread is what its sampler does to the unit square.
-TEST(Glossy, SpreadIsThatOfTheSampler) {
+// The spread of a lobe equals the stretching of the unit square by its sampler.
+TEST(Glossy, SpreadMatchesTheSampler) {
     int compared = 0;
     for (const MaterialRecord& m : {metal(0.1f), metal(0.3f), metal(0.6f), metal(1), phong(0),
                                     phong(3), phong(50), phong(1000)}) {
@@ -115,13 +115,13 @@ TEST(Glossy, SpreadIsThatOfTheSampler) {
     EXPECT_GT(compared, 1400);
 }
 
-/// v turned as the unit vector a must be turned, on the shortest way, to become b.
+/// v after the shortest rotation that takes the unit vector a to b.
 vec3 turned(vec3 a, vec3 b, vec3 v) {
     const vec3 axis = glm::cross(a, b);
     return v + glm::cross(axis, v) + glm::cross(axis, glm::cross(axis, v)) / (1 + glm::dot(a, b));
 }
 
-// What comes in is mirrored at a half vector that turns with the surface.
+// The incoming spread is mirrored at a half vector that turns with the surface.
 TEST(Glossy, IncomingSpreadIsMirroredAtTheHalfVector) {
     for (uint seed = 0; seed < 300; ++seed) {
         const vec3 normal = paths::unit_vector(seed, 1);
@@ -144,8 +144,8 @@ TEST(Glossy, IncomingSpreadIsMirroredAtTheHalfVector) {
     }
 }
 
-/// A ray through a ball of radius 1 around the origin, refracted in and out onto z = -3, or
-/// mirrored (eta 0) onto z = 4. False if it does not get there, or grazes the plane.
+/// Traces a ray through a ball of radius 1 around the origin: refracted in and out onto z = -3, or
+/// mirrored (eta 0) onto z = 4. Returns false if it does not reach the plane or grazes it.
 bool past_ball(vec3 origin, vec3 direction, double eta, vec3& end, PhotonDifferential* d) {
     const auto move = [&](double t, bool onto_ball) {
         origin += t * direction;
@@ -183,7 +183,7 @@ bool past_ball(vec3 origin, vec3 direction, double eta, vec3& end, PhotonDiffere
     return t > 0 && std::abs(direction.z) > 0.2;
 }
 
-TEST(Ball, FocusesAsTracedPhotonsDo) {
+TEST(Ball, FocusesLikeTracedPhotons) {
     for (const double eta : {0.0, 1.5, 1.33, 1.0000001, 0.9999999, 0.8, 2.4}) {
         int compared = 0;
         for (uint seed = 0; seed < 300; ++seed) {
@@ -214,8 +214,8 @@ TEST(Ball, FocusesAsTracedPhotonsDo) {
     }
 }
 
-// Re-emission onto a plane at distance t: the paper's footprints, those by cosine, and those whose
-// areas add.
+// Re-emission onto a plane at distance t: the paper's footprints, those by cosine, and those with
+// added areas.
 TEST(Reemission, FootprintOnAPlane) {
     for (uint seed = 0; seed < 200; ++seed) {
         const Frame frame = make_frame(paths::unit_vector(seed, 1));
@@ -245,7 +245,7 @@ TEST(Reemission, FootprintOnAPlane) {
                     1e-9 * size * size / cosine);
         const double sum = (area * emission_cosine + spread2 * t * t) / cosine;
         EXPECT_NEAR(footprint_at(REEMIT_INDEPENDENT, t, plane), sum, 1e-9 * sum);
-        // Where they leave the surface, both have the footprint that arrived.
+        // On the surface itself, both keep the area of the arriving footprint.
         EXPECT_NEAR(footprint_at(REEMIT_COSINE, 0, frame.z), area, 1e-9 * area);
         EXPECT_NEAR(footprint_at(REEMIT_INDEPENDENT, 0, frame.z), area, 1e-9 * area);
     }

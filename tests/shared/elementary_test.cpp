@@ -13,7 +13,7 @@ using testing::ulps;
 constexpr double pi = 3.14159265358979323846;
 constexpr int tries = 1'000'000;
 
-/// Remembers the input with the worst error.
+/// Keeps the input with the largest error.
 struct Worst {
     double error = 0;
     float x = 0, y = 0;
@@ -32,13 +32,14 @@ TEST(Elementary, SinesOfTurnsHaveAFewUlps) {
     Worst sine;
     Worst cosine;
     for (int i = 0; i < tries; ++i) {
-        // Uniform numbers as the renderer has them, and tiny ones.
+        // Uniform numbers as the renderer generates them, and tiny ones.
         const float u =
             i % 4 == 0 ? any_magnitude(bits, -60, 0) : static_cast<float>(bits() >> 8) * 0x1p-24f;
         float s = 0;
         float c = 0;
         sincos_2pi(u, s, c);
-        // The nearest quarter turn is taken off exactly, so that the truth is exact near the zeros.
+        // Subtract the nearest quarter turn exactly, so that the reference is accurate near the
+        // zeros.
         const double quarter = std::floor(4 * double(u) + 0.5);
         const double x = 2 * pi * (double(u) - 0.25 * quarter);
         const double truths[4][2] = {{std::sin(x), std::cos(x)},
@@ -71,7 +72,7 @@ TEST(Elementary, PowerHasAFewUlps) {
     for (int i = 0; i < tries; ++i) {
         float x = std::abs(any_finite(bits));
         float y = any_magnitude(bits, -10, 10) * (i % 2 == 0 ? 1.0f : -1.0f);
-        if (i % 3 == 0) { // results over all of the range
+        if (i % 3 == 0) { // results over the whole range
             x = i % 2 == 0 ? any_magnitude(bits, -1, 1) : any_magnitude(bits, -126, 127);
             y = static_cast<float>(std::uniform_real_distribution<double>(-103, 89)(bits) /
                                    std::log(double(x)));
@@ -114,7 +115,7 @@ TEST(Elementary, LogarithmAndExponentialKeepTheDigitsOfSmallNumbers) {
     EXPECT_EQ(exp_complement(-1e30f), 1.0f);
 }
 
-TEST(Elementary, FiniteIsToldByTheBits) {
+TEST(Elementary, IsFiniteTestsTheBits) {
     EXPECT_TRUE(is_finite(0.0f));
     EXPECT_TRUE(is_finite(-std::numeric_limits<float>::max()));
     EXPECT_TRUE(is_finite(std::numeric_limits<float>::denorm_min()));

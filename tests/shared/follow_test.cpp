@@ -21,7 +21,7 @@ TEST(Follow, EachLobeIsEitherFollowedOrEstimated) {
         ASSERT_EQ(followed | estimated, bsdf_lobes(m));
         ASSERT_EQ(followed & LOBE_DIFFUSE, 0u);
         ASSERT_EQ(estimated & LOBES_DELTA, 0u);
-        // A higher limit follows at least as much.
+        // A higher limit follows a superset of lobes.
         const float higher = limit + (1 - limit) * to_unit_float(bits);
         ASSERT_EQ(followed & ~followed_lobes(m, higher), 0u);
     }
@@ -42,9 +42,8 @@ TEST(Follow, GlossyLobesAreFollowedUpToTheLimit) {
     EXPECT_NE(followed_lobes(glass(1.5f, 1), 0) & LOBE_TRANSMIT, 0u);
 }
 
-// Every sequence of up to ten scatterings against the expressions of docs/design.md, "Which path is
-// whose".
-TEST(Follow, LayersAreThoseOfTheTable) {
+// Compares every sequence of up to ten scatterings with the expressions in docs/path-classes.md.
+TEST(Follow, LayersMatchThePathClasses) {
     const std::regex direct("F*S?");
     const std::regex caustic("F*SF+");
     for (int length = 0; length <= 10; ++length) {

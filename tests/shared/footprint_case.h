@@ -1,5 +1,5 @@
-// The whole way from emission to a record and a query, as one function that the host and the device
-// both run.
+// The whole chain from emission to a record and a query, as one function that host and device both
+// run.
 #ifndef ARGAND_TEST_FOOTPRINT_CASE_H
 #define ARGAND_TEST_FOOTPRINT_CASE_H
 
@@ -28,7 +28,7 @@ FN FootprintResult footprint_case(IN(LightRecord) l, uint i) {
     n = dot3(n, direction) > real(0.0) ? -n : n;
     transfer_differential(d, direction, real(0.1) + u.z, n);
     roulette_differential(d, real(0.1) + real(0.9) * u.w);
-    // A triangle around n, whose normals differ.
+    // A triangle around n with different normals at its vertices.
     Frame f = make_frame(n);
     vec3 at = f.x * real(0.3) + f.y * real(0.4);
     vec3 n1 = n + f.x * real(0.2);

@@ -1,4 +1,4 @@
-// Differentials and footprints on the device under test: as on the host.
+// Differentials and footprints on the device under test, compared with the host.
 #include "device_fixture.hpp"
 #include "footprint_case.h"
 #include "kernels/test_footprint.hpp"
@@ -51,7 +51,8 @@ TEST_F(FootprintOnDevice, AgreesWithTheHost) {
         unlike += !like;
         differing += std::memcmp(&host, &other, sizeof(FootprintResult)) != 0;
     }
-    EXPECT_LE(unlike, count / 1000); // grazing ones, whose footprints are as uncertain
+    // Grazing ones, whose footprints are equally uncertain on the host.
+    EXPECT_LE(unlike, count / 1000);
     if (device.info().driver.find("llvmpipe") != std::string::npos) {
         EXPECT_EQ(differing, 0u);
     }

@@ -1,4 +1,4 @@
-// Footprints in single precision, the only one in which they are kept; integrals in double.
+// Footprints in single precision, in which they are always stored; integrals in double.
 #include "numbers.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
@@ -20,7 +20,7 @@ vec3 any_unit(std::mt19937& bits) {
     return rounded(glm::normalize(glm::dvec3(normal(bits), normal(bits), normal(bits))));
 }
 
-/// Neither compression nor bounds.
+/// A scale without compression or clamping.
 FootprintScale plain(float flatness) {
     FootprintScale s{};
     s.spacing = 1;
@@ -32,7 +32,7 @@ FootprintScale plain(float flatness) {
     return s;
 }
 
-/// Semi-axes of a random skewed footprint: ratio of the lengths up to 30, and any angle above 5
+/// Semi-axes of a random skewed footprint: lengths in a ratio of up to 30, at any angle above 5
 /// degrees.
 PhotonDifferential any_skewed(std::mt19937& bits, vec3 normal, float scale) {
     const Frame f = make_frame(normal);
@@ -54,7 +54,7 @@ FootprintDuals stored_duals(const Footprint& f, vec3 normal) {
 
 double area_of(vec3 u, vec3 v) { return glm::length(glm::cross(glm::dvec3(u), glm::dvec3(v))); }
 
-TEST(Footprint, PaperAreaAndAxes) {
+TEST(Footprint, AreaAndAxesMatchThePaper) {
     std::mt19937 bits(1);
     for (int i = 0; i < 2000; ++i) {
         const vec3 n = any_unit(bits);
@@ -74,7 +74,7 @@ TEST(Footprint, PaperAreaAndAxes) {
     }
 }
 
-/// Integral over the plane of normal m through the photon.
+/// Integral over the plane with normal m through the photon.
 double flux_on_plane(const FootprintDuals& duals, vec3 normal, vec3 m, double reach, float flatness,
                      bool uniform_kernel) {
     const Frame f = make_frame(m);
@@ -91,7 +91,7 @@ double flux_on_plane(const FootprintDuals& duals, vec3 normal, vec3 m, double re
     return sum * cell * cell;
 }
 
-// On its own plane and on any other, from what the map keeps.
+// On its own plane and on any other, from the stored footprint.
 TEST(Footprint, FluxIsConservedOnPlanes) {
     std::mt19937 bits(2);
     for (int i = 0; i < 60; ++i) {
@@ -103,8 +103,8 @@ TEST(Footprint, FluxIsConservedOnPlanes) {
         const Footprint f = make_footprint(d, n, true, plain(flatness));
         const FootprintDuals duals = stored_duals(f, n);
         const vec3 m = i % 2 == 0 ? n : glm::normalize(n + 0.9f * any_unit(bits));
-        // The cut's two half-axes within the tangent plane and the ellipsoid's size bound its
-        // reach.
+        // The intersection's half-axes in the tangent plane and the ellipsoid's size bound its
+        // extent.
         const double reach = glm::length(glm::dvec3(f.u)) + glm::length(glm::dvec3(f.v)) +
                              glm::length(glm::dvec3(f.w));
         const double thin = area_of(f.u, f.v) / (glm::length(f.u) + glm::length(f.v));
@@ -116,7 +116,7 @@ TEST(Footprint, FluxIsConservedOnPlanes) {
     }
 }
 
-TEST(Footprint, EndsWithTheEllipsoid) {
+TEST(Footprint, IsZeroOutsideTheEllipsoid) {
     std::mt19937 bits(3);
     for (int i = 0; i < 2000; ++i) {
         const vec3 n = any_unit(bits);
@@ -127,7 +127,7 @@ TEST(Footprint, EndsWithTheEllipsoid) {
             s.x * glm::dvec3(f.u) + s.y * glm::dvec3(f.v) + s.z * glm::dvec3(f.w);
         EXPECT_GT(footprint_weight(duals, n, n, vec3(0.99 * rim), 0.3f, true), 0.0f);
         EXPECT_EQ(footprint_weight(duals, n, n, vec3(1.01 * rim), 0.3f, true), 0.0f);
-        // Epanechnikov's falls to nothing there, and is twice the uniform one in the centre.
+        // Epanechnikov's kernel falls to 0 there, and is twice the uniform one in the centre.
         const float center = footprint_weight(duals, n, n, vec3(0), 0.3f, true);
         EXPECT_NEAR(footprint_weight(duals, n, n, vec3(0), 0.3f, false), 2 * center, 1e-5 * center);
         EXPECT_LT(footprint_weight(duals, n, n, vec3(0.99 * rim), 0.3f, false), 0.06f * center);
@@ -142,7 +142,8 @@ TEST(Footprint, BoxContainsTheEllipsoidTightly) {
         const Footprint f = make_footprint(any_skewed(bits, n, scale), n, true, plain(0.3f));
         const vec3 extent = footprint_extent(f);
         for (int axis = 0; axis < 3; ++axis) {
-            // The ellipsoid reaches furthest along an axis where (s.u, s.v, s.w) is along that row.
+            // The ellipsoid's extreme point along an axis is where (s.u, s.v, s.w) is parallel to
+            // that row.
             const glm::dvec3 row(f.u[axis], f.v[axis], f.w[axis]);
             const double reach = glm::length(row);
             EXPECT_NEAR(extent[axis], reach, 1e-6 * reach);
@@ -152,8 +153,8 @@ TEST(Footprint, BoxContainsTheEllipsoidTightly) {
             const vec3 point = s.x * f.u + s.y * f.v + s.z * f.w;
             EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(point), extent * 1.000001f)));
         }
-        // The box of what the map keeps is nearly that of what was made, and nothing reaches beyond
-        // it.
+        // The bounding box of the stored footprint is almost that of the original one, and contains
+        // all of it.
         const FootprintDuals duals = stored_duals(f, n);
         const vec3 normal = unpack_photon_normal(pack_photon_normal(n, true));
         const vec3 kept = footprint_extent(footprint_of_duals(duals, normal, 0.3f));
@@ -168,7 +169,7 @@ TEST(Footprint, BoxContainsTheEllipsoidTightly) {
     }
 }
 
-// 16 bits of each dual axis' components: what they do to distances and to the area.
+// Effect of the 16-bit components of dual axes on distances and on the area.
 TEST(Footprint, PackingKeepsTheEllipse) {
     std::mt19937 bits(5);
     double worst_area = 0;
@@ -221,7 +222,7 @@ TEST(Footprint, DegenerateDifferentialsHaveFootprints) {
                 break;
             case 6:
                 d.dp_du = n * length;
-                break; // nothing of it in the plane
+                break; // nothing lies in the plane
             default:
                 break;
             }
@@ -241,7 +242,7 @@ TEST(Footprint, DegenerateDifferentialsHaveFootprints) {
     }
 }
 
-// Radii of the paper's formula: s Δ |∂p|^(1/4), with |∂p| and s in its scene's units.
+// Radii by the paper's formula: s Δ |∂p|^(1/4), with |∂p| and s in the units of its scene.
 TEST(FootprintScaling, FollowsThePaper) {
     const double photons = 256'000;
     const double spacing = 2 * std::sqrt(pi / photons);
@@ -263,14 +264,15 @@ TEST(FootprintScaling, FollowsThePaper) {
     }
 }
 
-// By default radii fall as photons^-1/6; at the reference count the exponent does not matter.
+// By default radii shrink as photons^-1/6. At the reference count the exponent does not matter.
 TEST(FootprintScaling, ShrinksWithTheExponent) {
     const auto radius = [](double photons, double exponent, bool caustic) {
         const FootprintScale s =
             make_footprint_scale(float(photons), 1e5f, 1, 3, 5, 10, 0.3f, float(exponent));
         PhotonDifferential d = no_differential();
         const float size =
-            0.7f * float(2 * std::sqrt(pi / photons)); // as the differentials of emission fall
+            // Proportional to the differentials of emission.
+            0.7f * float(2 * std::sqrt(pi / photons));
         d.dp_du = vec3(size, 0, 0);
         d.dp_dv = vec3(0, size, 0);
         return double(make_footprint(d, vec3(0, 0, 1), caustic, s).u.x);
@@ -284,8 +286,8 @@ TEST(FootprintScaling, ShrinksWithTheExponent) {
     }
 }
 
-// Everything scales with the scene.
-TEST(FootprintScaling, IsThatOfTheScene) {
+// Footprints scale with the scene.
+TEST(FootprintScaling, ScalesWithTheScene) {
     std::mt19937 bits(7);
     for (const float factor : {1e-6f, 1e-3f, 1e3f, 1e6f}) {
         const FootprintScale one = make_footprint_scale(1e6f, 1e5f, 1, 3, 5, 0.1f, 0.3f, 1.0f / 6);

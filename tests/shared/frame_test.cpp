@@ -43,7 +43,7 @@ TEST(Frame, IsOrthonormalAroundAnyVector) {
     std::mt19937 bits(1);
     for (int i = 0; i < 20'000; ++i) {
         expect_orthonormal(any_unit(bits));
-        // Beside the poles, where other constructions fail.
+        // Near the poles, where other constructions fail.
         const double tiny = std::exp2(-double(bits() % 40));
         expect_orthonormal(unit_of(tiny, -tiny, i % 2 == 0 ? 1 : -1));
     }
@@ -54,7 +54,7 @@ TEST(Frame, IsOrthonormalAroundAnyVector) {
     }
 }
 
-TEST(Frame, ThereAndBack) {
+TEST(Frame, ToLocalInvertsToWorld) {
     std::mt19937 bits(2);
     for (int i = 0; i < 10'000; ++i) {
         const Frame f = make_frame(any_unit(bits));
@@ -66,7 +66,7 @@ TEST(Frame, ThereAndBack) {
     }
 }
 
-/// Cells of equal probability: of a coordinate (by its distribution function, in [0,1]) and an
+/// Cells of equal probability: a coordinate (by its distribution function, in [0,1]) times an
 /// angle.
 class Histogram {
 public:
@@ -138,8 +138,8 @@ TEST(Sampling, TrianglePointsAreUniform) {
     for (std::uint32_t i = 0; i < 100'000; ++i) {
         const vec4 u = random4(5, i, 0, 0);
         const vec2 b = sample_triangle(vec2(u.x, u.y));
-        // The triangle cut in 8 × 8 small ones of equal area: the strip, and within it the small
-        // triangle.
+        // The triangle divided into 8 × 8 small ones of equal area: find the strip, then the small
+        // triangle in it.
         const auto row = std::min(7, static_cast<int>(b.x * 8));
         const double along = b.y * 8;
         const auto column = std::min(7 - row, static_cast<int>(along));
@@ -160,7 +160,7 @@ TEST(PackedUnit, ErrorIsBounded) {
         worst = std::max(worst, std::sqrt(dot_double(c, c)));
     }
     EXPECT_LT(worst, 6.5e-5);
-    EXPECT_GT(worst, 2e-5); // the bound is not idle
+    EXPECT_GT(worst, 2e-5); // the bound is tight
 }
 
 TEST(PackedUnit, AxesAreExact) {
@@ -170,17 +170,17 @@ TEST(PackedUnit, AxesAreExact) {
     }
 }
 
-TEST(PackedUnit, EveryCodeIsAUnitVectorThatPacksToItsEqual) {
+TEST(PackedUnit, EveryCodeUnpacksToAUnitVectorThatPacksToItsEqual) {
     std::mt19937 bits(5);
     for (int i = 0; i < 500'000; ++i) {
         std::uint32_t code = bits();
         code = i % 4 == 0 ? code & 0xffff0000u
-                          : code; // the least coordinate, beyond the square by one
+                          : code; // the lowest coordinate, one step outside the square
         const vec3 v = unpack_unit(code);
         ASSERT_NEAR(dot_double(v, v), 1, 1e-6) << code;
         const vec3 again = unpack_unit(pack_unit(v));
         ASSERT_NEAR(dot_double(v - again, v - again), 0, 1e-8)
-            << code; // on the seams two codes are one vector
+            << code; // on the seams two codes mean the same vector
     }
 }
 

@@ -1,4 +1,5 @@
-// Differentials of emitted photons against what light_emit really does, in double precision.
+// Differentials of emitted photons, compared with finite differences of light_emit in double
+// precision.
 #define ARGAND_REAL_DOUBLE
 #include "differential_case.hpp"
 #include "stretch.hpp"
@@ -13,7 +14,7 @@ using paths::Start;
 
 const double n = paths::photon_count;
 
-/// What light_emit gives for these numbers.
+/// Result of light_emit for these random numbers.
 struct Emitted {
     vec3 origin, direction, normal;
 };
@@ -24,7 +25,7 @@ Emitted emitted(const LightRecord& l, vec4 u, vec4 v) {
     return e;
 }
 
-/// Numbers away from the seams of the samplers.
+/// Whether the numbers are away from the samplers' seams.
 bool smooth_there(vec4 u) {
     const double a = std::abs(2 * u.z - 1);
     const double b = std::abs(2 * u.w - 1);
@@ -35,7 +36,7 @@ bool smooth_there(vec4 u) {
            std::max(a, b) > 1e-3 && std::max(c, d) > 1e-3;
 }
 
-TEST(Emission, SpacingIsThatOfTheSamplers) {
+TEST(Emission, SpacingMatchesTheSamplers) {
     int compared = 0;
     for (uint seed = 0; seed < 500; ++seed) {
         const vec4 u(random4(51, seed, 0, 0));
@@ -63,7 +64,7 @@ TEST(Emission, SpacingIsThatOfTheSamplers) {
             }
             if (start == Start::sky) {
                 directions /=
-                    4; // docs/methods/footprints.md: the share of the spread that directions get
+                    4; // share of the spread that directions get: docs/methods/footprints.md
             }
             EXPECT_NEAR(area_of(d.dp_du, d.dp_dv), positions, 1e-5 * positions)
                 << int(start) << " " << seed;
@@ -74,7 +75,7 @@ TEST(Emission, SpacingIsThatOfTheSamplers) {
     EXPECT_GT(compared, 400);
 }
 
-// Eq. 8: both axes of the point light, not only their area.
+// Eq. 8: both axes of the point light, beyond their area.
 TEST(Emission, PointLightFollowsThePaper) {
     const LightRecord l = paths::some_light(Start::point, 1);
     for (uint seed = 0; seed < 200; ++seed) {
@@ -95,7 +96,7 @@ TEST(Emission, PointLightFollowsThePaper) {
     }
 }
 
-// On the ramp of a spot's falloff the largest of three numbers decides, of density 3 m².
+// On the ramp of a spot's falloff, the largest of three numbers decides; its density is 3 m².
 TEST(Emission, SpotsFollowTheirFalloff) {
     const LightRecord l = paths::some_light(Start::spot, 3);
     double ramp, ramp_share;
@@ -118,9 +119,9 @@ TEST(Emission, SpotsFollowTheirFalloff) {
     }
 }
 
-/// Mean over the photons that reach a patch of z = 0 around the origin of their parallelogram's
-/// area, times their number per area; for footprints, whose axes are half as long as their
-/// ellipses, the same times pi.
+/// Mean, over the photons that reach a patch of z = 0 around the origin, of the area of their
+/// parallelogram, times the photons per area. For footprints, whose semi-axes are the
+/// differentials, the same times pi.
 double area_times_density(const LightRecord& l, double half_width, uint photons) {
     const double radius = 2;
     double sum = 0;
@@ -155,14 +156,14 @@ TEST(Emission, AreaTimesDensityIsOne) {
     EXPECT_NEAR(area_times_density(l, 0.2, 400'000), 1, 0.03);
     l.kind = light_directional;
     EXPECT_NEAR(area_times_density(l, 0.2, 400'000), 1, 0.03);
-    // The sky's is split between position and direction so that it holds in the middle of the
-    // scene.
+    // The sky's spread is split between position and direction so that this holds in the centre of
+    // the scene.
     l.kind = light_sky;
     EXPECT_NEAR(area_times_density(l, 0.2, 1'000'000), 1, 0.03);
 }
 
-// Emitters: per photon exact on the axis of a disc. On the mean, the tail of slanted photons adds
-// to that the positions' own share, which is noticed closer than about two diameters
+// Emitters: exact for each photon on the axis of a disc. The mean also contains the positions' own
+// share, from the tail of slanted photons, which is noticeable within about two diameters
 // (docs/methods/footprints.md).
 TEST(Emission, AreaTimesDensityOfAnEmitter) {
     LightRecord l{};

@@ -56,7 +56,7 @@ TEST(LightEmission, EveryPhotonCarriesTheLightsPower) {
     }
 }
 
-// Photons through a patch of the floor carry as much as light samples towards it say.
+// Photons through a patch of the floor carry the flux that light samples from the patch predict.
 TEST(LightEmission, AgreesWithLightSamples) {
     const float z = 1;
     const float low = 0.2f;
@@ -93,7 +93,8 @@ TEST(LightEmission, SpotsFollowTheirFalloff) {
         const LightRecord l = spot_light(vec3(0), axis, color, inner, outer);
         const double cos_outer = l.cos_outer;
         const double ramp = std::max(double(l.cos_inner) - cos_outer, 0.001);
-        const auto integral_to = [&](double c) { // of the falloff from the outer cone on
+        // Of the falloff, from the outer cone's cosine up to c.
+        const auto integral_to = [&](double c) {
             const double x = std::min(c - cos_outer, ramp) / ramp;
             return ramp * x * x * x / 3 + std::max(c - cos_outer - ramp, 0.0);
         };
@@ -102,7 +103,7 @@ TEST(LightEmission, SpotsFollowTheirFalloff) {
         std::vector<double> around(32);
         for (uint i = 0; i < 50'000; ++i) {
             const vec3 d = to_local(f, photon_of(l, i).direction);
-            // 1 - cos by the sine, which keeps the digits of narrow cones.
+            // 1 - cos from the sine, which keeps the digits of narrow cones.
             const double sine2 = double(d.x) * d.x + double(d.y) * d.y;
             const double cosine = 1 - sine2 / (1 + std::sqrt(std::max(1 - sine2, 0.0)));
             ASSERT_GE(cosine, cos_outer - 3e-7);
@@ -116,7 +117,7 @@ TEST(LightEmission, SpotsFollowTheirFalloff) {
     }
 }
 
-TEST(LightEmission, TrianglesEmitByTheCosineFromAllOfTheirArea) {
+TEST(LightEmission, TrianglesEmitByTheCosineFromTheirWholeArea) {
     for (const bool double_sided : {false, true}) {
         const LightRecord l = slanted_triangle(double_sided);
         float area = 0;
@@ -131,7 +132,7 @@ TEST(LightEmission, TrianglesEmitByTheCosineFromAllOfTheirArea) {
             ++counts[std::min<std::size_t>(31, static_cast<std::size_t>(cosine * cosine * 32))];
             front += dot3(p.normal, n) > 0;
             centroid.add(p.origin.x);
-            // On the side it is sent to, and hardly off the surface.
+            // On the side to which it is emitted, and barely off the surface.
             const double height = glm::dot(glm::dvec3(p.origin) - glm::dvec3(light_position(l)),
                                            glm::dvec3(p.normal));
             ASSERT_GT(height, 0.0);
@@ -147,7 +148,7 @@ TEST(LightEmission, TrianglesEmitByTheCosineFromAllOfTheirArea) {
     }
 }
 
-// Parallel light covers the bounding sphere and starts outside of it.
+// Parallel light covers the bounding sphere and starts outside it.
 TEST(LightEmission, DiscsCoverTheScene) {
     for (const LightRecord& l :
          {directional_light(glm::normalize(vec3(1, -2, 3)), color), light(light_sky, color)}) {

@@ -59,7 +59,7 @@ inline LightRecord triangle_light(vec3 a, vec3 b, vec3 c, vec3 radiance, bool do
     return l;
 }
 
-/// As kernels call them that know nothing of the scene's lights.
+/// Overloads for any kind of light, like kernels that are not specialised to a scene's lights.
 inline bool light_sample(const LightRecord& l, vec3 p, vec2 u, LightSample& s) {
     return argand::light_sample(l, all_light_kinds, p, u, s);
 }

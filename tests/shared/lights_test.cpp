@@ -76,7 +76,7 @@ TEST(LightSample, PointLightFollowsTheInverseSquare) {
     LightSample s;
     EXPECT_FALSE(light_sample(point_light(vec3(1), color), vec3(1), vec2(0.5f), s));
     EXPECT_FALSE(light_sample(point_light(vec3(1e-25f), color), vec3(0), vec2(0.5f),
-                              s)); // brighter than any number
+                              s)); // brighter than the largest number
 }
 
 TEST(LightSample, SpotAndDirectionalLights) {
@@ -98,7 +98,7 @@ TEST(LightSample, SpotAndDirectionalLights) {
     EXPECT_EQ(sun.distance, far_away);
 }
 
-/// Irradiance that a polygon of radiance 1, wholly above the surface, sends to p (Lambert 1760).
+/// Irradiance at p from a polygon of radiance 1 that lies wholly above the surface (Lambert 1760).
 double polygon_irradiance(const std::vector<glm::dvec3>& polygon, glm::dvec3 p, glm::dvec3 normal) {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -129,8 +129,8 @@ TEST(LightSample, TriangleGivesLambertsIrradiance) {
                 irradiance.add(double(s.radiance.y) * s.wi.z);
                 ASSERT_FALSE(s.delta);
                 ASSERT_NEAR(s.radiance.y * s.pdf, color.y, 1e-5);
-                // As the only light it is always chosen. The distance is short of the light by some
-                // roundings.
+                // As the only light it is always chosen. The distance is a few roundings short of
+                // the light.
                 const float weight = light_weight_of_emitter(color) * light_sides(l) * area;
                 const float cosine = std::abs(dot3(s.wi, normal));
                 ASSERT_NEAR(emitter_density(color, light_sides(l), weight, s.distance, cosine),
@@ -144,8 +144,8 @@ TEST(LightSample, TriangleGivesLambertsIrradiance) {
     }
 }
 
-// The share of directions in which a triangle is seen: 1 / pdf, averaged.
-TEST(LightSample, DensityOfTheTriangleIsThatOfItsSolidAngle) {
+// The mean of 1 / pdf is the solid angle of the triangle.
+TEST(LightSample, TriangleDensityMatchesItsSolidAngle) {
     const LightRecord l = triangle_light(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), color, true);
     Mean solid_angle;
     for (uint i = 0; i < 40'000; ++i) {
@@ -177,8 +177,8 @@ TEST(LightSample, DegenerateAndEdgeOnTrianglesAreDark) {
                               vec2(0.5f), s));
 }
 
-// The way to the sampled point is free of the emitter itself, and all but the last millionth of it
-// is watched: at any scale, from any point, in front of walls too.
+// The segment to the sampled point does not hit the emitter itself, and covers all but the last
+// millionth of the distance: at any scale, from any point, and in front of walls too.
 TEST(LightSample, ShadowRaysEndJustBeforeTheEmitter) {
     std::mt19937 bits(1);
     std::normal_distribution<float> normal;

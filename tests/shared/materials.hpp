@@ -9,7 +9,7 @@
 
 namespace argand::testing {
 
-/// glTF's default, but white, rough and not metallic.
+/// glTF's default material, but rough and not metallic.
 inline MaterialRecord white_dielectric() {
     MaterialRecord m{};
     m.base_r = m.base_g = m.base_b = 1;
@@ -100,10 +100,10 @@ inline MaterialRecord any_material(std::mt19937& bits) {
     return m;
 }
 
-/// A number of the renderer's streams.
+/// A number as the renderer's random streams produce it.
 inline float to_unit_float(std::mt19937& bits) { return float(bits() >> 8) * 0x1p-24f; }
 
-/// At an angle [degrees] from the normal.
+/// A direction at an angle [degrees] to the normal.
 inline vec3 at_angle(double degrees, double around = 0) {
     const double theta = degrees * 0.017453292519943295;
     const double phi = around * 0.017453292519943295;
@@ -111,7 +111,7 @@ inline vec3 at_angle(double degrees, double around = 0) {
         {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
 }
 
-/// Above the surface; every fourth grazes it.
+/// A direction above the surface; every fourth is grazing.
 inline vec3 any_upper(std::mt19937& bits) {
     std::normal_distribution<double> normal;
     glm::dvec3 v(normal(bits), normal(bits), std::abs(normal(bits)) + 1e-9);

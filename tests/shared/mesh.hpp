@@ -16,8 +16,8 @@ struct Mesh {
     std::vector<std::array<int, 3>> triangles;
 };
 
-/// A closed surface around the origin, star-shaped as seen from there: an octahedron whose faces
-/// are cut in four `cuts` times, with the vertices' distances from the origin random in [1, 1 +
+/// A closed surface around the origin that is star-shaped from there: an octahedron whose faces are
+/// divided into four `cuts` times, with random distances of the vertices from the origin in [1, 1 +
 /// bumps].
 inline Mesh closed_mesh(int cuts, float bumps, std::mt19937& bits) {
     Mesh mesh;

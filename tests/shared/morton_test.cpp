@@ -9,7 +9,7 @@ namespace {
 const float nan = std::numeric_limits<float>::quiet_NaN();
 const float infinity = std::numeric_limits<float>::infinity();
 
-/// Bit by bit.
+/// Reference implementation, bit by bit.
 std::uint64_t interleaved(std::uint64_t x, std::uint64_t y, std::uint64_t z, int bits) {
     std::uint64_t code = 0;
     for (int bit = bits - 1; bit >= 0; --bit) {
@@ -54,7 +54,7 @@ TEST(Morton, CellsAreMonotonic) {
     }
 }
 
-TEST(Morton, AnythingGivesACodeInRange) {
+TEST(Morton, AnyInputGivesACodeInRange) {
     const vec3 low(-1);
     const vec3 high(1);
     for (const float x : {nan, infinity, -infinity, 3e38f, -3e38f, 2.0f, -2.0f}) {
@@ -64,15 +64,15 @@ TEST(Morton, AnythingGivesACodeInRange) {
     EXPECT_EQ(morton30(vec3(-infinity), low, high), 0u);
     EXPECT_EQ(morton30(vec3(infinity), low, high), (1u << 30) - 1);
     EXPECT_EQ(morton30(vec3(5), low, high), (1u << 30) - 1);
-    // No extent, inside out, or not numbers.
+    // Empty extent, inverted bounds, or NaN.
     EXPECT_EQ(morton30(vec3(1), vec3(1), vec3(1)), 0u);
     EXPECT_EQ(morton30(vec3(0), vec3(1), vec3(-1)), 0u);
     EXPECT_EQ(morton30(vec3(0), vec3(nan), vec3(1)), 0u);
     EXPECT_EQ(morton30(vec3(0), vec3(-1), vec3(nan)), 0u);
-    // One flat axis does not disturb the others.
+    // A flat axis does not affect the others.
     EXPECT_EQ(morton30(vec3(1, 0, 1), vec3(-1, 0, -1), vec3(1, 0, 1)),
               interleaved(1023, 0, 1023, 10));
-    // An extent beyond the largest number.
+    // An extent that overflows single precision.
     EXPECT_EQ(morton_cell(0.0f, -3e38f, 3e38f, 1024.0f), 512u);
     EXPECT_EQ(morton_cell(3e38f, -3e38f, 3e38f, 1024.0f), 1023u);
 }
@@ -87,8 +87,8 @@ TEST(Morton, LeadingZerosAreCounted) {
     }
 }
 
-TEST(Morton, DistancesAreTheHighestBitThatDiffers) {
-    // Codes of 32 bits are the high word; equal codes are told apart by their places.
+TEST(Morton, DistanceIsTheHighestDifferingBit) {
+    // 30-bit codes are in the high word. Places tell equal codes apart.
     EXPECT_EQ(code_distance({0, 0x80000000u}, 3, {0, 0x80000001u}, 3), 64u);
     EXPECT_EQ(code_distance({0, 0x80000000u}, 3, {0, 0}, 4), 95u);
     EXPECT_EQ(code_distance({7, 5}, 3, {6, 5}, 4), 32u);
@@ -98,7 +98,7 @@ TEST(Morton, DistancesAreTheHighestBitThatDiffers) {
     EXPECT_LT(code_distance({0, 0x80000000u}, 3, {0, 0}, 4), no_neighbour);
 }
 
-TEST(Morton, WideCodesHave21BitsAnAxis) {
+TEST(Morton, Codes63Have21BitsPerAxis) {
     std::mt19937 bits(5);
     for (int i = 0; i < 10'000; ++i) {
         const uint x = uint(bits()) & 0x1fffffu;

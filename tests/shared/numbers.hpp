@@ -9,9 +9,8 @@
 
 namespace argand::testing {
 
-/// Distance of `value` from the truth in units in the last place of the truth, rounded to single
-/// precision's exponent; units of the smallest subnormal below the normal numbers. 0 if both are
-/// the same infinity or NaN.
+/// Error of `value` in units in the last place of the truth at single precision; below the normal
+/// numbers, in units of the smallest subnormal. 0 if both are the same infinity or NaN.
 inline double ulps(float value, double truth) {
     if (std::isnan(truth) || std::isnan(value)) {
         return std::isnan(truth) && std::isnan(value) ? 0 : std::numeric_limits<double>::infinity();
@@ -26,8 +25,8 @@ inline double ulps(float value, double truth) {
     return std::abs(double(value) - truth) / unit;
 }
 
-/// The nearest numbers of single precision. By way of memory: GCC 12's vectoriser takes a pair of
-/// numbers from double to float and back to double without rounding them.
+/// Rounds to single precision, through memory: GCC 12's vectoriser converts pairs of numbers from
+/// double to float and back without rounding them.
 inline glm::vec3 rounded(glm::dvec3 v) {
     volatile float x = static_cast<float>(v.x);
     volatile float y = static_cast<float>(v.y);
@@ -35,7 +34,7 @@ inline glm::vec3 rounded(glm::dvec3 v) {
     return {x, y, z};
 }
 
-/// A finite number whose bits are uniform: all magnitudes and both signs.
+/// A finite number with uniform bits: all magnitudes, both signs.
 inline float any_finite(std::mt19937& bits) {
     while (true) {
         const auto x = std::bit_cast<float>(static_cast<std::uint32_t>(bits()));
@@ -45,7 +44,7 @@ inline float any_finite(std::mt19937& bits) {
     }
 }
 
-/// Between 2^low and 2^high, uniform in the logarithm.
+/// A number between 2^low and 2^high, uniform in its logarithm.
 inline float any_magnitude(std::mt19937& bits, int low, int high) {
     return static_cast<float>(std::exp2(std::uniform_real_distribution<double>(low, high)(bits)));
 }

@@ -26,7 +26,7 @@ TEST(NextReal, IsTheNextNumber) {
     EXPECT_EQ(next_real(-infinity, true), -infinity);
 }
 
-/// A triangle of any shape and size, anywhere, and a point on it.
+/// A triangle of any shape, size and place, and a point on it.
 struct Case {
     vec3 v[3];
     vec3 point, error, normal;
@@ -37,11 +37,11 @@ Case any_case(std::mt19937& bits) {
     std::uniform_real_distribution<float> uniform;
     Case c;
     const float scale = any_magnitude(bits, -40, 40);
-    const float size = any_magnitude(bits, -10, 0);     // in the scene
+    const float size = any_magnitude(bits, -10, 0);     // relative to the scene
     const float thickness = any_magnitude(bits, -6, 0); // slivers
     const vec3 center =
         vec3(normal(bits), normal(bits), normal(bits)) * (bits() % 4 == 0 ? 0.0f : 1.0f);
-    const int flat = int(bits() % 6); // lies in a plane of coordinates, and begins in its origin
+    const int flat = int(bits() % 6); // lies in a coordinate plane and starts at the origin
     const vec3 long_way = any_direction(bits);
     const vec3 sideways = any_direction(bits) * thickness;
     for (vec3& v : c.v) {
@@ -51,7 +51,7 @@ Case any_case(std::mt19937& bits) {
     c.v[0] = flat < 3 ? vec3(0) : c.v[0];
     float u = uniform(bits);
     float v = uniform(bits);
-    if (bits() % 4 == 0) { // beside the first vertex
+    if (bits() % 4 == 0) { // near the first vertex
         u *= any_magnitude(bits, -20, 0);
         v *= any_magnitude(bits, -20, 0);
     }
@@ -66,8 +66,8 @@ Case any_case(std::mt19937& bits) {
     return c;
 }
 
-/// Any direction, every other one grazing.
-vec3 any_way_out(vec3 normal, std::mt19937& bits) {
+/// A random direction; every other one is grazing.
+vec3 any_exit_direction(vec3 normal, std::mt19937& bits) {
     vec3 w = any_direction(bits);
     if (bits() % 2 == 0) {
         w = w - normal * (dot3(w, normal) * (1 - any_magnitude(bits, -16, 0)));
@@ -95,7 +95,7 @@ TEST(HitPoint, ErrorBoundHolds) {
     }
 }
 
-/// Height over length.
+/// Height of the triangle over its length.
 double slimness(const Case& c) {
     const glm::dvec3 e1 = glm::dvec3(c.v[1]) - glm::dvec3(c.v[0]);
     const glm::dvec3 e2 = glm::dvec3(c.v[2]) - glm::dvec3(c.v[0]);
@@ -103,7 +103,8 @@ double slimness(const Case& c) {
     return longest > 0 ? glm::length(glm::cross(e1 / longest, e2 / longest)) : 0;
 }
 
-// Rays that leave a triangle do not meet it again, on either side, unless it is a needle.
+// A ray that leaves a triangle does not hit it again, on either side, unless the triangle is a
+// needle.
 TEST(OffsetOrigin, OwnTriangleIsNotHit) {
     std::mt19937 bits(3);
     int needles = 0;
@@ -114,7 +115,7 @@ TEST(OffsetOrigin, OwnTriangleIsNotHit) {
         if (c.normal == vec3(0)) {
             continue;
         }
-        const vec3 w = any_way_out(c.normal, bits);
+        const vec3 w = any_exit_direction(c.normal, bits);
         const vec3 o = offset_ray_origin(c.point, c.error, c.normal, w);
         const bool hit = hit_of(ray_shear(w), o, c.v[0], c.v[1], c.v[2]).hit;
         if (slimness(c) > 1.0 / 30) {
@@ -129,8 +130,8 @@ TEST(OffsetOrigin, OwnTriangleIsNotHit) {
     EXPECT_LT(hits, needles / 50);
 }
 
-// The origin lies on the side that the ray goes to, and not further from the surface than a few
-// roundings of its coordinates.
+// The origin lies on the ray's side of the surface, at most a few roundings of its coordinates
+// away.
 TEST(OffsetOrigin, IsJustOffThePlane) {
     std::mt19937 bits(4);
     for (int i = 0; i < 200'000; ++i) {
@@ -138,13 +139,13 @@ TEST(OffsetOrigin, IsJustOffThePlane) {
         if (c.normal == vec3(0)) {
             continue;
         }
-        const vec3 w = any_way_out(c.normal, bits);
+        const vec3 w = any_exit_direction(c.normal, bits);
         const vec3 o = offset_ray_origin(c.point, c.error, c.normal, w);
         const glm::dvec3 e1 = glm::dvec3(c.v[1]) - glm::dvec3(c.v[0]);
         const glm::dvec3 e2 = glm::dvec3(c.v[2]) - glm::dvec3(c.v[0]);
         const glm::dvec3 exact = glm::cross(glm::normalize(e1), glm::normalize(e2));
         if (glm::length(exact) < 1e-3) {
-            continue; // a needle: the single-precision normal is another
+            continue; // a needle: the normal in single precision differs
         }
         const double side = dot3(w, c.normal) < 0 ? -1 : 1;
         const double height =
@@ -158,7 +159,7 @@ TEST(OffsetOrigin, IsJustOffThePlane) {
     }
 }
 
-// A plane tiled with triangles, exactly: no neighbour is hit either.
+// Triangles that tile a plane exactly: a ray does not hit its neighbours either.
 TEST(OffsetOrigin, CoplanarNeighboursAreNotHit) {
     std::mt19937 bits(5);
     std::uniform_real_distribution<float> uniform;
@@ -180,7 +181,7 @@ TEST(OffsetOrigin, CoplanarNeighboursAreNotHit) {
         float v = uniform(bits) * (1 - u);
         vec3 error;
         const vec3 p = hit_point(vertex(0, 0), vertex(1, 0), vertex(0, 1), u, v, error);
-        const vec3 w = any_way_out(normal, bits);
+        const vec3 w = any_exit_direction(normal, bits);
         const vec3 o = offset_ray_origin(p, error, normal, w);
         const RayShear shear = ray_shear(w);
         for (int x = -3; x <= 3; ++x) {

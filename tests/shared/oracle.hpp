@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
-/// The shared maths compiled as double, behind plain types: no source file sees both builds.
+/// The shared maths compiled in double precision, behind plain types, because a source file can
+/// include only one of both precisions.
 namespace argand::truth {
 
 /// The bytes of a LightRecord or CameraRecord.
@@ -56,7 +57,7 @@ unsigned pack_photon_normal(glm::dvec3 normal, bool caustic);
 glm::dvec3 unpack_photon_normal(unsigned packed);
 double kernel_weight(double squared_distance);
 
-/// By name: sin_2pi, cos_2pi, pow.
+/// Function by name: sin_2pi, cos_2pi, pow.
 double elementary(const char* name, double x, double y = 0);
 
 } // namespace argand::truth

@@ -1,5 +1,4 @@
-// The truth is to be trusted as well: the double build against closed forms and the standard
-// library.
+// Tests the reference itself: the double build against closed forms and the standard library.
 #include "oracle.hpp"
 
 #include <cmath>

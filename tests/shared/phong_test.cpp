@@ -1,4 +1,4 @@
-// The modified Phong BRDF of Lafortune and Willems (1994), alone and as a material.
+// The modified Phong BRDF (Lafortune and Willems 1994), as functions and as a material.
 #include "materials.hpp"
 #include "shared/random.h"
 #include "statistics.hpp"
@@ -14,8 +14,8 @@ using namespace argand::testing;
 constexpr double pi = 3.14159265358979323846;
 constexpr float exponents[] = {0, 0.5f, 1, 8, 100, 1e4f, 1e6f};
 
-/// The unit square onto directions around the mirror direction of wo: u.y is the share of (n +
-/// 1)/(2π) cosⁿ that is nearer to it. In double precision, by the angle.
+/// Maps the unit square to directions around the mirror direction of wo, in double precision. u.y
+/// is the share of (n + 1)/(2π) cosⁿ that is closer to the mirror direction.
 glm::dvec3 around_mirror(glm::dvec3 wo, double n, glm::dvec2 u) {
     const glm::dvec3 axis(-wo.x, -wo.y, wo.z);
     const glm::dvec3 x = glm::normalize(
@@ -46,7 +46,7 @@ std::vector<double> over_lobe(glm::dvec3 wo, double n, int cells, int steps, con
     return means;
 }
 
-/// Share of light from wo that the material reflects without the smooth lobes (the reddest of it).
+/// Share of light from wo that the material reflects without delta lobes (red channel).
 double reflected(const MaterialRecord& m, glm::dvec3 wo) {
     const auto glossy = over_lobe(wo, m.exponent, 1, 400, [&](glm::dvec3 wi) {
         return truth::bsdf_eval(record_bytes(m), wo, wi, LOBE_GLOSSY).x * wi.z;
@@ -80,13 +80,13 @@ TEST(Phong, AgreesWithTheFormula) {
         const glm::dvec3 axis = glm::normalize(glm::dvec3(-wo.x, -wo.y, wo.z));
         const double sine = glm::length(glm::cross(axis, glm::normalize(glm::dvec3(wi))));
         const double cosine = glm::dot(axis, glm::normalize(glm::dvec3(wi)));
-        // By the sine, which keeps its digits in narrow lobes.
+        // From the sine, which keeps its digits in narrow lobes.
         const double power = cosine < 0.5 ? std::pow(std::max(cosine, 0.0), double(n))
                                           : std::exp(0.5 * double(n) * std::log1p(-sine * sine));
         const MaterialRecord m = phong(vec3(0.25f), vec3(0.5f, 0.25f, 0), n);
         const vec3 f = bsdf_eval(m, wo, wi, LOBES_ALL);
         const double peak = (double(n) + 2) / (2 * pi);
-        // Directions of single precision are of unit length and at their places within 1e-7.
+        // Directions in single precision are accurate to 1e-7 in length and place.
         const double bound =
             2e-6 *
             (0.25 + peak * (0.5 * std::sqrt(double(n)) * std::sqrt(std::sqrt(power)) + power));
@@ -107,7 +107,7 @@ TEST(Phong, IsReciprocal) {
     }
 }
 
-TEST(Phong, ReflectsAllFromStraightAboveAndLessElsewhere) {
+TEST(Phong, ReflectsAllLightAlongTheNormalAndLessElsewhere) {
     for (const float n : exponents) {
         const MaterialRecord m = phong(vec3(0.375f), vec3(0.625f), n);
         EXPECT_NEAR(reflected(m, {0, 0, 1}), 1, 2e-4) << n;
@@ -116,7 +116,7 @@ TEST(Phong, ReflectsAllFromStraightAboveAndLessElsewhere) {
             const double sum = reflected(m, wo);
             EXPECT_LT(sum, 1.0001) << n << " " << angle;
             EXPECT_GT(sum, 0.375) << n << " " << angle;
-            // What roulette and the choice of lobes go by.
+            // Russian roulette and the choice of lobes use this approximation.
             EXPECT_NEAR(bsdf_albedo(m, vec3(wo), true, LOBES_ALL).x, sum, 0.1) << n << " " << angle;
         }
         if (n >= 100) { // nearly a mirror of k_s cos
@@ -188,7 +188,7 @@ TEST(Phong, SamplingFollowsTheDensity) {
     }
 }
 
-// Too narrow for single precision: the limit of ever larger exponents.
+// A lobe too narrow for single precision: the limit of growing exponents.
 TEST(Phong, BecomesAMirror) {
     const MaterialRecord m = phong(vec3(0), vec3(0.8f, 0.4f, 0), 1e7f);
     for (const double angle : {0.0, 60.0, 89.0}) {

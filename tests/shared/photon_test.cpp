@@ -20,7 +20,7 @@ TEST(PhotonNormal, ErrorIsBounded) {
         worst = std::max(worst, glm::length(glm::cross(glm::dvec3(n), glm::dvec3(m))));
     }
     EXPECT_LT(worst, 2.5e-4);
-    EXPECT_GT(worst, 5e-5); // the bound is not idle
+    EXPECT_GT(worst, 5e-5); // the bound is tight
 }
 
 TEST(PhotonNormal, AxesAreAlmostExact) {
@@ -30,7 +30,7 @@ TEST(PhotonNormal, AxesAreAlmostExact) {
     }
 }
 
-TEST(PhotonNormal, FlagsAreApartFromTheNormal) {
+TEST(PhotonNormal, FlagsDoNotAffectTheNormal) {
     std::mt19937 bits(2);
     for (int i = 0; i < 100'000; ++i) {
         const vec3 n = any_direction(bits);
@@ -46,7 +46,7 @@ TEST(PhotonNormal, FlagsAreApartFromTheNormal) {
             ASSERT_NE(packed, no_photon);
         }
     }
-    // Nor is any other code of a photon or an area sample that of an empty slot.
+    // No code of a photon or an area sample equals that of an empty slot.
     EXPECT_NE(photon_normal_mask | photon_caustic_bit, no_photon);
     EXPECT_NE(photon_normal_mask | area_sample_bit, no_photon);
 }
@@ -62,7 +62,7 @@ TEST(PhotonNormal, SinglePrecisionIsStable) {
         const glm::dvec3 truth = truth::unpack_photon_normal(packed);
         ASSERT_LT(glm::length(glm::dvec3(unpack_photon_normal(packed)) - truth), 5e-7);
     }
-    EXPECT_GT(same, cases * 0.99); // all but those between two codes
+    EXPECT_GT(same, cases * 0.99); // all but those halfway between two codes
 }
 
 TEST(PhotonKernel, IntegratesToOneOverTheDisc) {
@@ -77,7 +77,7 @@ TEST(PhotonKernel, IntegratesToOneOverTheDisc) {
     EXPECT_NEAR(sum * kernel_scale, 1, 1e-6);
 }
 
-TEST(PhotonKernel, EndsWithTheDisc) {
+TEST(PhotonKernel, IsZeroOutsideTheDisc) {
     EXPECT_EQ(kernel_weight(0), 1.0f);
     EXPECT_EQ(kernel_weight(1), 0.0f);
     EXPECT_GT(kernel_weight(std::nextafter(1.0f, 0.0f)), 0.0f);
@@ -92,7 +92,7 @@ TEST(FluxUnits, AreRoundedToTheNearest) {
         const float unit = any_magnitude(bits, -60, 60);
         const float flux = unit * any_magnitude(bits, -10, 22);
         const double exact = double(flux) / double(unit);
-        // The quotient's and the sum's rounding, each at most half a unit in the last place of
+        // Rounding of the quotient and of the sum, each at most half a unit in the last place of
         // 2^22.
         ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 0.5 + 1e-6) << i;
         if (exact < 0x1p12) {

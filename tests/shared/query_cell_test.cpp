@@ -1,4 +1,4 @@
-// Cells in which queries share an answer.
+// Tests the cells within which queries share an answer.
 #include "shared/query_cell.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ struct Extent {
     int count = 0;
 };
 
-/// Random points of a plane through `center` by their cells.
+/// Random points of a plane through `center`, by cell.
 std::map<Key, Extent> cells_of_plane(vec3 center, vec3 normal, float half, float largest,
                                      float size) {
     std::mt19937 random(3);
@@ -47,11 +47,11 @@ TEST(QueryCell, HoldsPointsWithinTwiceItsEdge) {
                 0.1f * std::exp2(std::floor(std::log2(std::min(wanted / 0.1f, 1.0f))));
             const auto cells = cells_of_plane({0.3f, -2, 5}, normal, 0.5f, 0.1f, wanted);
             for (const auto& [key, extent] : cells) {
-                // A point is moved by up to half an edge along each axis.
+                // A point is jittered by up to half an edge along each axis.
                 ASSERT_LE(glm::length(extent.high - extent.low), 2 * 1.7321f * edge) << wanted;
             }
-            // As many as there are edges squared, and a row more on each side; of slanted planes,
-            // cut by their height too.
+            // About the plane's area in edges squared, and a row more on each side; slanted planes
+            // also cross the cells' heights.
             const double squares = 1 / (double(edge) * edge);
             EXPECT_GT(static_cast<double>(cells.size()), 0.9 * squares * (squares < 2000 ? 1 : 0.5))
                 << wanted;
@@ -61,14 +61,14 @@ TEST(QueryCell, HoldsPointsWithinTwiceItsEdge) {
     }
 }
 
-TEST(QueryCell, AreNotSharedAcrossSurfaces) {
+TEST(QueryCell, CellsAreNotSharedAcrossSurfaces) {
     const vec3 p(0.5f, 0.25f, -1.2f);
     const vec3 up(0, 1, 0);
     const float edge = 0.1f;
     EXPECT_EQ(cell(p, up, edge, 1), cell(p, up, edge, 1));
     EXPECT_NE(cell(p, up, edge, 1), cell(p, -up, edge, 1));
     EXPECT_NE(cell(p, up, edge, 1), cell(p, normalize(vec3(1, 3, 0)), edge, 1));
-    // Another size is another cell.
+    // A different size gives a different cell.
     EXPECT_NE(cell(p, up, edge, 1), cell(p, up, edge, 0.05f));
     // A board half an edge above the floor.
     std::mt19937 random(1);
@@ -86,24 +86,24 @@ TEST(QueryCell, ScalesWithTheScene) {
         EXPECT_GE(cells.size(), 100u) << scale;
         EXPECT_LE(cells.size(), 144u) << scale;
     }
-    // Far away, where neither a number nor a cell is left, it is still a cell.
+    // Far away, where coordinates have no digits left for cells, the result is still valid.
     cell(vec3(3e38f), {1, 0, 0}, 1e-30f, 1e-30f);
 }
 
-TEST(QueryCell, DirectionsInOneAreNear) {
+TEST(QueryCell, DirectionsInACellAreClose) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
     for (const float alpha : {1e-3f, 0.0625f, 0.25f, 1.0f}) {
         const uint steps = direction_steps(alpha, 1);
         EXPECT_GE(steps, 4u);
         EXPECT_EQ(direction_steps(alpha, 0), 1u);
-        EXPECT_LE(steps, 60u); // which fit into a byte on either side of 0
+        EXPECT_LE(steps, 60u); // they fit into a byte on either side of 0
         std::map<uint, vec3> first;
         for (int i = 0; i < 50'000; ++i) {
             const vec3 v = normalize(vec3(normal(random), normal(random), normal(random)));
             const auto [found, is_new] = first.emplace(direction_cell(v, steps, uint(random())), v);
-            // Twice a step a side, which is at most half a turn over twice the steps, and half as
-            // much again in corners.
+            // A cell is at most two steps wide; a step is at most half a turn over twice the steps,
+            // and half as much again in corners.
             ASSERT_LT(std::acos(glm::dot(found->second, v) * 0.999999f),
                       1.5 * std::sqrt(2.0) * 3.1416 / steps)
                 << alpha;
@@ -112,7 +112,7 @@ TEST(QueryCell, DirectionsInOneAreNear) {
     }
 }
 
-TEST(QueryCell, SlotsAreShuffledAndFoundAgain) {
+TEST(QueryCell, ShuffledSlotsCanBeInverted) {
     int above = 0;
     for (uint slot = 0; slot < 1u << 20; ++slot) {
         ASSERT_EQ(slot_of_shuffled(shuffled_slot(slot)), slot);

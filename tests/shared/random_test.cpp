@@ -20,7 +20,7 @@ TEST(Random, UnitNumbersStayBelowOne) {
     EXPECT_LT(to_unit(0xffffffffu), 1.0f);
 }
 
-// Written from the paper once more, lane by lane in 64 bits.
+// The paper's hash, implemented independently, lane by lane in 64 bits.
 TEST(Random, HashIsPcg4d) {
     std::uint64_t counter = 0;
     for (int i = 0; i < 1000; ++i) {

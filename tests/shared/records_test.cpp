@@ -1,5 +1,4 @@
-// Records cross from the host to the device as bytes: std430, C++ and CUDA must agree on where
-// everything lies.
+// Records go from host to device as bytes, so std430, C++ and CUDA must agree on their layout.
 #include "shared/camera.h"
 #include "shared/light_record.h"
 #include "shared/material_record.h"

@@ -6,9 +6,9 @@
 
 namespace argand::testing {
 
-/// How far Pearson's chi-square of the counts lies above what chance gives, in standard deviations
-/// (Wilson and Hilferty 1931). `expected` are the counts' expectations; cells that expect fewer
-/// than 5 are pooled.
+/// Excess of Pearson's chi-square of the counts over its expectation, in standard deviations
+/// (Wilson and Hilferty 1931). `expected`: expected counts; cells that expect fewer than 5 are
+/// pooled.
 inline double chi_square_deviations(const std::vector<double>& counts,
                                     const std::vector<double>& expected) {
     double chi_square = 0;
@@ -44,10 +44,10 @@ inline double chi_square_deviations(const std::vector<double>& counts) {
                                  std::vector<double>(counts.size(), sum / double(counts.size())));
 }
 
-/// Chance exceeds this in one of 3 million tests; the streams of the tests are fixed.
+/// A correct sampler exceeds this in one of 3 million tests. The tests' random streams are fixed.
 inline constexpr double unlikely = 5;
 
-/// Mean of numbers and the standard deviation of that mean.
+/// Mean of numbers, and the standard deviation of that mean.
 struct Mean {
     double sum = 0, squares = 0, count = 0;
     void add(double x) {

@@ -1,11 +1,11 @@
-// Included in double precision only.
+// Include in double precision only.
 #pragma once
 
 #include "shared/maths.h"
 
 namespace argand::oracle {
 
-/// Area by which a map of the unit square stretches there: central differences.
+/// Factor by which a map of the unit square stretches area at u, by central differences.
 template <class F> double stretch(const F& map, vec2 u) {
     const double h = 1e-6;
     const vec3 x = (map(u + vec2(h, 0)) - map(u - vec2(h, 0))) / (2 * h);

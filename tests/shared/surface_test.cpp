@@ -27,8 +27,8 @@ struct Case {
     }
 };
 
-/// A triangle of any size and place, up to 2^-slimmest slim; its vertices' normals are (0,0,0) in
-/// one case of four, and any directions otherwise.
+/// A triangle of any size and place, with a height over length down to 2^-slimmest. In one case of
+/// four its vertices have the normal (0,0,0), otherwise any direction.
 Case any_case(std::mt19937& bits, int slimmest) {
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> uniform;
@@ -52,7 +52,7 @@ Case any_case(std::mt19937& bits, int slimmest) {
 
 double dot_double(vec3 a, vec3 b) { return glm::dot(glm::dvec3(a), glm::dvec3(b)); }
 
-// Whatever the triangle and its normals: both normals are unit vectors on the ray's side.
+// For any triangle and any normals, both resulting normals are unit vectors on the ray's side.
 TEST(Surface, NormalsAreUnitAndFaceTheRay) {
     std::mt19937 bits(1);
     int shaded = 0;
@@ -79,8 +79,8 @@ TEST(Surface, SinglePrecisionIsStable) {
         for (int k = 0; k < 3; ++k) {
             ASSERT_LE(std::abs(double(s.position[k]) - t.position[k]), s.error[k]) << i;
         }
-        // Left out where rounding may turn a normal round: slim triangles, rays along them, normals
-        // across the ray.
+        // Skip cases where rounding may flip a normal: slim triangles, rays along them, normals
+        // perpendicular to the ray.
         const glm::dvec3 e1 = glm::dvec3(c.v[1]) - glm::dvec3(c.v[0]);
         const glm::dvec3 e2 = glm::dvec3(c.v[2]) - glm::dvec3(c.v[0]);
         const double slim = glm::length(glm::cross(e1, e2)) / (glm::dot(e1, e1) + glm::dot(e2, e2));
@@ -102,7 +102,7 @@ TEST(Surface, SinglePrecisionIsStable) {
     EXPECT_GT(compared, 50'000);
 }
 
-TEST(Surface, TheOtherWindingIsTheOtherSide) {
+TEST(Surface, WindingDeterminesTheFront) {
     std::mt19937 bits(3);
     for (int i = 0; i < 20'000; ++i) {
         const Case c = any_case(bits, 3);
@@ -133,25 +133,25 @@ TEST(Surface, NormalsAcrossTheTriangleAreInterpolated) {
     EXPECT_NEAR(dot3(c.surface().shading_normal, c.n[1]), 1, 1e-6);
     c.u = 0.5f;
     EXPECT_NEAR(dot3(c.surface().shading_normal, glm::normalize(c.n[0] + c.n[1])), 1, 1e-6);
-    // Seen from below, all is turned round.
+    // Seen from below, everything is flipped.
     c.direction = vec3(0, 0, 1);
     EXPECT_FALSE(c.surface().front);
     EXPECT_EQ(c.surface().geometric_normal, vec3(0, 0, -1));
     EXPECT_NEAR(dot3(c.surface().shading_normal, glm::normalize(c.n[0] + c.n[1])), -1, 1e-6);
 }
 
-TEST(Surface, NormalsThatDoNotServeAreReplaced) {
+TEST(Surface, UnusableNormalsAreReplaced) {
     const vec3 up(0, 0, 1);
     const std::array<vec3, 3> v{vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)};
     const float infinity = std::numeric_limits<float>::infinity();
-    // None, two that cancel each other, not numbers.
+    // No normals, normals that cancel, and values that are not finite.
     for (const auto& n : {std::array<vec3, 3>{vec3(0), vec3(0), vec3(0)},
                           {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0)},
                           {vec3(infinity), vec3(0), vec3(0)},
                           {vec3(NAN), up, up}}) {
         EXPECT_EQ((Case{v, n, 0.5f, 0, {0, 0, -1}}.surface().shading_normal), up);
     }
-    // One that faces away from a grazing ray.
+    // A normal that faces away from a grazing ray.
     const vec3 leaning = glm::normalize(vec3(1, 0, 0.1f));
     const vec3 grazing = glm::normalize(vec3(1, 0, -0.01f));
     EXPECT_EQ((Case{v, {leaning, leaning, leaning}, 0.3f, 0.3f, grazing}.surface().shading_normal),

@@ -1,4 +1,4 @@
-// Some of everything under shaders/shared, as one function that the host and the device both run.
+// Calls functions of every kind in shaders/shared, as one function that host and device both run.
 #ifndef ARGAND_TEST_TRANSPORT_CASE_H
 #define ARGAND_TEST_TRANSPORT_CASE_H
 
@@ -11,7 +11,7 @@
 
 ARGAND_SHARED_BEGIN
 
-// Lanes of 16 bytes.
+// Laid out in 16-byte lanes.
 struct TransportResult {
     float32 wi_x, wi_y, wi_z, pdf;
     float32 weight_x, weight_y, weight_z, eta_scale;
@@ -83,7 +83,7 @@ FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(Ca
     r.v = bv;
     r.reach = box_reach(eye, min(a, min(b, d)), max(a, max(b, d)));
     r.hit = hit ? 1u : 0u;
-    // Of numbers that every device has to the bit.
+    // Functions whose results every device computes to the bit.
     r.code = morton30(vec3(u.x, u.y, u.z), vec3(real(0.0)), vec3(real(1.0)));
     r.packed = unpack_unit(uint(i) * 2654435761u).z >= real(0.0) ? 1u : 0u;
     uvec4 words = pcg4d(uvec4(i, 1u, 2u, 3u));

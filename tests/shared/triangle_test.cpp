@@ -12,8 +12,8 @@ using testing::hit_of;
 using testing::Mesh;
 using testing::TriangleHit;
 
-/// Möller and Trumbore in double precision: determinant relative to the size of what it is made of,
-/// t, u, v.
+/// Möller and Trumbore's algorithm in double precision: determinant relative to the size of its
+/// terms, and t, u, v.
 struct Truth {
     double determinant, t, u, v;
 };
@@ -94,7 +94,7 @@ TEST(Triangle, RangeIncludesItsEnds) {
     EXPECT_TRUE(hit_of(shear, o, a, b, c, 2, 2).hit);
     EXPECT_FALSE(hit_of(shear, o, a, b, c, 0, 1.9999999f).hit);
     EXPECT_FALSE(hit_of(shear, o, a, b, c, 2.0000002f, 9).hit);
-    // t counts lengths of the direction.
+    // t is in units of the direction's length.
     EXPECT_EQ(hit_of(ray_shear(vec3(0, 0, 4)), o, a, b, c).t, 0.5f);
     EXPECT_FALSE(hit_of(ray_shear(vec3(0, 0, -1)), o, a, b, c).hit);
     const TriangleHit h = hit_of(shear, vec3(0.5f, 0.25f, 1), a, b, c);
@@ -103,8 +103,8 @@ TEST(Triangle, RangeIncludesItsEnds) {
     EXPECT_EQ(h.v, 0.25f);
 }
 
-// From inside a closed mesh every ray hits something, whatever it is aimed at, wherever the mesh
-// lies and however large it is.
+// From inside a closed mesh every ray hits something, at whatever it is aimed, wherever the mesh
+// is, and however large it is.
 TEST(Triangle, ClosedMeshIsWatertight) {
     std::mt19937 bits(3);
     for (const float scale : {1e-12f, 1e-6f, 1.0f, 1e6f, 1e12f}) {
@@ -120,8 +120,8 @@ TEST(Triangle, ClosedMeshIsWatertight) {
                 const auto& target = mesh.triangles[bits() % mesh.triangles.size()];
                 const vec3 a = mesh.vertices[target[0]];
                 const vec3 b = mesh.vertices[target[1]];
-                vec3 direction = a - origin; // at a vertex
-                if (i % 3 == 1) {            // at an edge
+                vec3 direction = a - origin; // towards a vertex
+                if (i % 3 == 1) {            // towards an edge
                     direction = (a + (b - a) * uniform(bits)) - origin;
                 }
                 direction = i % 2 == 0 ? direction : glm::normalize(direction / scale);
@@ -145,8 +145,7 @@ TEST(Triangle, GridIsWatertightForAxisParallelRays) {
             for (int y = -3; y <= 3; ++y) {
                 for (const vec3 direction :
                      {vec3(0, 0, -1), vec3(1, 0, -1), vec3(0, -1, -1), vec3(1, 1, -1)}) {
-                    // Halves and whole numbers: on edges, vertices, or the diagonals within the
-                    // cells.
+                    // Multiples of 1/2: points on edges, on vertices, or on diagonals of the cells.
                     const vec3 through = vec3(0.5f * float(x), 0.5f * float(y), 0);
                     const vec3 origin = (through - direction * 3.0f) * scale;
                     const RayShear shear = ray_shear(direction);
@@ -194,7 +193,7 @@ TEST(Triangle, ScaleByAPowerOfTwoChangesNothing) {
     }
 }
 
-TEST(Triangle, DegenerateOnesAreMissed) {
+TEST(Triangle, DegenerateTrianglesAreMissed) {
     std::mt19937 bits(4);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
