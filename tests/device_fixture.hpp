@@ -15,7 +15,7 @@
 
 namespace argand {
 
-/// Sets an environment variable for as long as it lives.
+/// Sets an environment variable during its lifetime.
 class ScopedEnvironment {
 public:
     ScopedEnvironment(std::string name, const std::string& value)
@@ -41,15 +41,15 @@ private:
 
 /// A way to open the device under test.
 struct DeviceSetting {
-    std::string name;    ///< as part of a test's name
+    std::string name;    ///< part of the test's name
     std::string disable; ///< ARGAND_DISABLE
     std::string limit;   ///< ARGAND_LIMIT
 };
 
 inline void PrintTo(const DeviceSetting& setting, std::ostream* out) { *out << setting.name; }
 
-/// The paths that kernels with variants take; a device without lanes that run serially takes the
-/// second twice. "least" is the least that Argand is content with.
+/// Settings that select the variants of kernels. A device that is not lane-serial takes the second
+/// path twice. "least" is the minimum that Argand accepts.
 inline std::vector<DeviceSetting> variant_settings() {
     return {{"default", "", ""},
             {"subgroups", "lane_serial", ""},
@@ -60,7 +60,7 @@ inline std::vector<DeviceSetting> variant_settings() {
                          Requirements::storage_buffers)}};
 }
 
-/// Opens devices with the API's validation on; any message from it fails the test.
+/// Opens devices with the API's validation; any validation message fails the test.
 class DeviceTest : public testing::Test {
 protected:
     Device& open(const DeviceSetting& setting = {}) {

@@ -21,8 +21,8 @@ RenderSettings small(const std::string& method) {
     return settings;
 }
 
-/// Diffuse with an area light, glass, a metal's caustic, a spot light: others are like one of
-/// these.
+/// Covers diffuse surfaces with an area light, glass, a metal's caustic, and a spot light; the
+/// other scenes resemble one of these.
 bool is_quick(const std::string& scene) {
     const std::string name = scene.substr(0, scene.find('.'));
     return name == "cornell_area" || name == "cornell_glass" || name == "ring" || name == "spot";
@@ -46,7 +46,7 @@ protected:
     host::HostDevice host_{host::describe()};
 };
 
-TEST_P(Backends, DoTheSame) {
+TEST_P(Backends, AgreeOnEveryStage) {
     Device& device = open();
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/" + GetParam());
     for (const std::string& method : method_names()) {
@@ -54,7 +54,7 @@ TEST_P(Backends, DoTheSame) {
         EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
         EXPECT_GT(found.isolated.size(), 10u);
         for (const StageComparison& stage : found.isolated) {
-            // Lavapipe and the host round alike.
+            // lavapipe and the host round alike.
             const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
             EXPECT_TRUE(same_bits && passes_isolated(stage))
                 << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
@@ -91,7 +91,7 @@ private:
 
 class Faults : public DeviceTest {};
 
-TEST_F(Faults, AreFoundInTheirStageAlone) {
+TEST_F(Faults, AreFoundOnlyInTheirStage) {
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
     const std::pair<const char*, std::size_t> faults[] = {
         {"photon_codes", 3}, {"photon_boxes", 4}, {"query_cells", 6}};
@@ -110,7 +110,7 @@ TEST_F(Faults, AreFoundInTheirStageAlone) {
     }
 }
 
-/// A device that breaks down.
+/// A device whose kernels fail.
 class BreakingDevice final : public host::HostDevice {
 public:
     BreakingDevice() : HostDevice(host::describe()) {}
@@ -121,18 +121,18 @@ public:
     void end_stage() override { throw DeviceFault("test", "broken still"); }
 };
 
-TEST_F(Faults, OfADeviceAreToldOnce) {
+TEST_F(Faults, OfADeviceAreReportedOnce) {
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
     BreakingDevice device;
     try {
         render(device, scene, small("photons"), [](double) { return true; });
-        ADD_FAILURE() << "no fault was told";
+        ADD_FAILURE() << "no fault was reported";
     } catch (const DeviceFault& fault) {
         EXPECT_STREQ(fault.what(), "broken");
     }
 }
 
-TEST_F(Faults, ReachThePictureIfNothingIsPutRight) {
+TEST_F(Faults, ReachTheImageIfNotCorrected) {
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
     host::HostDevice good(host::describe());
     FaultyDevice bad("film_add", 2);

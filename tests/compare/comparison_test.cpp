@@ -17,7 +17,7 @@ StageComparison compare(const std::vector<std::uint32_t>& a, const std::vector<s
     return result;
 }
 
-TEST(Comparison, EqualItemsAreCountedOnly) {
+TEST(Comparison, EqualItemsAreOnlyCounted) {
     const std::vector<std::uint32_t> words{bits(1), 7, bits(NAN), 8};
     const StageComparison found = compare(words, words, "fu");
     EXPECT_EQ(found.items, 2u);
@@ -41,14 +41,14 @@ TEST(Comparison, ZerosOfEitherSignAndTheSmallestNumbersAreNeighbours) {
     EXPECT_EQ(compare({bits(0.0f)}, {bits(-0.0f)}, "f").largest_ulp, 0u);
     EXPECT_EQ(compare({bits(0.0f)}, {bits(-0.0f)}, "f").diverged, 0u);
     EXPECT_EQ(compare({bits(0.0f)}, {bits(-0.0f)}, "f").unequal, 0u);
-    // Where others are large a small one may be off by a share of them, but not where other words
-    // of the item are.
+    // A small value may be off by a share of the same word's largest value in other items, but not
+    // of other words in its item.
     EXPECT_EQ(compare({bits(1), bits(least)}, {bits(1), bits(-least)}, "f").largest_ulp, 2u);
     EXPECT_EQ(compare({bits(1), bits(least)}, {bits(1), bits(-least)}, "ff").diverged, 1u);
     EXPECT_EQ(compare({bits(500), bits(2e-4f)}, {bits(500), bits(1e-4f)}, "ff").diverged, 1u);
 }
 
-TEST(Comparison, OtherIntegersAndFarFloatsHaveDiverged) {
+TEST(Comparison, DifferentIntegersAndDistantFloatsDiverge) {
     EXPECT_EQ(compare({5, bits(1)}, {6, bits(1)}, "uf").diverged, 1u);
     EXPECT_EQ(compare({bits(1)}, {bits(1.01f)}, "f").diverged, 1u);
     EXPECT_EQ(compare({bits(1)}, {bits(1.0005f)}, "f").diverged, 0u);
@@ -57,7 +57,7 @@ TEST(Comparison, OtherIntegersAndFarFloatsHaveDiverged) {
     EXPECT_EQ(compare({bits(1)}, {bits(NAN)}, "f").diverged, 1u);
 }
 
-TEST(Comparison, DivergedItemsDoNotHideInTheLargestError) {
+TEST(Comparison, DivergedItemsDoNotCountInTheLargestError) {
     const StageComparison found = compare({bits(1), bits(2)}, {bits(100), bits(2)}, "f");
     EXPECT_EQ(found.diverged, 1u);
     EXPECT_EQ(found.largest_ulp, 0u);

@@ -14,7 +14,7 @@ using argand::testing::error_of;
 using argand::testing::ScratchDirectory;
 using ::testing::HasSubstr;
 
-TEST(GoldenChanges, AreAppliedAgain) {
+TEST(GoldenChanges, ReproduceTheChangedState) {
     const std::vector<std::uint32_t> before{1, 2, 3, 4, 5, 6};
     const std::vector<std::uint32_t> after{1, 9, 8, 4, 5, 7};
     const GoldenWrite write = changes(before, after);
@@ -31,7 +31,7 @@ TEST(GoldenChanges, AreAppliedAgain) {
 
 class GoldenFile : public DeviceTest {
 protected:
-    /// A capture of a small picture, made now.
+    /// Records a capture of a small image.
     Golden record(Device& device, const Scene& scene) {
         Golden golden{.scene = scene.name,
                       .fingerprint = fingerprint(scene),
@@ -52,7 +52,7 @@ protected:
     const Scene scene_ = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_glass.glb");
 };
 
-TEST_F(GoldenFile, HoldsWhatWasRecorded) {
+TEST_F(GoldenFile, RoundTripsACapture) {
     Device& device = open();
     const Golden golden = record(device, scene_);
     const ScratchDirectory directory;
@@ -102,7 +102,7 @@ TEST_F(GoldenFile, OtherScenesAndMethodsAreErrors) {
     other.name = golden.scene;
     EXPECT_THAT(error_of([&] { compare_with_golden(golden, "photons", device, other); }),
                 HasSubstr("record it anew"));
-    // More, or less, than is done.
+    // A capture with more or fewer steps than the render.
     Golden longer = golden;
     longer.captures["photons"].push_back({"sort", {}});
     EXPECT_THAT(error_of([&] { compare_with_golden(longer, "photons", device, scene_); }),
@@ -112,7 +112,7 @@ TEST_F(GoldenFile, OtherScenesAndMethodsAreErrors) {
                 HasSubstr("not film_add"));
 }
 
-TEST_F(GoldenFile, FilesThatAreNoneAreErrors) {
+TEST_F(GoldenFile, InvalidFilesAreErrors) {
     const ScratchDirectory directory;
     EXPECT_THAT(error_of([&] { read_golden(directory / "missing.golden"); }),
                 HasSubstr("missing.golden"));
@@ -138,8 +138,8 @@ TEST_F(GoldenFile, FilesThatAreNoneAreErrors) {
     EXPECT_THAT(error_of([&] { read_golden(directory / "cut.golden"); }), HasSubstr("cut.golden"));
 }
 
-// Captures that lie in the repository: this device does the same.
-TEST_F(GoldenFile, ThisDeviceDoesWhatWasRecordedElsewhere) {
+// Captures in the repository: this device must agree with them.
+TEST_F(GoldenFile, ThisDeviceAgreesWithRecordedDevices) {
     Device& device = open();
     int files = 0;
     for (const auto& entry :

@@ -27,9 +27,9 @@ const std::vector<std::pair<const KernelInfo*, const KernelInfo*>> pairs = {
     {&kernels::trace_closest::info, &kernels::trace_closest_texels::info},
 };
 
-// A kernel that reads texels runs the twin of the one that does not, which takes buffers and
-// constants by their place.
-TEST(Texels, VariantsDeclareWhatTheirTwinTakes) {
+// A kernel that reads texels runs the twin of its variant that does not. The twin identifies
+// buffers and constants by their order, so both must declare the same.
+TEST(Texels, VariantsDeclareTheArgumentsOfTheirTwin) {
     for (const auto& [storage, texels] : pairs) {
         SCOPED_TRACE(texels->name);
         EXPECT_EQ(std::string(storage->name) + "_texels", texels->name);

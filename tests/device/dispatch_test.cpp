@@ -10,7 +10,7 @@ using Words = std::vector<std::uint32_t>;
 
 class Dispatch : public DeviceTest {
 protected:
-    /// Visits per index after `run` got a buffer of `n` zeros.
+    /// Visits per index, after `run` received a buffer of `n` zeros.
     template <class Run> static Words visits(Device& device, std::size_t n, const Run& run) {
         const Buffer buffer = upload(device, "visits", Words(n, 0));
         run(kernels::mark_threads{.visits = buffer});
@@ -21,14 +21,14 @@ protected:
 TEST_F(Dispatch, VisitsEachIndexOnce) {
     Device& device = open();
     for (const std::uint32_t n :
-         {1u, 7u, 8u, 9u, 1000u, 600'000u}) { // the last needs more than 65,535 groups
+         {1u, 7u, 8u, 9u, 1000u, 600'000u}) { // the last one needs more than 65,535 groups
         SCOPED_TRACE(n);
         EXPECT_EQ(visits(device, n, [&](const auto& kernel) { dispatch(device, kernel, n); }),
                   Words(n, 1));
     }
 }
 
-TEST_F(Dispatch, OfNoThreadsDoesNothing) {
+TEST_F(Dispatch, WithoutThreadsDoesNothing) {
     Device& device = open();
     EXPECT_EQ(visits(device, 100, [&](const auto& kernel) { dispatch(device, kernel, 0); }),
               Words(100, 0));
@@ -44,7 +44,7 @@ TEST_F(Dispatch, SpillsIntoFurtherDimensions) {
     }
 }
 
-TEST_F(Dispatch, IndirectRunsAsManyThreadsAsTheCountSays) {
+TEST_F(Dispatch, IndirectRunsTheCountedThreads) {
     for (const char* limit : {"", "groups=300"}) {
         Device& device = open({"indirect", "", limit});
         constexpr std::uint32_t n = 100'000;
@@ -54,8 +54,8 @@ TEST_F(Dispatch, IndirectRunsAsManyThreadsAsTheCountSays) {
             const Words visited = visits(device, n, [&](const auto& kernel) {
                 dispatch_indirect(device, kernel, counts, 1);
             });
-            // Groups are of 8; the spill rounds up to whole rows, whose surplus kernels test
-            // against the count.
+            // A group has 8 threads. Spilling rounds up to whole rows; kernels compare the surplus
+            // with the count.
             EXPECT_EQ(Words(visited.begin(), visited.begin() + count), Words(count, 1));
             const std::uint32_t row = *limit ? 2400 : 8;
             const std::uint32_t end = std::min(n, (count + row - 1) / row * row);
@@ -66,7 +66,7 @@ TEST_F(Dispatch, IndirectRunsAsManyThreadsAsTheCountSays) {
 
 TEST_F(Dispatch, IndirectSpillsIntoFurtherDimensions) {
     Device& device = open({"few groups", "", "groups=5"});
-    constexpr std::uint32_t n = 1000; // 125 groups of 8, the most there are
+    constexpr std::uint32_t n = 1000; // 125 groups of 8, the maximum
     for (const std::uint32_t count : {0u, 40u, 41u, 200u, 201u, 399u, 401u, 999u, n}) {
         SCOPED_TRACE(count);
         const Buffer counts = upload(device, "counts", Words{count});
@@ -80,7 +80,7 @@ TEST_F(Dispatch, IndirectSpillsIntoFurtherDimensions) {
     }
 }
 
-TEST_F(Dispatch, IndirectCountsThatKernelsWrote) {
+TEST_F(Dispatch, IndirectReadsCountsThatKernelsWrote) {
     Device& device = open();
     constexpr std::uint32_t n = 5000;
     const Buffer counts = upload(device, "counts", Words{500});
@@ -98,7 +98,7 @@ TEST_F(Dispatch, IndirectCountsThatKernelsWrote) {
               expected);
 }
 
-TEST_F(Dispatch, MoreIndirectDispatchesThanTheirRingHolds) {
+TEST_F(Dispatch, IndirectDispatchesMayExceedTheRingOfCounts) {
     Device& device = open();
     const Buffer counts = upload(device, "counts", Words{16});
     EXPECT_EQ(visits(device, 32,
@@ -116,7 +116,7 @@ TEST_F(Dispatch, MoreIndirectDispatchesThanTheirRingHolds) {
 
 class Barriers : public DeviceTest, public testing::WithParamInterface<DeviceSetting> {};
 
-/// What add_neighbour does.
+/// Reference for add_neighbour.
 Words with_neighbours(const Words& values) {
     Words result(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -138,7 +138,7 @@ TEST_P(Barriers, DependentDispatchesSeeEachOther) {
         dispatch(device, kernels::add_neighbour{.from_values = b, .to_values = a}, expected.size());
         expected = with_neighbours(with_neighbours(expected));
         if (i % 10 == 9) {
-            device.submit(); // more submissions than may be under way at once
+            device.submit(); // more submissions than may be in flight
         }
     }
     EXPECT_EQ(download<std::uint32_t>(device, a, expected.size()), expected);
@@ -150,8 +150,8 @@ TEST_P(Barriers, TransfersAndDispatchesSeeEachOther) {
     const Buffer a = upload(device, "a", Words(n, 1));
     const Buffer b = upload(device, "b", Words(n, 2));
     dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b}, n); // b = 2
-    device.fill(a, 5);                                                             // after the read
-    device.copy(b, BufferView(a, 0, n * 2));                                       // a = 2 | 5
+    device.fill(a, 5);                       // must happen after the read
+    device.copy(b, BufferView(a, 0, n * 2)); // a = 2 | 5
     dispatch(device, kernels::add_neighbour{.from_values = a, .to_values = b},
              n); // b = 4 | 10, 7 at edges
     const Words nines(n, 9);
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, Barriers,
                                                        ""}),
                          [](const auto& setting) { return setting.param.name; });
 
-TEST_F(Dispatch, AWiderGroupThanTheDeviceAllowsIsAnError) {
+TEST_F(Dispatch, ALargerGroupThanTheDeviceAllowsIsAnError) {
     Device& device = open();
     KernelInfo wide = kernels::mark_threads::info;
     wide.local_size[0] = device.info().limits.invocations + 1;

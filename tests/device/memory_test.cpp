@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 
 class Memory : public DeviceTest {};
 
-TEST_F(Memory, PeaksByName) {
+TEST_F(Memory, ReportsPeaksByName) {
     Device& device = open();
     const std::uint64_t before = device.memory().current;
     {
@@ -67,7 +67,7 @@ TEST_F(Memory, ScratchIsSharedAndGrows) {
     EXPECT_GE(device.scratch("scratch", 10).size(), 5000u);
 }
 
-TEST_F(Memory, TooMuchIsAnErrorThatNamesTheBuffer) {
+TEST_F(Memory, ErrorsNameTheBufferThatIsTooLarge) {
     Device& range = open({"", "", "storage_range=1MiB"});
     EXPECT_EQ(range.allocate("as much as goes", 1 << 20).size(), 1u << 20);
     EXPECT_THAT(error_of([&] { range.allocate("photon map", (1 << 20) + 1); }),

@@ -33,7 +33,7 @@ TEST_F(Open, TheHostIsTheLastDevice) {
                 AllOf(HasSubstr("'metal'"), HasSubstr("vulkan")));
 }
 
-TEST_F(Open, ByIndexByPartOfTheNameAndByEnvironment) {
+TEST_F(Open, ByIndexPartOfTheNameOrEnvironment) {
     const DeviceInfo info = open().info();
     EXPECT_EQ(open_device(std::to_string(info.index))->info().index, info.index);
     std::string part = info.name.substr(1, 6);
@@ -96,7 +96,7 @@ TEST_F(Open, UnknownFeaturesAndLimitsAreUsageErrors) {
     }
 }
 
-TEST_F(Open, ADeviceWithTooLittleIsAnError) {
+TEST_F(Open, ADeviceBelowTheRequirementsIsAnError) {
     for (const char* limit :
          {"invocations=64", "shared_memory=8KiB", "storage_buffers=4", "storage_range=64KiB"}) {
         SCOPED_TRACE(limit);
@@ -108,14 +108,14 @@ TEST_F(Open, ADeviceWithTooLittleIsAnError) {
     }
 }
 
-TEST_F(Open, ValidationIsHeard) {
+TEST_F(Open, ValidationMessagesAreReported) {
     const ScopedEnvironment validation("ARGAND_VALIDATION", "1");
     const std::unique_ptr<Device> device = open_device();
     const Buffer buffer = device->allocate("small", 64);
     EXPECT_TRUE(device->validation_messages().empty());
     device->fill(BufferView(buffer, 0, 1 << 20), 0);
     EXPECT_FALSE(device->validation_messages().empty());
-    // What was recorded is not run: destroying the device drops it.
+    // Destroying the device drops recorded commands without running them.
 }
 
 } // namespace

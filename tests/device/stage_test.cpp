@@ -37,7 +37,7 @@ TEST_F(Stages, TimesAreNamedInTheOrderOfFirstUseAndAddUp) {
     EXPECT_TRUE(device.stage_times().empty());
 }
 
-TEST_F(Stages, MayGoOnOverSubmissions) {
+TEST_F(Stages, MaySpanSubmissions) {
     Device& device = open();
     const Buffer buffer = upload(device, "words", std::vector<std::uint32_t>(1 << 18, 0));
     {
@@ -53,7 +53,7 @@ TEST_F(Stages, MayGoOnOverSubmissions) {
     EXPECT_GE(times[0].seconds, 0);
 }
 
-TEST_F(Stages, MoreThanASubmissionHoldsTimeStampsFor) {
+TEST_F(Stages, MayExceedTheTimeStampsOfASubmission) {
     Device& device = open();
     const Buffer buffer = upload(device, "words", std::vector<std::uint32_t>(64, 0));
     for (int i = 0; i < 1000; ++i) {

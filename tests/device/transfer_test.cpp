@@ -16,9 +16,8 @@ Bytes counted_bytes(std::size_t n, std::uint8_t first) {
     return bytes;
 }
 
-// 65,536 bytes is the most that travels inside a command buffer; beyond it there is a staging
-// buffer.
-TEST_F(Transfer, UploadedBytesComeBackForAllSizes) {
+// Up to 65,536 bytes travel inside a command buffer; larger uploads use a staging buffer.
+TEST_F(Transfer, RoundTripsAllSizes) {
     Device& device = open();
     for (const std::size_t n : {0, 1, 2, 3, 4, 5, 7, 15, 16, 17, 1023, 65535, 65536, 65537, 65540,
                                 1 << 20, (1 << 24) + 1}) {
@@ -29,7 +28,7 @@ TEST_F(Transfer, UploadedBytesComeBackForAllSizes) {
     }
 }
 
-TEST_F(Transfer, PartsOfABuffer) {
+TEST_F(Transfer, RoundTripsPartsOfABuffer) {
     Device& device = open();
     for (const std::size_t n : {40, 200'000}) {
         Bytes expected = counted_bytes(n, 0);
@@ -85,7 +84,7 @@ TEST_F(Transfer, Copy) {
     device.copy(from, to);
     EXPECT_TRUE(download<std::uint8_t>(device, to, bytes.size()) == bytes);
 
-    // The shorter of both ranges counts.
+    // Copies the shorter of both ranges.
     device.copy(BufferView(from, 5, 3), BufferView(to, 100, 0));
     device.copy(BufferView(from, 7, 0), BufferView(to, 300'000, 1));
     Bytes expected = bytes;

@@ -13,13 +13,14 @@
 #include <string>
 #include <vector>
 
-/// Reads the include lines of the tree and judges them by the order in docs/design.md ("Layout").
+/// Reads the include lines of the tree and checks them against the layers in docs/design.md
+/// ("Layout").
 namespace argand::layering {
 
 /// Source text by path relative to the root of the repository ("engine/scene/gltf.cpp").
 using Sources = std::map<std::string, std::string>;
 
-/// The folders of engine/ from the bottom up; those on one level do not see each other.
+/// The folders of engine/ from the bottom up. Folders on one level must not include each other.
 inline const std::vector<std::vector<std::string>> levels = {
     {"base"},
     {"image", "scene", "device"},
@@ -31,8 +32,8 @@ inline const std::vector<std::vector<std::string>> levels = {
     {"plot"},
 };
 
-/// One include line; `target` is the file it names, "kernels/..." for a header generated from a
-/// kernel, or empty if it names no file of this repository.
+/// An include line. `target` is the file that it names, "kernels/..." for a header generated from a
+/// kernel, or empty if it is not a file of this repository.
 struct Include {
     std::string file;
     std::string path;
@@ -41,7 +42,7 @@ struct Include {
     int line = 0;
 };
 
-/// The source file that `path`, included from `file`, names: beside that file or below an include
+/// The source file that `path` means when `file` includes it: beside that file or below an include
 /// root.
 inline std::string resolve(const Sources& sources, const std::string& file, const std::string& path,
                            bool angled) {
@@ -56,7 +57,7 @@ inline std::string resolve(const Sources& sources, const std::string& file, cons
     return path.starts_with("kernels/") ? path : "";
 }
 
-/// All include lines, in the order of the files.
+/// All include lines, ordered by file.
 inline std::vector<Include> includes(const Sources& sources) {
     static const std::regex line_pattern(R"re(^\s*#\s*include\s*(["<])([^">]+)[">].*)re");
     std::vector<Include> found;
@@ -75,8 +76,8 @@ inline std::vector<Include> includes(const Sources& sources) {
     return found;
 }
 
-/// The part of the tree that a file belongs to: "base" ... "plot", "tools/X", "shared", "comp"
-/// (kernel.glsl), "comp/X", "kernels" (generated), or another first one or two folders.
+/// The part of the tree to which a file belongs: "base" ... "plot", "tools/X", "shared", "comp"
+/// (kernel.glsl), "comp/X", "kernels" (generated), or its first one or two folders.
 inline std::string part_of(const std::string& file) {
     std::vector<std::string> folders;
     for (const auto& folder : std::filesystem::path(file).parent_path())
@@ -88,7 +89,7 @@ inline std::string part_of(const std::string& file) {
     return folders.empty() ? "" : one_folder ? folders[0] : folders[0] + "/" + folders[1];
 }
 
-/// Level of a folder of engine/ (the tools stand above all), or -1 for other parts.
+/// Level of a folder of engine/, with the tools above all; -1 for other parts.
 inline int level_of(const std::string& part) {
     if (part.starts_with("tools/"))
         return static_cast<int>(levels.size());
@@ -98,14 +99,15 @@ inline int level_of(const std::string& part) {
     return -1;
 }
 
-/// Why a file of part `from` must not include one of part `to`; empty if it may.
+/// Reason why a file of part `from` must not include one of part `to`; empty if it may.
 inline std::string objection(const std::string& from, const std::string& to) {
     if (from == to)
         return "";
     if (from == "shared")
         return "shaders/shared sees only itself";
     const std::string kind = from.substr(0, from.find('/'));
-    // Twins are shared text on what is generated from the kernels that declare the same.
+    // Twins are shared code compiled against headers generated from kernels with the same
+    // declarations.
     if (kind == "cuda")
         return to == "shared" || to == "cuda" || to == "kernels" || to == "device"
                    ? ""
@@ -131,11 +133,10 @@ inline std::string objection(const std::string& from, const std::string& to) {
     return other < level ? "" : fmt::format("{} stands above {}", to, from);
 }
 
-/// A circle of files that include each other, through `file`, or nothing; `done` holds files known
-/// to be in none.
-inline std::vector<std::string> circle(const std::map<std::string, std::set<std::string>>& graph,
-                                       const std::string& file, std::vector<std::string>& path,
-                                       std::set<std::string>& done) {
+/// A cycle of includes through `file`, or nothing. `done` holds files known to be on no cycle.
+inline std::vector<std::string>
+include_cycle(const std::map<std::string, std::set<std::string>>& graph, const std::string& file,
+              std::vector<std::string>& path, std::set<std::string>& done) {
     const auto seen = std::find(path.begin(), path.end(), file);
     if (seen != path.end()) {
         std::vector<std::string> found(seen, path.end());
@@ -147,15 +148,14 @@ inline std::vector<std::string> circle(const std::map<std::string, std::set<std:
         return {};
     path.push_back(file);
     for (const std::string& next : node->second)
-        if (auto found = circle(graph, next, path, done); !found.empty())
+        if (auto found = include_cycle(graph, next, path, done); !found.empty())
             return found;
     path.pop_back();
     done.insert(file);
     return {};
 }
 
-/// Includes that break the order, and the first circle of files that include each other: one line
-/// per fault.
+/// Includes that violate the layers, and the first cycle of includes, one line each.
 inline std::vector<std::string> faults(const Sources& sources) {
     std::vector<std::string> found;
     std::map<std::string, std::set<std::string>> graph;
@@ -174,7 +174,7 @@ inline std::vector<std::string> faults(const Sources& sources) {
     std::vector<std::string> path;
     std::set<std::string> done;
     for (const auto& [file, targets] : graph) {
-        if (const auto files = circle(graph, file, path, done); !files.empty()) {
+        if (const auto files = include_cycle(graph, file, path, done); !files.empty()) {
             found.push_back(fmt::format("files include each other: {}", fmt::join(files, " > ")));
             break;
         }
@@ -182,7 +182,7 @@ inline std::vector<std::string> faults(const Sources& sources) {
     return found;
 }
 
-/// The sources of C++, GLSL and CUDA below these folders of `root`.
+/// The C++, GLSL and CUDA sources below these folders of `root`.
 inline Sources read_sources(const std::filesystem::path& root,
                             const std::vector<std::string>& folders) {
     static constexpr std::array extensions = {".hpp",  ".cpp",  ".h",    ".glsl",

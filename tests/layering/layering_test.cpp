@@ -10,7 +10,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A small tree that is in order, with every kind of arrow that is allowed.
+/// A small tree without faults that has every kind of allowed include.
 Sources good_tree() {
     return {
         {"engine/base/error.hpp", "#include <fmt/format.h>\n"},
@@ -40,16 +40,16 @@ Sources good_tree() {
     };
 }
 
-/// What is found after one more include line in a file of the good tree.
+/// Faults after adding an include line to a file of the good tree.
 std::vector<std::string> faults_with(const std::string& file, const std::string& include) {
     Sources tree = good_tree();
     tree[file] += "#include " + include + "\n";
     return faults(tree);
 }
 
-TEST(Layering, AcceptsATreeInOrder) { EXPECT_THAT(faults(good_tree()), IsEmpty()); }
+TEST(Layering, AcceptsATreeWithoutFaults) { EXPECT_THAT(faults(good_tree()), IsEmpty()); }
 
-TEST(Layering, FindsAnArrowThatPointsUp) {
+TEST(Layering, FindsAnIncludeOfAHigherLevel) {
     EXPECT_THAT(
         faults_with("engine/accel/tree.hpp", "\"methods/path.hpp\""),
         ElementsAre(
@@ -60,14 +60,14 @@ TEST(Layering, FindsAnArrowThatPointsUp) {
                 ElementsAre(HasSubstr("tools/argand stands above methods")));
 }
 
-TEST(Layering, FindsAnArrowSideways) {
+TEST(Layering, FindsAnIncludeWithinALevel) {
     EXPECT_THAT(faults_with("engine/scene/scene.hpp", "\"image/image.hpp\""),
                 ElementsAre(HasSubstr("scene and image stand side by side")));
     EXPECT_THAT(faults_with("tools/argand/main.cpp", "\"shader_compile/reflect.hpp\""),
                 ElementsAre(HasSubstr("stand side by side")));
 }
 
-TEST(Layering, IsNotDeceivedByTheSpelling) {
+TEST(Layering, ResolvesEverySpellingOfAPath) {
     for (const std::string spelling :
          {"<image/image.hpp>", "\"../image/image.hpp\"", "  \"image/image.hpp\" // why"})
         EXPECT_THAT(faults_with("engine/scene/scene.hpp", spelling),
@@ -108,7 +108,7 @@ TEST(Layering, FindsFilesThatIncludeEachOther) {
                 ElementsAre(HasSubstr("options.hpp > tools/argand/options.hpp")));
 }
 
-TEST(Layering, FindsWhatHasNoPlace) {
+TEST(Layering, FindsFilesOutsideAllLayers) {
     EXPECT_THAT(faults_with("engine/base/error.hpp", "\"bse/text.hpp\""),
                 ElementsAre(HasSubstr("no such file")));
     Sources tree = good_tree();
@@ -120,7 +120,7 @@ TEST(Layering, FindsWhatHasNoPlace) {
     EXPECT_THAT(faults(tree), ElementsAre(HasSubstr("helpers has no place")));
 }
 
-TEST(Layering, ThisRepositoryIsInOrder) {
+TEST(Layering, ThisRepositoryHasNoFaults) {
     const Sources sources = read_sources(ARGAND_SOURCE_DIR, {"engine", "shaders", "tools"});
     ASSERT_TRUE(sources.contains("engine/base/error.hpp"));
     ASSERT_TRUE(sources.contains("shaders/shared/prelude.h"));

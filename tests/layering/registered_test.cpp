@@ -1,4 +1,4 @@
-// Every test that CTest knows runs something.
+// Checks that every CTest test runs at least one test.
 #include "support/scratch_directory.hpp"
 
 #include <filesystem>
@@ -13,7 +13,8 @@ namespace {
 using testing::read_text;
 namespace fs = std::filesystem;
 
-/// Folders of tests with a test, or an instance of tests, whose name has or has not "Slow" in it.
+/// Test folders that contain a test, or an instantiation of tests, whose name contains "Slow" (or
+/// does not).
 std::set<std::string> folders_with_tests(bool slow) {
     const std::regex begin(
         R"((TEST|TEST_F|TEST_P)\(\s*\w+,\s*\w+\s*\)\s*\{|INSTANTIATE_TEST_SUITE_P\(Slow)");
@@ -34,7 +35,7 @@ std::set<std::string> folders_with_tests(bool slow) {
     return folders;
 }
 
-/// Of the tests FOLDER.kind, the folders.
+/// The folders FOLDER of the CTest tests FOLDER.kind.
 std::set<std::string> registered(const std::string& kind) {
     const std::string text = read_text(fs::path(ARGAND_BINARY_DIR) / "tests/CTestTestfile.cmake");
     const std::regex line(R"(add_test\(\S*?(\w+)\.)" + kind + R"(\W)");
@@ -45,12 +46,12 @@ std::set<std::string> registered(const std::string& kind) {
     return folders;
 }
 
-TEST(Registered, SlowTestsAreThoseOfFoldersThatHoldSome) {
+TEST(Registered, FoldersWithSlowTestsAreRegistered) {
     EXPECT_TRUE(registered("slow").contains("parallel"));
     EXPECT_EQ(registered("slow"), folders_with_tests(true));
 }
 
-TEST(Registered, QuickTestsAreThoseOfFoldersThatHoldSome) {
+TEST(Registered, FoldersWithQuickTestsAreRegistered) {
     EXPECT_TRUE(registered("quick").contains("layering"));
     EXPECT_EQ(registered("quick"), folders_with_tests(false));
 }

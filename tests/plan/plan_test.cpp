@@ -1,4 +1,4 @@
-// What a scene requires.
+// Tests which features a scene requires.
 #include "plan/plan.hpp"
 
 #include "methods/scenes.hpp"
@@ -25,7 +25,7 @@ std::set<Feature> features(const Scene& scene, const PlanRequest& request = {}) 
     return features(make_plan(scene, request));
 }
 
-/// Features of `after` that `before` has not.
+/// Features of `after` that `before` lacks.
 std::set<Feature> added(const Scene& before, const Scene& after) {
     std::set<Feature> set = features(after);
     for (const Feature feature : features(before)) {
@@ -39,7 +39,7 @@ Scene with_quad(Scene scene, const Material& material) {
     return scene;
 }
 
-TEST(Plan, DiffuseBoxNeedsNothingElse) {
+TEST(Plan, DiffuseBoxNeedsOnlyDiffuseFeatures) {
     EXPECT_THAT(features(room_scene()),
                 UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
                                      Feature::photon_map, Feature::differentials));
@@ -51,7 +51,7 @@ TEST(Plan, DiffuseBoxNeedsNothingElse) {
                                      Feature::photon_map, Feature::final_gather));
 }
 
-TEST(Plan, GlassSphereAddsWhatItNeeds) {
+TEST(Plan, GlassSphereAddsItsFeatures) {
     Scene scene = room_scene();
     add_sphere(scene, glm::vec3(0), 0.2f, 4, false, add_material(scene, glass(1.5f, true)));
     EXPECT_THAT(added(room_scene(), scene),
@@ -62,7 +62,7 @@ TEST(Plan, GlassSphereAddsWhatItNeeds) {
     EXPECT_THAT(added(scene, smooth), UnorderedElementsAre(Feature::smooth_normals));
 }
 
-TEST(Plan, EachMaterialAddsWhatItNeeds) {
+TEST(Plan, EachMaterialAddsItsFeatures) {
     const Scene room = room_scene();
     EXPECT_THAT(added(room, with_quad(room, lambertian(glm::vec3(0.1f)))), IsEmpty());
     EXPECT_THAT(added(room, with_quad(room, mirror())),
@@ -93,7 +93,7 @@ TEST(Plan, EachMaterialAddsWhatItNeeds) {
     EXPECT_THAT(added(room, unused), IsEmpty());
 }
 
-TEST(Plan, EachLightAddsWhatItNeeds) {
+TEST(Plan, EachLightAddsItsFeatures) {
     const Scene room = room_scene();
     EXPECT_THAT(added(room, with_quad(room, emitter(glm::vec3(1)))),
                 UnorderedElementsAre(Feature::emissive_triangles, Feature::several_lights));
@@ -119,7 +119,7 @@ TEST(Plan, EachLightAddsWhatItNeeds) {
     EXPECT_EQ(make_plan(scene, {}).light_kinds(), 0u);
 }
 
-TEST(Plan, NamesWhatRequiresIt) {
+TEST(Plan, NamesTheObjectThatRequiresAFeature) {
     Scene scene = room_scene();
     scene.materials[0].name = "wall";
     scene.lights[0].name = "lamp";
@@ -137,7 +137,7 @@ TEST(Plan, NamesWhatRequiresIt) {
     }
 }
 
-TEST(Plan, EverythingIsAll) {
+TEST(Plan, EverythingRequiresAllFeatures) {
     const Plan plan = make_plan({}, {.final_gather = true, .everything = true});
     EXPECT_EQ(plan.required.size(), all_features().size());
     EXPECT_FALSE(

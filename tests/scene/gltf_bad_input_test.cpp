@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-// References, sizes and types that do not fit: each must end in one line that says which.
+// References, sizes and types that do not fit. Each must cause a one-line message that names the
+// fault.
 
 namespace argand {
 namespace {
@@ -25,7 +26,7 @@ GltfBuilder square() {
     return builder;
 }
 
-/// What loading the square says after the value at `pointer` has been set.
+/// The message for loading the square with the value at `pointer` replaced.
 std::string problem_with(const std::string& pointer, const json& value) {
     GltfBuilder builder = square();
     builder.root[json::json_pointer(pointer)] = value;
@@ -37,19 +38,19 @@ std::string problem_with(const std::string& pointer, const json& value) {
     return problem;
 }
 
-TEST(GltfBadInput, TheSquareItselfIsGood) { EXPECT_EQ(square().problem(), ""); }
+TEST(GltfBadInput, UnmodifiedSquareLoads) { EXPECT_EQ(square().problem(), ""); }
 
 TEST(GltfBadInput, IndicesOutOfRange) {
     GltfBuilder builder = square();
     const std::size_t offset = builder.root["bufferViews"][2]["byteOffset"];
     builder.binary[offset] = 4;
     EXPECT_THAT(builder.problem(), HasSubstr("mesh 0 has index 4, but only 4 vertices"));
-    builder.binary[offset] = 0xff; // primitive restart, which glTF does not have
+    builder.binary[offset] = 0xff; // primitive restart, which glTF does not support
     builder.binary[offset + 1] = 0xff;
     EXPECT_THAT(builder.problem(), HasSubstr("mesh 0 has index 65535"));
 }
 
-TEST(GltfBadInput, ReferencesToWhatDoesNotExist) {
+TEST(GltfBadInput, ReferencesToMissingObjects) {
     EXPECT_THAT(problem_with("/nodes/0/mesh", 3),
                 HasSubstr("node 0 refers to mesh 3, which does not exist"));
     EXPECT_THAT(problem_with("/meshes/0/primitives/0/material", 0),
@@ -66,7 +67,7 @@ TEST(GltfBadInput, ReferencesToWhatDoesNotExist) {
     EXPECT_THAT(problem_with("/scenes/0/nodes/0", 9), HasSubstr("node 9, which does not exist"));
 }
 
-TEST(GltfBadInput, IndicesThatAreNoIndices) {
+TEST(GltfBadInput, MalformedIndices) {
     for (const char* pointer :
          {"/nodes/0/mesh", "/meshes/0/primitives/0/material", "/meshes/0/primitives/0/indices",
           "/meshes/0/primitives/0/attributes/POSITION", "/accessors/0/bufferView",
@@ -82,7 +83,7 @@ TEST(GltfBadInput, IndicesThatAreNoIndices) {
                 HasSubstr("\"children\" must be an integer"));
 }
 
-TEST(GltfBadInput, SizesThatAreNoSizes) {
+TEST(GltfBadInput, MalformedSizes) {
     for (const char* pointer :
          {"/accessors/0/count", "/accessors/0/byteOffset", "/bufferViews/0/byteOffset",
           "/bufferViews/0/byteLength", "/bufferViews/0/byteStride"}) {
@@ -149,8 +150,7 @@ TEST(GltfBadInput, WrongTypes) {
 }
 
 TEST(GltfBadInput, WrongJsonTypesEverywhere) {
-    // Whatever stands anywhere instead of what should be there: an Error, or it loads; never
-    // anything else.
+    // With any value in any place, the file either loads or fails with an Error.
     GltfBuilder builder = square();
     builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}},
                                   {"extensions", {{"KHR_materials_ior", {{"ior", 1.5}}}}}}};
@@ -264,8 +264,8 @@ TEST(GltfBadInput, NothingToRender) {
                 HasSubstr("nothing to render"));
 }
 
-TEST(GltfBadInput, SmallFilesDoNotAskForHugeMemory) {
-    // An accessor without data is all zeros, as many as it likes.
+TEST(GltfBadInput, SmallFilesCannotRequestHugeMemory) {
+    // An accessor without data is all zeros, of any count.
     GltfBuilder builder;
     builder.root["accessors"] = {
         {{"componentType", float_type}, {"type", "VEC3"}, {"count", 1ull << 52}}};
@@ -273,7 +273,7 @@ TEST(GltfBadInput, SmallFilesDoNotAskForHugeMemory) {
     EXPECT_THAT(builder.problem(), HasSubstr("more than 134217728 triangles"));
     builder.root["accessors"][0]["count"] = 1 << 23;
     EXPECT_THAT(builder.problem(), HasSubstr("8388608 elements without data; at most"));
-    // And one that is allowed, shown a thousand times.
+    // An allowed count, shown a thousand times.
     builder.root["accessors"][0]["count"] = 3 << 20;
     for (int i = 0; i < 1000; ++i) {
         builder.add_node({{"mesh", 0}});

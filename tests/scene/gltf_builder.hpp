@@ -22,7 +22,7 @@ inline constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ush
                      uint_type = 5125, float_type = 5126;
 inline constexpr int points = 0, line_strip = 3, triangles = 4, strip = 5, fan = 6;
 
-/// A directory to write scenes into, removed at the end.
+/// A directory for scene files, removed at the end.
 struct TempDirectory : argand::testing::ScratchDirectory {
     std::filesystem::path write(const std::string& name, const std::string& content) const {
         const std::filesystem::path file = *this / name;
@@ -41,7 +41,7 @@ inline void put_word(Bytes& bytes, std::uint32_t value) {
     }
 }
 
-/// A binary glTF of the two chunks; no BIN chunk if `binary` is empty.
+/// A binary glTF with these two chunks; without a BIN chunk if `binary` is empty.
 inline Bytes make_glb(std::string text, Bytes binary) {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     binary.resize((binary.size() + 3) / 4 * 4, 0);
@@ -60,7 +60,7 @@ inline Bytes make_glb(std::string text, Bytes binary) {
     return glb;
 }
 
-/// A glTF file in the making: one buffer, and the JSON, which a test may change as it likes.
+/// Builds a glTF file: one buffer, and the JSON, which tests may change.
 struct GltfBuilder {
     json root{
         {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", json::array()}}}}};
@@ -101,13 +101,13 @@ struct GltfBuilder {
     int add_mesh(json primitive) {
         return append(root["meshes"], {{"primitives", json::array({std::move(primitive)})}});
     }
-    /// A node of the first scene.
+    /// Adds a node to the first scene.
     int add_node(json node) {
         const int index = append(root["nodes"], std::move(node));
         root["scenes"][0]["nodes"].push_back(index);
         return index;
     }
-    /// A node that shows a mesh of these vertices, unindexed.
+    /// Adds a node that shows an unindexed mesh of these vertices.
     int add_triangles(const std::vector<glm::vec3>& corners, json node = json::object()) {
         node["mesh"] = add_mesh({{"attributes", {{"POSITION", add_vectors(corners)}}}});
         return add_node(node);
@@ -124,7 +124,7 @@ struct GltfBuilder {
         const TempDirectory directory;
         return load_gltf(directory.write("scene.glb", glb()));
     }
-    /// What loading says is wrong; "" if nothing is.
+    /// The message of the Error that loading throws; "" if it throws none.
     std::string problem() const {
         try {
             load();
@@ -138,7 +138,7 @@ struct GltfBuilder {
 /// The unit right triangle in the plane z = 0, counter-clockwise seen from +z.
 inline std::vector<glm::vec3> right_triangle() { return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}; }
 
-/// A file with that triangle and nothing else.
+/// A file with only that triangle.
 inline GltfBuilder one_triangle() {
     GltfBuilder builder;
     builder.add_triangles(right_triangle());
@@ -151,7 +151,7 @@ inline std::vector<glm::vec3> corners_of(const Scene& scene, std::size_t triangl
             scene.positions.at(corners.z)};
 }
 
-/// Geometric normal by the winding, with the area as length times two.
+/// Geometric normal by the winding; its length is twice the area.
 inline glm::dvec3 winding_normal(const Scene& scene, std::size_t triangle) {
     const std::vector<glm::vec3> c = corners_of(scene, triangle);
     return glm::cross(glm::dvec3(c[1]) - glm::dvec3(c[0]), glm::dvec3(c[2]) - glm::dvec3(c[0]));

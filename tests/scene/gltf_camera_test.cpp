@@ -27,7 +27,7 @@ json orthographic(double x, double y) {
             {"orthographic", {{"xmag", x}, {"ymag", y}, {"znear", 0}, {"zfar", 9}}}};
 }
 
-TEST(GltfCamera, ReadsPerspectiveOnes) {
+TEST(GltfCamera, ReadsPerspectiveCameras) {
     json camera = perspective(0.5);
     camera["name"] = "main";
     const Scene scene = with_camera(camera, {{"translation", {1, 2, 3}}}).load();
@@ -44,7 +44,7 @@ TEST(GltfCamera, ReadsPerspectiveOnes) {
     EXPECT_FALSE(has_note(scene, "no camera"));
 }
 
-TEST(GltfCamera, ReadsOrthographicOnes) {
+TEST(GltfCamera, ReadsOrthographicCameras) {
     const Camera camera =
         with_camera(orthographic(3, -2), {{"name", "carrier"}}).load().cameras.at(0);
     EXPECT_EQ(camera.kind, CameraKind::orthographic);
@@ -66,7 +66,7 @@ TEST(GltfCamera, StaysOrthonormalUnderScaleAndShear) {
     EXPECT_GT(glm::dot(camera.up, glm::vec3(3, 5, 0)), 0);
 }
 
-TEST(GltfCamera, RefusesBrokenOnes) {
+TEST(GltfCamera, RejectsInvalidCameras) {
     using ::testing::HasSubstr;
     for (const double angle : {0.0, -1.0, 3.2}) {
         EXPECT_THAT(with_camera(perspective(angle)).problem(),
@@ -83,14 +83,14 @@ TEST(GltfCamera, RefusesBrokenOnes) {
     EXPECT_THAT(builder.problem(), HasSubstr("camera 3, which does not exist"));
 }
 
-TEST(GltfCamera, LeavesOutThoseWithoutADirection) {
+TEST(GltfCamera, LeavesOutCamerasWithoutADirection) {
     const Scene scene = with_camera(perspective(1), {{"scale", {0, 0, 0}}}).load();
     EXPECT_TRUE(has_note(scene, "camera 0 is left out"));
     EXPECT_TRUE(has_note(scene, "there is no camera"));
     EXPECT_EQ(scene.cameras.size(), 1u);
 }
 
-// Where a point is in the picture: within ±1 in both directions, in front if depth > 0.
+// Image coordinates of a point: inside the image if within ±1, in front of the camera if depth > 0.
 glm::dvec3 project(const Camera& camera, const glm::dvec3& point) {
     const glm::dvec3 offset = point - glm::dvec3(camera.position);
     const double depth = glm::dot(offset, glm::dvec3(camera.forward));
@@ -123,7 +123,7 @@ TEST(FramingCamera, SeesTheWholeScene) {
             largest = std::max({largest, std::abs(seen.x), std::abs(seen.y)});
         }
         EXPECT_LT(largest, 1);
-        EXPECT_GT(largest, 0.2); // and does not look from far away
+        EXPECT_GT(largest, 0.2); // and is not too far away
     }
 }
 

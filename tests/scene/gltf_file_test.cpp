@@ -18,7 +18,7 @@ std::string problem_of(const std::filesystem::path& path) {
     return "";
 }
 
-/// The triangle as .gltf with a buffer at `uri`.
+/// The triangle as a .gltf whose buffer is at `uri`.
 std::string text_of_triangle(const std::string& uri) {
     GltfBuilder builder = one_triangle();
     builder.root["buffers"] = {{{"byteLength", builder.binary.size()}, {"uri", uri}}};
@@ -74,7 +74,7 @@ TEST_F(GltfFile, ReadsPathsWithSpacesAndUnicode) {
               "scène.glb");
 }
 
-TEST_F(GltfFile, SaysWhatIsWrongWithAPath) {
+TEST_F(GltfFile, ExplainsWhyAPathFails) {
     const std::string missing = problem_of(directory.path() / "missing.glb");
     EXPECT_THAT(missing, HasSubstr("missing.glb': there is no such file"));
     EXPECT_THAT(problem_of(directory.path()), HasSubstr("it is a directory"));
@@ -83,7 +83,7 @@ TEST_F(GltfFile, SaysWhatIsWrongWithAPath) {
     EXPECT_THAT(problem_of("/dev/zero"), HasSubstr("not a regular file"));
 }
 
-TEST_F(GltfFile, SaysWhatIsWrongWithABuffer) {
+TEST_F(GltfFile, ExplainsWhyABufferFails) {
     const auto problem = [&](const std::string& uri) {
         return problem_of(directory.write("scene.gltf", text_of_triangle(uri)));
     };
@@ -127,8 +127,8 @@ TEST_F(GltfFile, NeedsNoImages) {
 }
 
 TEST_F(GltfFile, ReadsGlbsThatAreNotPadded) {
-    // JSON and BIN chunks whose lengths are no multiples of four, and a chunk of an unknown type
-    // behind.
+    // JSON and BIN chunks with lengths that are not multiples of four, followed by a chunk of an
+    // unknown type.
     GltfBuilder builder = one_triangle();
     builder.root["buffers"] = {{{"byteLength", builder.binary.size()}}};
     Bytes glb = make_glb(builder.root.dump(), builder.binary);
@@ -139,13 +139,13 @@ TEST_F(GltfFile, ReadsGlbsThatAreNotPadded) {
     EXPECT_EQ(load_gltf(directory.write("scene.glb", glb)).triangles.size(), 1u);
 }
 
-TEST_F(GltfFile, IgnoresWhatFollowsAGlb) {
+TEST_F(GltfFile, IgnoresBytesAfterAGlb) {
     Bytes glb = one_triangle().glb();
     glb.insert(glb.end(), 99, 0xee);
     EXPECT_EQ(load_gltf(directory.write("scene.glb", glb)).triangles.size(), 1u);
 }
 
-TEST_F(GltfFile, SaysWhatIsWrongWithAGlb) {
+TEST_F(GltfFile, ExplainsWhyAGlbFails) {
     const auto problem = [&](const Bytes& bytes) {
         return problem_of(directory.write("scene.glb", bytes));
     };
@@ -158,7 +158,7 @@ TEST_F(GltfFile, SaysWhatIsWrongWithAGlb) {
     bad[4] = 1;
     EXPECT_THAT(problem(bad), HasSubstr("binary glTF of version 1"));
     bad = good;
-    bad[15] = 0x7f; // the JSON chunk's length
+    bad[15] = 0x7f; // length of the JSON chunk
     EXPECT_THAT(problem(bad), HasSubstr("chunk 0 of the binary glTF goes past the end"));
     bad = good;
     bad[16] = 'X';
@@ -167,7 +167,7 @@ TEST_F(GltfFile, SaysWhatIsWrongWithAGlb) {
     bad[8] = 12;
     bad[9] = 0;
     EXPECT_THAT(problem(bad), HasSubstr("has no JSON chunk"));
-    // A length that is consistent, but leaves out the end of the BIN chunk.
+    // A consistent length that truncates the BIN chunk.
     bad = good;
     bad.resize(bad.size() - 8);
     bad[8] = static_cast<std::uint8_t>(bad.size());
@@ -175,7 +175,7 @@ TEST_F(GltfFile, SaysWhatIsWrongWithAGlb) {
     EXPECT_THAT(problem(bad), HasSubstr("chunk 1 of the binary glTF goes past the end"));
 }
 
-TEST_F(GltfFile, SaysWhatIsWrongWithItsJson) {
+TEST_F(GltfFile, ExplainsWhyJsonFails) {
     const auto problem = [&](const std::string& text) {
         return problem_of(directory.write("scene.gltf", text));
     };
@@ -195,7 +195,7 @@ TEST_F(GltfFile, SaysWhatIsWrongWithItsJson) {
                 HasSubstr("its JSON is not valid"));
 }
 
-TEST_F(GltfFile, EndsAtDeepNestingInsteadOfOverflowingTheStack) {
+TEST_F(GltfFile, RejectsDeepNestingInsteadOfOverflowingTheStack) {
     const std::size_t depth = 1000000;
     const std::string nested =
         "{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + std::string(depth, '[') +
@@ -213,7 +213,7 @@ TEST_F(GltfFile, MessagesAreOneLine) {
     EXPECT_EQ(path.find('\n'), std::string::npos);
 }
 
-TEST_F(GltfFile, NotesWhatTheParserFoundOdd) {
+TEST_F(GltfFile, NotesTheParsersWarnings) {
     GltfBuilder builder = one_triangle();
     builder.root["meshes"][0]["primitives"].push_back({{"mode", 4}}); // no attributes
     EXPECT_TRUE(has_note(builder.load(), "not quite valid glTF: 'attributes' property is missing"));

@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 
-// Damaged files: each must either load or throw an Error of one line. Deterministic, so that a
-// failure can be repeated.
+// Damaged files must either load or throw an Error of one line. The damage is deterministic, so
+// that failures can be reproduced.
 
 namespace argand {
 namespace {
 
 using namespace testing_gltf;
 
-/// A file with a bit of everything.
+/// A file with one of each kind of object.
 Bytes small_glb() {
     GltfBuilder builder;
     const int positions = builder.add_vectors({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
@@ -40,8 +40,8 @@ Bytes small_glb() {
     return builder.glb();
 }
 
-/// True if the file loads.
-bool loads_or_says_why(const TempDirectory& directory, const Bytes& bytes) {
+/// Whether the file loads. Fails the test if it throws anything but an Error of one line.
+bool loads_or_explains(const TempDirectory& directory, const Bytes& bytes) {
     const auto file = directory.write("damaged.glb", bytes);
     try {
         load_gltf(file);
@@ -55,14 +55,14 @@ bool loads_or_says_why(const TempDirectory& directory, const Bytes& bytes) {
 TEST(GltfFuzz, TruncatedAtEveryLength) {
     const Bytes glb = small_glb();
     const TempDirectory directory;
-    ASSERT_TRUE(loads_or_says_why(directory, glb));
+    ASSERT_TRUE(loads_or_explains(directory, glb));
     for (std::size_t length = 0; length < glb.size(); ++length) {
         Bytes cut(glb.begin(), glb.begin() + std::ptrdiff_t(length));
-        EXPECT_FALSE(loads_or_says_why(directory, cut)) << length;
-        if (length >= 12) { // with a header that says the same
+        EXPECT_FALSE(loads_or_explains(directory, cut)) << length;
+        if (length >= 12) { // with a header that states the same length
             cut[8] = static_cast<std::uint8_t>(length);
             cut[9] = static_cast<std::uint8_t>(length >> 8);
-            EXPECT_FALSE(loads_or_says_why(directory, cut)) << length;
+            EXPECT_FALSE(loads_or_explains(directory, cut)) << length;
         }
     }
 }
@@ -75,14 +75,14 @@ TEST(GltfFuzz, EveryByteDamaged) {
         constexpr std::uint8_t flips[]{0x01, 0x80, 0xff};
         Bytes damaged = glb;
         damaged[at] ^= flips[at % 3];
-        loaded += loads_or_says_why(directory, damaged) ? 1 : 0;
+        loaded += loads_or_explains(directory, damaged) ? 1 : 0;
     }
-    EXPECT_GT(loaded, 0); // most bytes of the BIN chunk may be anything
+    EXPECT_GT(loaded, 0); // most bytes of the BIN chunk may have any value
 }
 
 TEST(GltfFuzz, DigitsAndBracketsReplaced) {
-    // In JSON a changed digit is another valid number: offsets, counts, types and references go
-    // wild.
+    // A changed digit leaves the JSON valid but makes offsets, counts, types and references
+    // arbitrary.
     const Bytes glb = small_glb();
     const TempDirectory directory;
     int loaded = 0;
@@ -93,7 +93,7 @@ TEST(GltfFuzz, DigitsAndBracketsReplaced) {
         for (const char other : {'0', '9', '-', 'e'}) {
             Bytes damaged = glb;
             damaged[at] = static_cast<std::uint8_t>(other);
-            loaded += loads_or_says_why(directory, damaged) ? 1 : 0;
+            loaded += loads_or_explains(directory, damaged) ? 1 : 0;
         }
     }
     EXPECT_GT(loaded, 0);
@@ -116,7 +116,7 @@ TEST(GltfFuzz, SeveralBytesDamagedAtRandomSlow) {
                 random(2) ? static_cast<std::uint8_t>(random(256))
                           : glb[20 + random(static_cast<std::uint32_t>(glb.size() - 20))];
         }
-        loads_or_says_why(directory, damaged);
+        loads_or_explains(directory, damaged);
     }
 }
 

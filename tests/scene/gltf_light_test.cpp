@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_gltf;
 
-/// The triangle, and a node with `light` under `node`'s transform.
+/// The triangle, and a node with this light and this transform.
 GltfBuilder with_light(const json& light, json node = json::object()) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
@@ -29,7 +29,7 @@ TEST(GltfLight, ReadsPointLights) {
     EXPECT_EQ(scene.lights[0].name, "bulb");
     EXPECT_EQ(scene.lights[0].kind, LightKind::point);
     EXPECT_EQ(scene.lights[0].position, glm::vec3(1, 2, 3));
-    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(40, 20, 0)); // a node's scale changes nothing
+    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(40, 20, 0)); // the node's scale does not matter
     EXPECT_FALSE(scene.sky);
 }
 
@@ -47,7 +47,7 @@ TEST(GltfLight, HasTheDefaultsOfTheExtension) {
 
 TEST(GltfLight, TurnsDirectionsWithTheNode) {
     const double half_root = std::sqrt(0.5);
-    // 90 degrees about x take −z to +y.
+    // A rotation by 90 degrees about x takes −z to +y.
     const Light light =
         with_light({{"type", "directional"}, {"intensity", 3}},
                    {{"rotation", {half_root, 0, 0, half_root}}, {"scale", {1, 2, 0.1}}})
@@ -58,7 +58,7 @@ TEST(GltfLight, TurnsDirectionsWithTheNode) {
     EXPECT_EQ(light.intensity, glm::vec3(3));
 }
 
-TEST(GltfLight, BringsConesIntoRange) {
+TEST(GltfLight, ClampsConesToTheirRange) {
     const auto cone = [](double inner, double outer) {
         return with_light({{"type", "spot"},
                            {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}})
@@ -66,7 +66,7 @@ TEST(GltfLight, BringsConesIntoRange) {
     };
     EXPECT_FLOAT_EQ(cone(0.25, 0.5).lights[0].inner_cone_angle, 0.25f);
     EXPECT_FLOAT_EQ(cone(0.25, 0.5).lights[0].outer_cone_angle, 0.5f);
-    EXPECT_EQ(cone(0.5, 0.5).notes, cone(0.25, 0.5).notes); // a sharp edge is all right
+    EXPECT_EQ(cone(0.5, 0.5).notes, cone(0.25, 0.5).notes); // a sharp edge is allowed
     EXPECT_FLOAT_EQ(cone(0.75, 0.5).lights[0].inner_cone_angle, 0.5f);
     EXPECT_TRUE(has_note(cone(0.75, 0.5), "cone angles out of range"));
     EXPECT_FLOAT_EQ(cone(0, 3).lights[0].outer_cone_angle, float(std::numbers::pi / 2));
@@ -79,7 +79,7 @@ TEST(GltfLight, NotesThatRangeIsIgnored) {
     EXPECT_FALSE(has_note(with_light({{"type", "point"}}).load(), "range"));
 }
 
-TEST(GltfLight, RefusesBrokenOnes) {
+TEST(GltfLight, RejectsInvalidLights) {
     using ::testing::HasSubstr;
     EXPECT_THAT(with_light({{"type", "point"}, {"intensity", -1}}).problem(),
                 HasSubstr("light 0 has an intensity"));
@@ -103,14 +103,14 @@ TEST(GltfLight, RefusesBrokenOnes) {
     }
 }
 
-TEST(GltfLight, LeavesOutThoseWithoutADirection) {
+TEST(GltfLight, LeavesOutLightsWithoutADirection) {
     const Scene scene = with_light({{"type", "directional"}}, {{"scale", {1, 1, 0}}}).load();
     EXPECT_TRUE(scene.lights.empty());
     EXPECT_TRUE(has_note(scene, "light 0 is left out"));
     EXPECT_EQ(with_light({{"type", "point"}}, {{"scale", {0, 0, 0}}}).load().lights.size(), 1u);
 }
 
-TEST(GltfLight, IsASkyWhereThereIsNone) {
+TEST(GltfLight, AddsASkyIfThereIsNoLight) {
     const Scene scene = one_triangle().load();
     ASSERT_TRUE(scene.sky.has_value());
     EXPECT_EQ(*scene.sky, glm::vec3(1));

@@ -93,8 +93,8 @@ TEST(GltfMaterial, BlendsByAlphaAndScalesEmissionByIt) {
     EXPECT_EQ(load_material(material).emission, glm::vec3(1, 0.5f, 0));
 }
 
-TEST(GltfMaterial, MaskedSurfacesAreThereOrNot) {
-    EXPECT_EQ(load_material(with_alpha(0.5, "MASK")).coverage, 1); // the cutoff is 0.5 unless given
+TEST(GltfMaterial, MaskedSurfacesArePresentOrAbsent) {
+    EXPECT_EQ(load_material(with_alpha(0.5, "MASK")).coverage, 1); // the default cutoff is 0.5
     json material = with_alpha(0.75, "MASK");
     material["alphaCutoff"] = 0.75;
     EXPECT_EQ(load_material(material).coverage, 1);
@@ -108,7 +108,7 @@ TEST(GltfMaterial, MaskedSurfacesAreThereOrNot) {
     EXPECT_TRUE(has_note(scene, "1 primitive is left out because alpha makes it invisible"));
 }
 
-TEST(GltfMaterial, BlendedSurfacesOfAlphaZeroAreNotThere) {
+TEST(GltfMaterial, BlendedSurfacesWithAlphaZeroAreAbsent) {
     json material = with_alpha(0, "BLEND");
     material["emissiveFactor"] = {1, 1, 1};
     GltfBuilder builder = with_material(material);
@@ -118,7 +118,7 @@ TEST(GltfMaterial, BlendedSurfacesOfAlphaZeroAreNotThere) {
     EXPECT_TRUE(scene.sky.has_value());
 }
 
-TEST(GltfMaterial, RefusesUnknownAlphaModesAndKeepsAlphaInRange) {
+TEST(GltfMaterial, RejectsUnknownAlphaModesAndClampsAlpha) {
     using ::testing::HasSubstr;
     EXPECT_THAT(
         with_material(with_alpha(0.5, "blend")).problem(),
@@ -154,7 +154,7 @@ TEST(GltfMaterial, ReadsPhongFromExtras) {
     EXPECT_FALSE(load_material({{"extras", "phong"}}).phong.has_value());
 }
 
-TEST(GltfMaterial, RefusesBadPhong) {
+TEST(GltfMaterial, RejectsInvalidPhong) {
     const auto problem = [](const json& specular, const json& exponent) {
         return with_material(with_phong({{"specular", specular}, {"exponent", exponent}}))
             .problem();
@@ -178,7 +178,7 @@ TEST(GltfMaterial, RefusesBadPhong) {
     }
 }
 
-TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
+TEST(GltfMaterial, RejectsIndicesOfRefractionBetweenZeroAndOne) {
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0);
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1}})).ior, 1);
     EXPECT_EQ(load_material(extension("KHR_materials_ior", {{"ior", 1 + 1e-7}})).ior, 1 + 0x1p-23f);
@@ -189,7 +189,7 @@ TEST(GltfMaterial, RefusesIndicesOfRefractionBetweenZeroAndOne) {
     }
 }
 
-TEST(GltfMaterial, BringsFactorsIntoRangeWithANote) {
+TEST(GltfMaterial, ClampsFactorsWithANote) {
     const Scene scene = with_material({{"name", "odd"},
                                        {"pbrMetallicRoughness",
                                         {{"baseColorFactor", {2, -1, 0.5, 1}},
@@ -209,7 +209,7 @@ TEST(GltfMaterial, BringsFactorsIntoRangeWithANote) {
     EXPECT_TRUE(has_note(scene, "emissiveFactor of -1"));
 }
 
-TEST(GltfMaterial, RefusesFactorsThatAreNoNumbers) {
+TEST(GltfMaterial, RejectsFactorsThatAreNotNumbers) {
     using ::testing::HasSubstr;
     EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"metallicFactor", "one"}}}}).problem(),
                 HasSubstr("\"metallicFactor\" must be made of numbers"));
@@ -229,7 +229,7 @@ TEST(GltfMaterial, NotesAColourOfWrongLength) {
     EXPECT_TRUE(has_note(scene, "not quite valid glTF: Array length of `baseColorFactor`"));
 }
 
-TEST(GltfMaterial, NamesWhatItDoesNotUnderstand) {
+TEST(GltfMaterial, NotesUnsupportedFeatures) {
     const json rough{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
                      {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
     EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));
@@ -250,7 +250,7 @@ TEST(GltfMaterial, UsesFactorsInsteadOfTexturesWithANote) {
     EXPECT_TRUE(has_note(with_material(sheen).load(), "textures are not read yet"));
 }
 
-TEST(GltfMaterial, DoesNotLetEmissiveTexturesGlowAllOver) {
+TEST(GltfMaterial, SurfacesWithEmissiveTexturesDoNotEmit) {
     const Scene scene =
         with_material({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}}).load();
     EXPECT_EQ(scene.materials[0].emission, glm::vec3(0));
@@ -258,7 +258,7 @@ TEST(GltfMaterial, DoesNotLetEmissiveTexturesGlowAllOver) {
     EXPECT_TRUE(scene.sky.has_value());
 }
 
-TEST(GltfExtensions, AreListedAndNamedWhereNotUnderstood) {
+TEST(GltfExtensions, AreListedWithANoteIfNotSupported) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_unlit",
                                       "KHR_materials_unlit"};
@@ -270,7 +270,7 @@ TEST(GltfExtensions, AreListedAndNamedWhereNotUnderstood) {
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
 
-TEST(GltfExtensions, RefusesRequiredOnesThatAreNotUnderstood) {
+TEST(GltfExtensions, RejectsUnsupportedRequiredExtensions) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
     builder.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};

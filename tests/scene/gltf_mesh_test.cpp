@@ -13,7 +13,7 @@ TEST(GltfMesh, ReadsUnindexedTriangles) {
     const Scene scene = one_triangle().load();
     ASSERT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(corners_of(scene, 0), right_triangle());
-    EXPECT_EQ(scene.normals, std::vector<glm::vec3>(3, glm::vec3(0))); // none in the file: flat
+    EXPECT_EQ(scene.normals, std::vector<glm::vec3>(3, glm::vec3(0))); // the file has none: flat
     EXPECT_DOUBLE_EQ(surface_area(scene), 0.5);
     EXPECT_EQ(scene.name, "scene.glb");
 }
@@ -94,7 +94,7 @@ TEST(GltfMesh, ReadsNormalsAndMakesThemUnit) {
           builder.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
     const Scene scene = builder.load();
     expect_near(scene.normals[0], {0, 0, 1});
-    EXPECT_EQ(scene.normals[1], glm::vec3(0)); // without direction: as if absent
+    EXPECT_EQ(scene.normals[1], glm::vec3(0)); // no direction: treated as absent
     expect_near(scene.normals[2], {std::sqrt(0.5), 0, std::sqrt(0.5)});
 }
 
@@ -200,7 +200,7 @@ TEST(GltfMesh, ReadsSparseAccessorsOverZeros) {
 }
 
 TEST(GltfMesh, TakesOnlyTheVerticesThatTrianglesUse) {
-    // Two primitives share one long vertex buffer, most of which is not finite and not used.
+    // Two primitives share one long vertex buffer; most of it is unused and not finite.
     GltfBuilder builder;
     std::vector<glm::vec3> vertices(1000, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -263,7 +263,7 @@ TEST(GltfMesh, GivesPrimitivesWithoutMaterialTheDefaultOne) {
     EXPECT_EQ(scene.materials[1].roughness, 1);
 }
 
-TEST(GltfMesh, NamesWhatItIgnoresOnce) {
+TEST(GltfMesh, NotesEachIgnoredFeatureOnce) {
     GltfBuilder builder;
     const int positions = builder.add_vectors(right_triangle());
     const json primitive{{"attributes", {{"POSITION", positions}, {"COLOR_0", positions}}},

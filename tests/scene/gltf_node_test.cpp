@@ -11,7 +11,7 @@ using namespace testing_gltf;
 
 const double half_root = std::sqrt(0.5);
 
-/// The triangle with a normal along (1, 0, 1), under `node`'s transform.
+/// The triangle with a normal along (1, 0, 1) under `node`'s transform.
 Scene load_transformed(const json& node) {
     GltfBuilder builder;
     const int positions = builder.add_vectors(right_triangle());
@@ -24,7 +24,7 @@ Scene load_transformed(const json& node) {
 }
 
 TEST(GltfNode, AppliesScaleThenRotationThenTranslation) {
-    // Scale x by 2, turn 90 degrees about z (x → y), move.
+    // Scale x by 2, rotate 90 degrees about z (x → y), translate.
     const Scene scene = load_transformed({{"scale", {2, 1, 1}},
                                           {"rotation", {0, 0, half_root, half_root}},
                                           {"translation", {10, 20, 30}}});
@@ -32,7 +32,7 @@ TEST(GltfNode, AppliesScaleThenRotationThenTranslation) {
     expect_near(corners[0], {10, 20, 30}, 1e-5);
     expect_near(corners[1], {10, 22, 30}, 1e-5);
     expect_near(corners[2], {9, 20, 30}, 1e-5);
-    // Normals go by the inverse transpose: (1, 0, 1) → (1/2, 0, 1) → (0, 1/2, 1).
+    // Normals are transformed by the inverse transpose: (1, 0, 1) → (1/2, 0, 1) → (0, 1/2, 1).
     expect_near(scene.normals[0], glm::normalize(glm::dvec3(0, 0.5, 1)));
 }
 
@@ -50,7 +50,7 @@ TEST(GltfNode, NormalisesRotations) {
 }
 
 TEST(GltfNode, AccumulatesParentsInDoublePrecision) {
-    // Far away and back: in single precision the detail of 0.001 would drown.
+    // Far away and back: single precision would lose the detail of 0.001.
     GltfBuilder builder;
     builder.add_triangles({{0, 0, 0}, {0.001f, 0, 0}, {0, 0.001f, 0}},
                           {{"translation", {-123456789, 0, 0}}});
@@ -63,8 +63,8 @@ TEST(GltfNode, MirroringKeepsTheFrontInFront) {
     for (const json& scale :
          {json{-1, 1, 1}, json{1, -1, 1}, json{1, 1, -1}, json{-1, -1, -1}, json{-2, -3, 1}}) {
         const Scene scene = load_transformed({{"scale", scale}});
-        // The normal (1, 0, 1) and the winding (0, 0, 1) are on the same side before, so they must
-        // be after.
+        // Before the transform, the normal (1, 0, 1) and the winding (0, 0, 1) are on the same
+        // side; they must be so afterwards.
         EXPECT_GT(glm::dot(winding_normal(scene, 0), glm::dvec3(scene.normals[0])), 0) << scale;
         const double z = scale[2].get<double>() < 0 ? -1 : 1;
         EXPECT_GT(winding_normal(scene, 0).z * z, 0) << scale;
@@ -72,7 +72,7 @@ TEST(GltfNode, MirroringKeepsTheFrontInFront) {
     }
 }
 
-TEST(GltfNode, MirroringTwiceIsNone) {
+TEST(GltfNode, MirroringTwiceKeepsTheWinding) {
     GltfBuilder builder;
     builder.add_triangles(right_triangle(), {{"scale", {-1, 1, 1}}});
     builder.root["nodes"].push_back({{"scale", {1, -1, 1}}, {"children", {0}}});
@@ -128,14 +128,14 @@ TEST(GltfNode, ShowsTheDefaultSceneElseTheFirstElseAllRoots) {
     builder.root.erase("scenes");
     builder.root["nodes"][0]["children"] = {1};
     scene = builder.load();
-    EXPECT_EQ(scene.triangles.size(), 3u); // node 1 once: as a child
+    EXPECT_EQ(scene.triangles.size(), 3u); // node 1 once, as a child
 
     builder.root["scenes"] = {{{"nodes", {0}}}};
     builder.root["scene"] = 7;
     EXPECT_THAT(builder.problem(), ::testing::HasSubstr("default scene 7 does not exist"));
 }
 
-TEST(GltfNode, RefusesCyclesAndSharedNodes) {
+TEST(GltfNode, RejectsCyclesAndSharedNodes) {
     GltfBuilder builder = three_nodes();
     builder.root["nodes"][0]["children"] = {1};
     builder.root["nodes"][1]["children"] = {0};
@@ -153,8 +153,8 @@ TEST(GltfNode, RefusesCyclesAndSharedNodes) {
     EXPECT_THAT(builder.problem(), ::testing::HasSubstr("reached twice"));
 }
 
-TEST(GltfNode, DoublingTreesEndAtOnce) {
-    // 40 levels, each naming the next twice: 2^40 visits if nodes could be shared.
+TEST(GltfNode, RejectsExponentialSharingAtOnce) {
+    // 40 levels, each referring to the next twice: 2^40 visits if nodes could be shared.
     GltfBuilder builder = one_triangle();
     for (int i = 1; i <= 40; ++i) {
         builder.root["nodes"].push_back({{"children", {i - 1, i - 1}}});
@@ -173,7 +173,7 @@ TEST(GltfNode, NestsDeeply) {
     EXPECT_EQ(builder.load().positions[0].z, depth);
 }
 
-TEST(GltfNode, RefusesBrokenTransformsAndReferences) {
+TEST(GltfNode, RejectsInvalidTransformsAndReferences) {
     const auto problem = [](const json& node) {
         GltfBuilder builder;
         builder.add_triangles(right_triangle(), node);

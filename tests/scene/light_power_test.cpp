@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// KHR_lights_punctual's falloff as its text has it.
+// The falloff as specified by KHR_lights_punctual.
 double falloff(double cosine, double inner, double outer) {
     const double scale = 1 / std::max(0.001, std::cos(inner) - std::cos(outer));
     const double offset = -std::cos(outer) * scale;
@@ -18,7 +18,7 @@ double falloff(double cosine, double inner, double outer) {
     return linear * linear;
 }
 
-// Midpoint rule in u = cos θ over the cone, where the falloff is not zero.
+// Midpoint rule in u = cos θ over the cone, outside which the falloff is 0.
 double quadrature(double inner, double outer) {
     const int steps = 2000000;
     const double low = std::cos(outer);

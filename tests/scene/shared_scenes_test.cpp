@@ -5,9 +5,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
-// Runs over the collection of scenes that may lie beside the repository (../shared/scenes). What
-// these files test is tested on the product's own by the other tests of this directory; they add
-// breadth.
+// Loads the collection of scenes that may exist beside the repository (../shared/scenes). The other
+// tests of this directory cover the same features; these files add breadth.
 
 namespace argand {
 namespace {
@@ -19,7 +18,7 @@ struct SharedScenes : ::testing::Test {
     fs::path root = fs::path(ARGAND_SOURCE_DIR).parent_path() / "shared" / "scenes";
     void SetUp() override {
         if (!fs::exists(root)) {
-            GTEST_SKIP() << "../shared/scenes is not there; the other tests of this directory "
+            GTEST_SKIP() << "../shared/scenes does not exist; the other tests of this directory "
                             "cover the same features";
         }
     }
@@ -54,7 +53,7 @@ void expect_sound(const Scene& scene, const std::string& file) {
     EXPECT_FALSE(summary_text(scene).empty()) << file;
 }
 
-TEST_F(SharedScenes, GoodOnesLoad) {
+TEST_F(SharedScenes, ValidScenesLoad) {
     for (const char* folder : {"cornell", "papers", "rooms", "khronos"}) {
         for (const fs::path& file : files(folder)) {
             try {
@@ -67,7 +66,7 @@ TEST_F(SharedScenes, GoodOnesLoad) {
     }
 }
 
-TEST_F(SharedScenes, MalformedOnesLoadOrSayWhyNot) {
+TEST_F(SharedScenes, MalformedScenesLoadOrExplainWhyNot) {
     for (const fs::path& file : files("malformed")) {
         std::string problem;
         try {
@@ -79,7 +78,7 @@ TEST_F(SharedScenes, MalformedOnesLoadOrSayWhyNot) {
         }
         std::ifstream report(file.string() + ".report.json");
         if (!problem.empty() && report && json::parse(report)["issues"]["numErrors"] == 0) {
-            // Valid, but without a triangle, without data, or beyond what is understood yet.
+            // Valid, but without a triangle, without data, or with unsupported features.
             const bool sensible = problem.find("nothing to render") != std::string::npos ||
                                   problem.find("requires the extension") != std::string::npos ||
                                   problem.find("has no uri") != std::string::npos ||

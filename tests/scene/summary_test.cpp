@@ -33,8 +33,7 @@ TEST(Describe, NamesEachKindOfMaterial) {
     EXPECT_EQ(kind(1, 0, 1, 1, 1), "mirror"); // metal does not transmit
 }
 
-/// A lamp and a wall, all kinds of lights, one camera, an animation, an extension that is not
-/// understood.
+/// A lamp and a wall, all kinds of lights, a camera, an animation, and an unsupported extension.
 Scene rich_scene() {
     GltfBuilder builder;
     builder.root["materials"] = {
@@ -99,7 +98,7 @@ TEST(Summary, CountsAndMeasuresInJson) {
                                            {{"name", "EXT_something"}, {"understood", false}}}));
 }
 
-TEST(Summary, SaysTheSameInText) {
+TEST(Summary, TextHasTheSameContents) {
     const std::string text = summary_text(rich_scene());
     for (const char* part :
          {"triangles   3 over 9 vertices", "bounds      0 0 0 to 2 2 2", "lamp: dielectric",
@@ -113,7 +112,7 @@ TEST(Summary, SaysTheSameInText) {
     EXPECT_EQ(text.back(), '\n');
 }
 
-TEST(Summary, TellsOfAlpha) {
+TEST(Summary, ReportsAlpha) {
     GltfBuilder builder = one_triangle();
     builder.root["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}}, {"alphaMode", "BLEND"}}};
@@ -122,7 +121,7 @@ TEST(Summary, TellsOfAlpha) {
     EXPECT_THAT(summary_text(builder.load()), HasSubstr("roughness 1, alpha 0.25"));
 }
 
-TEST(Summary, TellsOfPhong) {
+TEST(Summary, ReportsPhong) {
     GltfBuilder builder = one_triangle();
     builder.root["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
@@ -137,7 +136,7 @@ TEST(Summary, TellsOfPhong) {
         HasSubstr("Phong, base colour 0.5, specular colour 0.5 0.25 0, exponent 20 (1 tri"));
 }
 
-TEST(Summary, TellsOfWhatWasMadeUp) {
+TEST(Summary, ReportsAddedObjects) {
     const std::string text = summary_text(one_triangle().load());
     EXPECT_THAT(text, HasSubstr("sky         uniform, radiance 1"));
     EXPECT_THAT(text, HasSubstr("there is no camera"));

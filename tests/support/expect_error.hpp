@@ -8,8 +8,8 @@
 
 namespace argand::testing {
 
-/// The message of the Error that `act` throws, checked to be one line; a failure of the test if it
-/// throws none.
+/// The message of the Error that `act` throws. Fails the test if it throws none or the message has
+/// several lines.
 template <class Act> std::string error_of(Act&& act) {
     try {
         act();

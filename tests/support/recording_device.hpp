@@ -11,17 +11,17 @@
 
 namespace argand::testing {
 
-/// Runs everything on another device, and remembers what was dispatched and allocated.
+/// Runs everything on another device and records what was dispatched and allocated.
 class RecordingDevice final : public Device {
 public:
     explicit RecordingDevice(Device& device) : device_(device) {}
 
-    /// A kernel and the values of its specialization constants: what a pipeline is made of.
+    /// A kernel with the values of its specialization constants; each needs its own pipeline.
     using Variant = std::pair<const KernelInfo*, std::vector<std::uint32_t>>;
 
     const std::set<Variant>& variants() const { return variants_; }
     const std::set<std::string>& stages() const { return stages_; }
-    /// Of the largest buffer of this name; 0 if there was none.
+    /// Size of the largest buffer of this name; 0 if there was none.
     std::uint64_t bytes_of(const std::string& name) const {
         const auto found = bytes_.find(name);
         return found != bytes_.end() ? found->second : 0;

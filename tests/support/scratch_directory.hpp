@@ -10,7 +10,7 @@
 
 namespace argand::testing {
 
-/// An empty directory of its own, removed with all that is in it at the end of the scope.
+/// A new empty directory, removed with its contents at the end of the scope.
 class ScratchDirectory {
 public:
     ScratchDirectory() {
@@ -32,7 +32,7 @@ public:
     }
     const std::filesystem::path& path() const { return path_; }
 
-    /// Names of all that is in it.
+    /// Names of its entries.
     std::vector<std::string> names() const {
         std::vector<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(path_)) {
@@ -51,7 +51,7 @@ inline std::string read_text(const std::filesystem::path& path) {
 }
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
-    // ext4 waits for the disk where a file is cut to nothing and rewritten, but not for a new one.
+    // ext4 flushes a file that is truncated and rewritten, but not a new one.
     std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary) << text;
 }

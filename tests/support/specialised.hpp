@@ -15,14 +15,15 @@
 
 namespace argand::testing {
 
-/// What is left of a kernel when its specialization constants have values and dead code is gone.
+/// The code that remains of a kernel after its constants are specialised and dead code is
+/// eliminated.
 struct SpecialisedCode {
     std::size_t instructions = 0;  ///< in functions
-    std::set<std::string> buffers; ///< names of the bindings that are read or written
+    std::set<std::string> buffers; ///< names of the bindings that it reads or writes
     std::set<float> numbers;       ///< literals
 };
 
-/// As a driver leaves out what cannot be reached or is not used, but with nothing else.
+/// Removes unreachable and unused code like a driver, without other optimisations.
 inline SpecialisedCode specialised(const KernelInfo& kernel,
                                    const std::vector<std::uint32_t>& constants) {
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
@@ -33,7 +34,7 @@ inline SpecialisedCode specialised(const KernelInfo& kernel,
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
         .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
-    // Kernels are inlined and in SSA form when they are built.
+    // The build inlines kernels and converts them to SSA form.
     for (int round = 0; round < 2; ++round) {
         optimizer.RegisterPass(spvtools::CreateCCPPass())
             .RegisterPass(spvtools::CreateDeadBranchElimPass())
