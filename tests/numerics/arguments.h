@@ -1,5 +1,4 @@
-// What the functions under test are given and what they return, as the host and the device both
-// have it.
+// Arguments and results of the functions under test, in a form that host and device share.
 #ifndef ARGAND_TEST_ARGUMENTS_H
 #define ARGAND_TEST_ARGUMENTS_H
 
@@ -7,7 +6,7 @@
 
 ARGAND_SHARED_BEGIN
 
-// Single precision in every build, so that the truth is that of the same inputs.
+// Single precision in every build, so that the reference computes from the same inputs.
 struct Arguments {
     float32 x[32];
 };
@@ -16,14 +15,15 @@ struct Values {
     real y[16];
 };
 
-// Macros, for GLSL would copy all arguments at each call.
+// Macros, because GLSL would copy all arguments at each call.
 #define number_at(a, k) real((a).x[k])
 #define vec2_at(a, k) vec2((a).x[k], (a).x[(k) + 1])
 #define vec3_at(a, k) vec3((a).x[k], (a).x[(k) + 1], (a).x[(k) + 2])
-// A small whole number, and one of 32 bits from its two halves.
+// A small integer, and a 32-bit integer from its two halves.
 #define small_at(a, k) uint((a).x[k])
 #define word_at(a, k) ((small_at(a, k) << 16u) | small_at(a, (k) + 1))
-// A result whose truth is known without the text that gives it.
+// For results whose true value is known independently: evaluates to `found` in the build under test
+// and to `truth` in the reference.
 #ifdef ARGAND_REAL_DOUBLE
 #define must_be(found, truth) ((void)(found), (truth))
 #else
@@ -36,7 +36,7 @@ FN void put3(INOUT(Values) r, int k, vec3 v) {
     r.y[k + 2] = v.z;
 }
 
-// The halves of a word: numbers that single precision holds.
+// The halves of a word, which single precision holds exactly.
 FN void put_word(INOUT(Values) r, int k, uint word) {
     r.y[k] = real(word >> 16u);
     r.y[k + 1] = real(word & 0xffffu);

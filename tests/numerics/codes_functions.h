@@ -1,5 +1,5 @@
-// Bits: Morton codes, packed photons, slots, parts, which random numbers are taken; and compensated
-// sums.
+// Functions on bits (Morton codes, packed photons, slots, parts, choice of random numbers), and
+// compensated sums.
 #ifndef ARGAND_TEST_CODES_FUNCTIONS_H
 #define ARGAND_TEST_CODES_FUNCTIONS_H
 
@@ -27,7 +27,7 @@ CONSTANT uint of_photon_random4 = 110u;
 CONSTANT uint of_shuffled_slot = 111u;
 CONSTANT uint of_part_size = 112u;
 
-// Of a Morton code, every third bit.
+// One coordinate of a Morton code: every third bit.
 FN uint coordinate_of_code(uvec2 code, uint first) {
     uint v = 0u;
     for (uint k = 0u; k < 21u; ++k) {
@@ -38,7 +38,7 @@ FN uint coordinate_of_code(uvec2 code, uint first) {
 }
 
 #ifdef ARGAND_REAL_DOUBLE
-// What must come out, bit by bit.
+// Reference results, computed bit by bit.
 FN uint spread_bit_by_bit(uint v) {
     uint spread = 0u;
     for (uint k = 0u; k < 10u; ++k) {
@@ -72,7 +72,7 @@ FN uint cell_of_code(real x, real low, real high, bool fine) {
     return morton_cell(x, low, high, fine ? real(2097152.0) : real(1024.0));
 }
 
-// The least odd number of grains of which `parts` parts hold them all.
+// The least odd number of grains with which `parts` parts hold all elements.
 FN uint elements_per_part(real count, real parts, real grain) {
     real grains = ceil(count / (parts * grain));
     bool even = floor(grains * real(0.5)) * real(2.0) == grains;
@@ -83,7 +83,7 @@ FN uint elements_per_part(real count, real parts, real grain) {
 FN Values evaluate_codes(uint function, IN(Arguments) a) {
     Values r = no_values();
     if (function == of_add_compensated) {
-        // Of 1,024 terms: without compensation off by hundreds of ULP.
+        // A sum of 1,024 terms; without compensation it is off by hundreds of ULP.
         real sum = real(0.0);
         real lost = real(0.0);
         vec3 sums = vec3(real(0.0));

@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto ulp = Measure::ulp;
 
-/// Of any length; 0, single bits and all bits among them.
+/// A word of any length, including 0, single bits, and all bits set.
 std::uint32_t any_word(Draw& d) {
     const auto word = static_cast<std::uint32_t>(d.bits());
     switch (d.bits() % 6) {
@@ -25,7 +25,7 @@ std::uint32_t any_word(Draw& d) {
     }
 }
 
-/// Codes and places of two leaves that first differ in any bit of their 96.
+/// Codes and places of two leaves that first differ in any of their 96 bits.
 void put_leaves(Draw& d) {
     std::uint32_t first[3] = {any_word(d), any_word(d), any_word(d)};
     std::uint32_t second[3] = {any_word(d), any_word(d), any_word(d)};
@@ -47,8 +47,8 @@ void put_leaves(Draw& d) {
     d.put_word(second[2]);
 }
 
-/// A point in or near a box, and the box's corners: flat boxes and ones wider than the greatest
-/// number among them.
+/// A point in or near a box, and the box's corners; includes flat boxes and boxes larger than the
+/// greatest number.
 void put_point_and_box(Draw& d) {
     glm::vec3 low = d.vector(-20, 20);
     glm::vec3 size = glm::abs(d.vector(-10, 20));

@@ -10,7 +10,7 @@
 
 namespace argand::testing {
 
-/// Inputs of the functions under test: random ones, and in a quarter of the cases extremes.
+/// Inputs of the functions under test: random ones and, in a quarter of the cases, extremes.
 struct Draw {
     std::mt19937 bits;
     truth::Inputs x{};
@@ -37,13 +37,13 @@ struct Draw {
         put(static_cast<float>(word & 0xffff));
     }
 
-    /// Of the renderer's random numbers: multiples of 2^-24 in [0, 1), its ends and the middle
-    /// among them.
+    /// A number as the renderer's random streams produce it: a multiple of 2^-24 in [0, 1), often
+    /// 0, the largest, or the middle.
     float unit() {
         const float ends[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.5f - 0x1p-24f, 1 - 0x1p-24f};
         return once_in(8) ? ends[bits() % 6] : static_cast<float>(bits() >> 8) * 0x1p-24f;
     }
-    /// In [0, 1], tiny ones and the ends among them.
+    /// In [0, 1], including tiny numbers and both ends.
     float share() {
         switch (bits() % 6) {
         case 0:
@@ -54,7 +54,7 @@ struct Draw {
             return unit();
         }
     }
-    /// Of either sign; every eighth 0.
+    /// Of either sign; one in eight is 0.
     float component(int low, int high) { return once_in(8) ? 0 : sign() * magnitude(low, high); }
     glm::vec3 vector(int low, int high) {
         return {component(low, high), component(low, high), component(low, high)};
@@ -65,7 +65,7 @@ struct Draw {
         return v;
     }
 
-    /// Axes, diagonals and directions near an axis or a plane among them.
+    /// A direction; includes axes, diagonals, and directions near an axis or a plane.
     glm::vec3 direction() {
         std::normal_distribution<double> normal;
         glm::dvec3 v(normal(bits), normal(bits), normal(bits));
@@ -87,7 +87,7 @@ struct Draw {
         }
         return rounded(glm::normalize(v));
     }
-    /// Above the surface: straight above and grazing by 10^-7 among them.
+    /// A direction above the surface; includes the normal and cosines down to 10^-7.
     glm::vec3 upper() {
         glm::dvec3 v(direction());
         v.z = std::abs(v.z);
@@ -97,7 +97,7 @@ struct Draw {
         v.z = std::max(v.z, 1e-7);
         return rounded(glm::normalize(v));
     }
-    /// A unit vector at right angles to n, but for rounding.
+    /// A unit vector perpendicular to n, up to rounding.
     glm::dvec3 across(glm::dvec3 n) {
         const glm::dvec3 other = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 u = glm::normalize(glm::cross(n, other));
@@ -105,14 +105,14 @@ struct Draw {
         const double angle = between(0, 6.283185307179586);
         return u * std::cos(angle) + v * std::sin(angle);
     }
-    /// Towards the side of n, with a cosine of 10^-7 and more.
+    /// On n's side, with a cosine of at least 10^-7.
     glm::vec3 above(glm::vec3 n) {
         const double cosine = once_in(3) ? double(magnitude(-23, 0)) : between(0.01, 1);
         const glm::dvec3 z(n);
         return rounded(
             glm::normalize(z * cosine + across(z) * std::sqrt(std::max(1 - cosine * cosine, 0.0))));
     }
-    /// Of dielectrics' borders: 0.1 to 10, 1 ± 10^-7 among them.
+    /// Index ratios of dielectric interfaces: 0.1 to 10, including 1 ± 10^-7.
     float index_ratio() {
         const float ends[] = {0.1f, 1 - 0x1p-23f, 1 - 0x1p-24f, 1, 1 + 0x1p-23f, 1.0001f, 10};
         return once_in(3) ? ends[bits() % 7] : static_cast<float>(std::pow(10.0, between(-1, 1)));

@@ -7,8 +7,8 @@
 
 namespace argand::testing {
 
-/// Pictures at the ends of what may come. What holds in all of them is tested with each: no value
-/// that is not finite or is negative, every photon emitted, and all of its flux accounted for.
+/// Renders images in extreme situations. Checks for each what always holds: every value is finite
+/// and not negative, every photon is emitted, and all of its flux is accounted for.
 class Extremes : public RenderTest {
 protected:
     static RenderSettings small(const std::string& method, std::uint32_t samples = 4,
@@ -40,12 +40,12 @@ protected:
         return result;
     }
 
-    /// relMSE of the whole picture.
+    /// relMSE of the whole image.
     static double difference(const RenderResult& a, const RenderResult& b) {
         return compare(layer(a, ""), layer(b, "")).rel_mse;
     }
 
-    /// Of the mean radiance, the largest of the channels.
+    /// Relative difference of the mean radiance, the largest over the channels.
     static double difference_of_means(const RenderResult& a, const RenderResult& b,
                                       const std::string& name = "") {
         const glm::dvec3 x = mean(layer(a, name));
@@ -59,7 +59,7 @@ protected:
     }
 };
 
-/// The largest of a figure, and where it was.
+/// The largest value of a figure, and where it occurred.
 struct Largest {
     double value = 0;
     std::string where;

@@ -1,5 +1,5 @@
-// The functions of the shared maths by number, as one function that the host, the device and the
-// truth run.
+// The functions of the shared maths by number, behind one function that host, device and reference
+// run.
 #ifndef ARGAND_TEST_FUNCTIONS_H
 #define ARGAND_TEST_FUNCTIONS_H
 

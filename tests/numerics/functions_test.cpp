@@ -1,5 +1,5 @@
-// The shared maths in single precision, on the host and on the device, against the same text in
-// double precision.
+// The shared maths in single precision, on host and device, compared with the same code in double
+// precision.
 #include "device_fixture.hpp"
 #include "functions.h"
 #include "kernels/evaluate_codes.hpp"
@@ -16,19 +16,20 @@
 namespace argand::testing {
 namespace {
 
-/// The largest of each measure over all cases, and the case of the one that is bounded.
+/// Largest value of each measure over all cases, and the case in which the bounded measure is
+/// largest.
 struct Worst {
     double ulp = 0;
     double relative = 0;
     double conditioned = 0;
-    double bounded = 0; ///< ulp or conditioned, as the row says
+    double bounded = 0; ///< ulp or conditioned, depending on Function::measure
     std::size_t at = 0;
     std::size_t wrong_at = 0;
-    int wrong_decisions = 0; ///< that rounding the inputs does not explain
-    int borderline = 0;      ///< that it does
+    int wrong_decisions = 0; ///< decisions that rounding of the inputs does not explain
+    int borderline = 0;      ///< decisions that rounding of the inputs explains
 };
 
-constexpr double smallest_normal = 0x1p-126; // devices may flush what is smaller
+constexpr double smallest_normal = 0x1p-126; // devices may flush smaller numbers
 
 struct Part {
     int first = 0;
@@ -75,7 +76,7 @@ bool same_decisions(const A& a, const truth::Outputs& b, const std::vector<Part>
     });
 }
 
-/// Whether no more than cells differ, and these by one.
+/// Whether at most cells differ, each by at most one.
 template <class A>
 bool are_neighbours(const A& a, const truth::Outputs& b, const std::vector<Part>& parts) {
     return std::all_of(parts.begin(), parts.end(), [&](const Part& p) {
@@ -96,8 +97,8 @@ truth::Inputs nudged(const Function& f, truth::Inputs x, std::mt19937& bits, int
     return x;
 }
 
-/// Whether inputs some units in the last place away lead to these decisions in double precision, or
-/// to lower and to higher ones.
+/// Whether inputs a few units in the last place away lead to the same decisions in double
+/// precision, or to both lower and higher ones.
 template <class A>
 bool is_borderline(const Function& f, const truth::Inputs& x, const A& decided,
                    const std::vector<Part>& parts) {
@@ -123,8 +124,8 @@ bool is_borderline(const Function& f, const truth::Inputs& x, const A& decided,
     return false;
 }
 
-/// How much each part changes where every input is half a unit in the last place off, to first
-/// order.
+/// Change of each part of the result, to first order, if every input is off by half a unit in the
+/// last place. stable: whether most nearby inputs lead to the same decisions.
 std::vector<double> conditions(const Function& f, const truth::Inputs& x, const truth::Outputs& y,
                                const std::vector<Part>& parts, bool& stable) {
     int same = 0;
@@ -148,7 +149,7 @@ std::vector<double> conditions(const Function& f, const truth::Inputs& x, const 
             sums[p] += largest[p];
         }
     }
-    // Where one input alone leads to another decision, several together may not.
+    // If a single changed input changes a decision, several changed inputs may not.
     std::mt19937 bits(9);
     for (int i = 0; i < 32; ++i) {
         const truth::Outputs changed = truth::evaluate(f.id, nudged(f, x, bits, 1));
@@ -169,7 +170,7 @@ struct Case {
     truth::Inputs x;
     truth::Outputs y;
     std::vector<double> condition;
-    bool stable = true; ///< most of the inputs around it lead to the same decisions
+    bool stable = true; ///< most nearby inputs lead to the same decisions
 };
 
 void take(Worst& worst, const Function& f, const std::vector<Part>& parts, const Case& c,
@@ -274,7 +275,7 @@ protected:
             const Values mine = evaluate(f.id, inputs[i]);
             take(host, f, parts, cases[i], mine, i);
             take(other, f, parts, cases[i], values[i], i);
-            // By value: which zero it is may differ.
+            // Compares values, so zeros of different signs are equal.
             const bool same =
                 std::equal(std::begin(mine.y), std::end(mine.y), std::begin(values[i].y));
             unequal += !same;
@@ -289,7 +290,7 @@ protected:
             EXPECT_LE(worst.borderline, static_cast<int>(f.borderline * static_cast<double>(count)))
                 << where;
         }
-        // Of what rounds every division and square root correctly, as the host does.
+        // lavapipe rounds every division and square root correctly, like the host.
         const bool exact = device.info().driver.find("llvmpipe") != std::string::npos;
         if (exact) {
             EXPECT_EQ(unequal, 0u)

@@ -1,10 +1,10 @@
-// Triangles that are next to nothing, in one another's place, or grazed; eyes where none should be.
+// Degenerate, coincident and grazed triangles, and cameras inside geometry.
 #include "extremes.hpp"
 
 namespace argand::testing {
 namespace {
 
-/// The room with a second floor of another colour, cut into this many strips from wall to wall.
+/// The room with a second floor of another colour, divided into this many strips from wall to wall.
 Scene room_with_floor(int strips) {
     Scene scene = room_scene();
     scene.name = fmt::format("floor of {} strips", strips);
@@ -19,8 +19,8 @@ Scene room_with_floor(int strips) {
 
 class Slivers : public Extremes {
 protected:
-    /// Of the picture of the floor that is nothing but slivers of this aspect, the relMSE against
-    /// that of the plain one.
+    /// Compares the image of a floor that consists of slivers of this aspect with that of a plain
+    /// floor, by relMSE.
     void expect_plain_floor(int aspect, double bound) {
         const Scene plain = room_with_floor(1);
         const Scene cut = room_with_floor(aspect);
@@ -30,7 +30,7 @@ protected:
             const double error = difference(sound(cut, small(method, 8)), expected);
             EXPECT_LT(error, bound) << method;
             worst.take(error, method);
-            // The other colour would be seen where slivers are missing.
+            // Missing slivers would show the other colour.
             EXPECT_GT(difference(sound(room_scene(), small(method, 8)), expected), 3 * bound)
                 << method;
         }
@@ -44,7 +44,7 @@ TEST_F(Slivers, OfAspectTenThousand) { expect_plain_floor(10'000, 0.01); }
 
 TEST_F(Slivers, SlowOfAspectAMillion) { expect_plain_floor(1'000'000, 0.01); }
 
-/// A floor in a slanting plane, and one that lies in the same plane but is turned within it.
+/// A slanted floor, and another that is rotated within the same plane.
 Scene two_floors_in_one_plane(bool first, bool second) {
     Scene scene;
     scene.name = "two floors in one plane";
@@ -151,7 +151,7 @@ TEST_F(Extremes, EyesThatGraze) {
     Largest worst;
     for (const float sine : {1e-3f, 1e-5f, 1e-7f}) {
         for (const std::string& method : method_names()) {
-            // A bundle far narrower than it is high above the floor.
+            // A bundle much narrower than its height above the floor.
             scene.cameras = {parallel_rays({0.5f, 0.5f * sine, 0}, {0, 0, 0}, 1e-4f * sine)};
             const double found = mean(layer(sound(scene, direct(method)), "")).g;
             EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", " << sine;
@@ -163,8 +163,7 @@ TEST_F(Extremes, EyesThatGraze) {
 }
 
 TEST_F(Extremes, EyeInsideAWall) {
-    // Between the faces of the room's block, which no light enters; and exactly in the plane of a
-    // wall.
+    // Inside the room's block, where no light enters, and exactly in the plane of a wall.
     Scene inside = room_scene();
     inside.cameras = {look_at({-0.2f, -0.5f, -0.4f}, {0.1f, 0.2f, 0.95f})};
     Scene within = room_scene();

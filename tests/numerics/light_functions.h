@@ -1,4 +1,4 @@
-// Lights, differentials and footprints.
+// Functions of lights, differentials and footprints.
 #ifndef ARGAND_TEST_LIGHT_FUNCTIONS_H
 #define ARGAND_TEST_LIGHT_FUNCTIONS_H
 
@@ -87,7 +87,7 @@ FN Values differential_values(IN(PhotonDifferential) d) {
     return r;
 }
 
-// smoothing, exponent and the like are what the engine uses.
+// Smoothing, exponent and the other parameters are the engine's defaults.
 FN FootprintScale some_footprint_scale(real photons, real length, uint principal_axes) {
     FootprintScale s = make_footprint_scale(photons, real(1e4), length, real(3.0), real(5.0),
                                             real(0.1), real(0.4), real(0.16666666666666666667));
@@ -157,8 +157,8 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
                                   vec4(a.x[4], a.x[5], real(0.0), real(0.0)), vec3(real(0.0)),
                                   number_at(a, 6), origin, direction, normal, flux);
         r.y[0] = emitted ? real(1.0) : real(0.0);
-        // Off triangles by a bound of the rounding errors of this very precision:
-        // offset_ray_origin's.
+        // On triangles, offset_ray_origin moves the origin by a bound of this precision's rounding
+        // errors, so skip it.
         put3(r, 1, small_at(a, 22) != light_triangle ? origin : vec3(real(0.0)));
         put3(r, 4, direction);
         put3(r, 7, flux);
@@ -232,7 +232,7 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         Footprint f = make_footprint(
             d, vec3_at(a, 6), small_at(a, 11) != 0u,
             some_footprint_scale(number_at(a, 9), number_at(a, 10), small_at(a, 12)));
-        // Where both axes are clamped, either may be the first: the ellipsoid is the same.
+        // If both axes are clamped, either may come first; the ellipsoid is the same.
         put3(r, 0, footprint_extent(f));
         r.y[3] = footprint_area(f);
     } else if (function == of_footprint_area) {

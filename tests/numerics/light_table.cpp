@@ -11,14 +11,14 @@ constexpr auto conditioned = Measure::conditioned;
 
 constexpr float point = light_point, spot = light_spot, triangle = light_triangle;
 
-/// Cosines of a spot's cones: narrow ones of 10^-3 rad and a hemisphere among them.
+/// Cosines of a spot's cones, including narrow ones of 10^-3 rad and a hemisphere.
 glm::vec2 spot_cosines(Draw& d) {
     const double outer = d.once_in(3) ? double(d.magnitude(-10, 0)) : d.between(0.1, 1.57);
     const double inner = d.once_in(4) ? 0 : outer * d.between(0, 1);
     return {static_cast<float>(std::cos(inner)), static_cast<float>(std::cos(outer))};
 }
 
-/// Fourteen numbers: place, colour, cones and direction, or a triangle.
+/// Fourteen numbers: position, colour, cones and direction, or a triangle.
 void put_light(Draw& d, float kind) {
     const glm::vec3 place = d.vector(-10, 10);
     const glm::vec2 cosines = spot_cosines(d);
@@ -39,7 +39,7 @@ glm::vec3 position_of_light(const Draw& d, std::size_t first) {
     return {d.x[first], d.x[first + 1], d.x[first + 2]};
 }
 
-/// Nearly parallel ones among them, of any size.
+/// Two vectors of any size, including nearly parallel ones.
 void put_pair(Draw& d, int low, int high) {
     const glm::vec3 u = d.nonzero_vector(low, high);
     d.put(u);
@@ -47,13 +47,13 @@ void put_pair(Draw& d, int low, int high) {
     d.put(skewed ? u * 0.7f + d.nonzero_vector(low, high) * 1e-4f : d.nonzero_vector(low, high));
 }
 
-/// Of a unit normal, at right angles to it.
+/// Change of a unit normal, perpendicular to it.
 void put_normal_change(Draw& d, glm::vec3 n) {
     d.put(d.once_in(4) ? glm::vec3(0)
                        : rounded(d.across(glm::dvec3(n)) * double(d.magnitude(-12, 10))));
 }
 
-/// A direction that comes in, the normal there, and its changes with both parameters.
+/// An incoming direction, the normal at its hit, and the normal's changes with both parameters.
 void put_curved_hit(Draw& d) {
     const glm::vec3 n = d.direction();
     d.put(-d.above(n));
@@ -68,7 +68,7 @@ void put_differential(Draw& d) {
     put_pair(d, -12, 0);
 }
 
-/// Two axes in the plane across n, by up to 1000 times as long as each other, and a third along n.
+/// Two axes perpendicular to n, with lengths in a ratio of up to 1000, and a third along n.
 void put_footprint(Draw& d, glm::vec3 n) {
     const glm::dvec3 z(n);
     const glm::dvec3 u = d.across(z);
@@ -318,7 +318,8 @@ std::vector<Function> light_table() {
              d.put(kind);
              d.put(static_cast<float>(d.bits() % 2));
              if (kind ==
-                 spot) { // the spot's axis near the photon's direction, so that it is in the cone
+                 // The spot's axis is near the photon's direction, so that it is inside the cone.
+                 spot) {
                  const glm::dvec3 z(d.x[0], d.x[1], d.x[2]);
                  const glm::vec3 axis =
                      rounded(glm::normalize(z + d.across(z) * double(d.magnitude(-12, 0))));

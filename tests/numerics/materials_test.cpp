@@ -1,4 +1,4 @@
-// Indices of refraction, roughnesses and albedos at their ends.
+// Extreme indices of refraction, roughnesses and albedos.
 #include "extremes.hpp"
 
 #include "support/scratch_directory.hpp"
@@ -8,8 +8,8 @@
 namespace argand::testing {
 namespace {
 
-/// Through its parallel faces whatever has entered it leaves; between facets light of high index is
-/// trapped for long.
+/// Light that enters this block leaves it through the parallel face. Facets would trap light in
+/// glass of a high index for long.
 Scene block_in_a_furnace(const Material& material) {
     Scene scene;
     scene.name = "block in a furnace";
@@ -46,7 +46,7 @@ TEST_F(Extremes, GlassOfAnyIndexLosesNothing) {
                    worst.text());
 }
 
-/// A file of a cubic border between glass of this index and nothing.
+/// A file with a cube of glass of this index.
 Scene load_cube_of_glass(const char* ior, bool solid) {
     const ScratchDirectory directory;
     nlohmann::json file =
@@ -92,14 +92,13 @@ TEST_F(Extremes, GlassOfAnyIndexFromAFile) {
                    worst.text());
 }
 
-TEST_F(Extremes, GlassOfIndexOneIsNotThere) {
+TEST_F(Extremes, GlassOfIndexOneIsInvisible) {
     Scene with = room_scene();
     add_sphere(with, {0.4f, 0, 0.2f}, 0.3f, 8, false, add_material(with, glass(1, true)));
     RenderSettings settings = small("path", 32);
     const double error =
         mean(layer(sound(with, settings), "")).g / mean(layer(sound(room_scene(), settings), "")).g;
-    // Shadow rays stop at glass, and what comes through it from a light without extent is left to
-    // photons.
+    // Shadow rays stop at glass, so only photons carry light from a delta light through it.
     settings.method = "photons";
     const double all =
         mean(layer(sound(with, settings), "")).g / mean(layer(sound(room_scene(), settings), "")).g;
@@ -119,8 +118,8 @@ TEST_F(Extremes, MetalFromMirrorToRough) {
         for (const std::string& method : method_names()) {
             const double found =
                 mean(layer(sound(sphere_in_a_furnace(metal), small(method, 16)), "")).g;
-            // Smooth: nothing is lost; rough: what a second scattering would bring back, up to a
-            // third.
+            // Smooth metal loses nothing; rough metal loses up to a third, which a second
+            // scattering would return.
             EXPECT_LT(found, 1.01) << roughness << ", " << method;
             EXPECT_GT(found, roughness < 0.5f ? 0.99 : 0.6) << roughness << ", " << method;
             lowest = std::min(lowest, found);

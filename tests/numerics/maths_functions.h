@@ -118,7 +118,7 @@ FN Values evaluate_maths(uint function, IN(Arguments) a) {
         put_word(r, 0, sum.y);
         put_word(r, 2, sum.x);
     } else if (function == of_query_cell) {
-        // A hash of the point's bits moves it; of the same bits in both precisions.
+        // Jittered by a hash of the point's bits, which are the same in both precisions.
         uvec4 cell = query_cell(vec3_at(a, 5), vec3_at(a, 0), number_at(a, 3), number_at(a, 4));
         r.y[0] = real(int(cell.x) - 0x40000000);
         r.y[1] = real(int(cell.y) - 0x40000000);

@@ -158,12 +158,13 @@ std::vector<Function> maths_table() {
         {"query_cell", of_query_cell, "points 2^-10 … 2^4 on surfaces facing ±z, cells 2^-14 … 2",
          [](Draw& d) {
              const float largest = d.magnitude(-6, 0);
-             // Rounded normals on the octahedron's edge may have their frame on either side.
+             // On the octahedron's edge, rounding decides on which side a normal's frame is; avoid
+             // it.
              d.put(rounded(
                  glm::normalize(glm::dvec3(d.direction()) + glm::dvec3(0, 0, 2 * d.sign()))));
              d.put(largest);
              d.put(largest * d.magnitude(-8, 1));
-             d.put(d.vector(-10, 4)); // whose bits are hashed
+             d.put(d.vector(-10, 4)); // its bits are hashed
          },
          5, "cccd", ulp, 0},
         {"direction_cell, direction_steps", of_direction_cell,

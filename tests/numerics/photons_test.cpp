@@ -1,4 +1,4 @@
-// Few photons and many, small discs and large ones.
+// Few and many photons, small and large radii.
 #include "extremes.hpp"
 
 #include "scene/light_power.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 const char* const map_methods[] = {"photons", "footprints", "knn"};
 
-TEST_F(Extremes, NoPhotonOneAndTwo) {
+TEST_F(Extremes, ZeroOneAndTwoPhotons) {
     const Scene scene = load_asset("cornell_point.glb");
     const double power = emitted_power(scene.lights.at(0)).g;
     Largest worst;
@@ -22,7 +22,7 @@ TEST_F(Extremes, NoPhotonOneAndTwo) {
             settings.photons = photons;
             const RenderResult few = sound(scene, settings);
             EXPECT_TRUE(same_bits(layer(few, "direct"), layer(none, "direct")));
-            // One photon carries all of the light's power, two carry half of it each.
+            // One photon carries all of the light's power; each of two carries half.
             const FluxSums& flux = few.statistics.flux;
             const double emitted = static_cast<double>(flux.emitted[1]) * flux.unit;
             EXPECT_RELATIVE(emitted, power, 1e-5) << method << ", " << photons;
@@ -55,7 +55,7 @@ TEST_F(Extremes, SlowTenMillionPhotons) {
                                shown(std::abs(emitted / power.g - 1)), shown(error)));
 }
 
-TEST_F(Extremes, RadiusOfNothing) {
+TEST_F(Extremes, RadiusNearZero) {
     const Scene scene = room_scene();
     for (const std::string method : {"photons", "knn"}) {
         RenderSettings settings = small(method);
@@ -64,7 +64,7 @@ TEST_F(Extremes, RadiusOfNothing) {
             settings.radius = radius;
             const RenderResult found = sound(scene, settings);
             EXPECT_TRUE(same_bits(layer(found, "direct"), layer(usual, "direct")));
-            // At 10^-3 of them some discs hold one of the 5,000 photons.
+            // At 10^-3 of the scene, some discs contain one of the 5,000 photons.
             if (radius < 1e-4) {
                 EXPECT_EQ(mean(layer(found, "indirect")), glm::dvec3(0))
                     << method << ", " << radius;
@@ -77,9 +77,9 @@ TEST_F(Extremes, RadiusOfNothing) {
                    "as expected");
 }
 
-/// Of an evenly lit wall of half width 1 seen in its middle, the share that the kernel of this
-/// radius leaves of its radiance: it is divided by the part of the disc that the wall covers, but
-/// by no less than least_coverage.
+/// Share of its radiance that an evenly lit wall of half width 1 keeps in its middle if the kernel
+/// has this radius. The estimate is divided by the part of the disc that the wall covers, but by no
+/// less than least_coverage.
 double share_left(double radius) {
     constexpr int n = 1000;
     double covered = 0;
@@ -95,8 +95,8 @@ double share_left(double radius) {
 }
 
 TEST_F(Extremes, RadiusAsLargeAsTheScene) {
-    // Every wall is lit evenly: blurring changes nothing, and the disc's share that lies off the
-    // wall is known.
+    // Every wall is lit evenly, so blurring changes nothing, and the part of the disc off the wall
+    // is known.
     const double reflected = 0.5;
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(reflected)));
     scene.cameras = {parallel_rays({0, 0, 0}, {0, 0, -1}, 0.01f)};
@@ -105,7 +105,7 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
     std::string figures;
     for (const double radius : {2.0, 10.0}) { // 1 and 5 scene sizes
         settings.radius = radius;
-        // Of what is emitted, after two and more scatterings.
+        // Relative to the emitted radiance, after two and more scatterings.
         const double expected = reflected * reflected / (1 - reflected) * share_left(radius);
         const double found = mean(layer(sound(scene, settings), "indirect")).g;
         EXPECT_RELATIVE(found, expected, 0.03) << radius;
@@ -125,7 +125,7 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
                    "finite (the k nearest limit the disc long before)", "finite");
 }
 
-TEST_F(Extremes, FootprintsFromNothingToTheScene) {
+TEST_F(Extremes, FootprintsFromZeroToTheSizeOfTheScene) {
     const Scene scene = room_scene();
     RenderSettings settings = small("footprints");
     const RenderResult usual = sound(scene, settings);
@@ -146,8 +146,9 @@ TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
         settings.photons = 500;
         settings.bounces = 1000;
         const RenderResult result = sound(scene, settings);
-        // 1002 in the mean of all pictures, but no picture shows that: roulette leaves the later
-        // bounces to few paths, as bright as they are rare. Photons are spared it for 64 of them.
+        // The expectation over all renders is 1002, but no single render shows it: Russian roulette
+        // leaves the later bounces to few, very bright paths. Photons are exempt from roulette for
+        // 64 bounces.
         const double found = mean(layer(result, "")).g;
         EXPECT_GT(found, method == "path" ? 40 : 65) << method;
         EXPECT_LT(found, 2 * 1002) << method;
@@ -173,7 +174,8 @@ TEST_F(Extremes, ThirtyBouncesBetweenWhiteWalls) {
     for (const std::string& method : method_names()) {
         RenderSettings settings = small(method, method == "path" ? 128 : 4, 8);
         settings.bounces = 30;
-        // What is emitted, and as much again for the bounce at the first vertex and each before.
+        // The emitted radiance, and as much again for the bounce at the first vertex and for each
+        // before it.
         const double found = mean(layer(sound(scene, settings), "")).g;
         EXPECT_RELATIVE(found, 32.0, 0.06) << method;
         worst.take(std::abs(found / 32 - 1), method);

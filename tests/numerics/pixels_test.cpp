@@ -1,23 +1,23 @@
-// A picture whose radiance a formula gives, pixel by pixel against that in double precision.
+// An image whose radiance is known by a formula: compares every pixel with it in double precision.
 #include "extremes.hpp"
 
 namespace argand::testing {
 namespace {
 
-/// Of a floor of albedo 1/2 under a light of intensity 2 at height 1, at this distance from below
-/// the light.
+/// Radiance of a floor of albedo 1/2 under a light of intensity 2 at height 1, at distance r from
+/// the point below the light.
 double floor_radiance(double r) {
     const double d2 = r * r + 1;
     return 0.5 / double(pi) * 2 / (d2 * std::sqrt(d2));
 }
 
-/// Least and greatest distance from 0 of the numbers between two.
+/// Least and greatest distance from 0 of the numbers between a and b.
 glm::dvec2 distances(double a, double b) {
     const double far = std::max(std::abs(a), std::abs(b));
     return {a * b <= 0 ? 0.0 : std::min(std::abs(a), std::abs(b)), far};
 }
 
-TEST_F(Extremes, EveryPixelIsTheFormulas) {
+TEST_F(Extremes, EveryPixelFollowsTheFormula) {
     constexpr int size = 64;
     const Scene scene = load_asset("plane_point.gltf"); // seen from 3 above the light's foot
     const double half = 3 * std::tan(double(scene.cameras.at(0).vertical_angle) / 2);
@@ -31,7 +31,7 @@ TEST_F(Extremes, EveryPixelIsTheFormulas) {
                 const auto edge = [&](int i) { return half * (2.0 * i / size - 1); };
                 const glm::dvec2 across = distances(edge(x), edge(x + 1));
                 const glm::dvec2 down = distances(edge(y), edge(y + 1));
-                // Whatever points of the pixel the samples are.
+                // Bounds for any sample positions within the pixel.
                 const double high = floor_radiance(std::hypot(across[0], down[0]));
                 const double low = floor_radiance(std::hypot(across[1], down[1]));
                 const double found =

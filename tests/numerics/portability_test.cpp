@@ -1,5 +1,5 @@
-// The same seed gives the same bits, however the tool is run. (Threads of lavapipe and each
-// fallback: test_methods, Repeat.)
+// The same seed gives the same bits however the tool is run. (test_methods, Repeat covers
+// lavapipe's threads and each fallback.)
 #include "results.hpp"
 #include "support/scratch_directory.hpp"
 
@@ -10,38 +10,38 @@
 namespace argand::testing {
 namespace {
 
-struct Way {
+struct Run {
     const char* name;
     const char* environment;
     const char* backend;
 };
 
-std::string picture(const Way& way, const std::string& method) {
+std::string render_with(const Run& run, const std::string& method) {
     const ScratchDirectory directory;
     const std::string output = (directory / "picture.exr").string();
     const std::string command = fmt::format(
         "env {} '{}' render '{}/assets/cornell_glass.glb' -q --backend {} --size 24x16 --spp 2 "
         "--method {}{} -o '{}'",
-        way.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, way.backend, method,
+        run.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, run.backend, method,
         method == "path" ? "" : " --photons 5000", output);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return read_text(output);
 }
 
-void expect_same_bits(std::initializer_list<Way> ways) {
+void expect_same_bits(std::initializer_list<Run> runs) {
     for (const std::string method : {"footprints", "path"}) {
         std::string first;
-        for (const Way& way : ways) {
-            const std::string found = picture(way, method);
+        for (const Run& run : runs) {
+            const std::string found = render_with(run, method);
             EXPECT_FALSE(found.empty());
             first = first.empty() ? found : first;
-            EXPECT_TRUE(found == first) << way.name << ", " << method;
+            EXPECT_TRUE(found == first) << run.name << ", " << method;
         }
     }
-    for (const Way& way : ways) {
+    for (const Run& run : runs) {
         record_result(
             "portability",
-            {{"backend", way.backend}, {"run", way.name}, {"environment", way.environment}});
+            {{"backend", run.backend}, {"run", run.name}, {"environment", run.environment}});
     }
 }
 

@@ -5,16 +5,16 @@
 
 namespace argand::testing {
 
-/// What tests measured, by section, and "tests": each one's name and whether it passed. Written as
-/// JSON to the file that ARGAND_NUMERICS_RESULTS names, if any, when the tests have run;
-/// tools/results_numerics makes docs/results/numerics.md of it.
+/// Adds a measurement to a section. Section "tests" gets each test's name and result. After all
+/// tests, everything is written as JSON to the file named by ARGAND_NUMERICS_RESULTS, if set;
+/// tools/results_numerics turns it into docs/results/numerics.md.
 void record_result(const std::string& section, const nlohmann::json& row);
 
-/// One extreme of a whole pipeline: what is expected and what was measured.
+/// Records one extreme situation of a whole pipeline: the expectation and the measurement.
 void record_extreme(const std::string& extreme, const std::string& expectation,
                     const std::string& measured);
 
-/// As the document shows numbers.
+/// Formats a number as in the document.
 std::string shown(double number);
 
 } // namespace argand::testing

@@ -1,4 +1,4 @@
-// Large and small, far away, bright and dark.
+// Large and small, distant, bright and dark scenes.
 #include "extremes.hpp"
 
 namespace argand::testing {
@@ -74,7 +74,7 @@ TEST_F(Extremes, ScenesFarFromTheOrigin) {
     for (int i = 0; i < 2; ++i) {
         Largest worst;
         Largest worst_pixels;
-        // 2 is the room's size.
+        // The room's size is 2.
         const Scene far = moved(scene, glm::vec3(1, -0.7f, 0.6f) * (2 * sizes[i]));
         for (const std::string& method : method_names()) {
             const RenderResult expected = sound(scene, small(method, 8));
@@ -116,7 +116,7 @@ TEST_F(Extremes, FluxOfThirtyOrdersOfMagnitude) {
 }
 
 TEST_F(Extremes, OneLightABillionTimesAsBrightAsAnother) {
-    // Two floors that do not see each other, each under its own light.
+    // Two floors that cannot see each other, each under its own light.
     Scene scene;
     scene.name = "two floors";
     const std::uint32_t material = add_material(scene, lambertian(glm::vec3(0.5f)));

@@ -1,4 +1,4 @@
-// Surfaces, rays and what materials scatter.
+// Functions of surfaces, rays and scattering.
 #ifndef ARGAND_TEST_SCATTER_FUNCTIONS_H
 #define ARGAND_TEST_SCATTER_FUNCTIONS_H
 
@@ -40,7 +40,7 @@ CONSTANT uint of_followed_lobes = 56u;
 CONSTANT uint of_path_state = 57u;
 CONSTANT uint end_of_scatter = 58u;
 
-// Sixteen numbers from k on.
+// A material from the sixteen numbers from k on.
 FN MaterialRecord material_at(IN(Arguments) a, int k) {
     MaterialRecord m;
     m.base_r = a.x[k];
@@ -64,9 +64,9 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
 }
 
 #ifdef ARGAND_REAL_DOUBLE
-// State and layer of a path, told from all of its vertices at once.
+// State and layer of a path, derived from all of its vertices at once.
 FN uvec2 path_by_vertices(uint vertices, uint followed) {
-    uint first = 0u; // that is estimated
+    uint first = 0u; // first estimated vertex
     while (first < vertices && ((followed >> first) & 1u) != 0u) {
         ++first;
     }
@@ -141,8 +141,7 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         uint lobes = small_at(a, 20);
         real pdf;
         vec3 f = bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
-        // The glossy lobe by itself may scale powers that are subnormal, or 0 where devices flush
-        // those.
+        // The glossy lobe alone may scale powers that are subnormal, which devices may flush to 0.
         const real negligible = real(1e-30);
         if (function == of_bsdf_eval) {
             vec3 alone = bsdf_eval(m, wo, wi, lobes);
@@ -174,7 +173,7 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         r.y[0] = scattered ? real(sample_.lobe) : real(0.0);
         put3(r, 1, scattered ? sample_.wi : vec3(real(0.0)));
         put3(r, 4, sample_.weight);
-        // Not the density, which is that of the rounded direction: bsdf_eval's.
+        // Skip the density: it belongs to the rounded direction, and bsdf_eval covers it.
         r.y[7] = scattered ? sample_.eta_scale : real(0.0);
     } else if (function == of_ray_shear) {
         RayShear shear = ray_shear(vec3_at(a, 0));
@@ -192,7 +191,7 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         r.y[2] = hit ? u : real(0.0);
         r.y[3] = hit ? v : real(0.0);
         if (function == of_intersect_sliver) {
-            // The place in units of the sliver's length: along it, t is as uncertain as u and v.
+            // The place in units of the sliver's length, along which t is as uncertain as u and v.
             unit_and_length(vec3_at(a, 9) - vec3_at(a, 6), s);
             r.y[1] = r.y[1] / s;
         }

@@ -9,8 +9,8 @@ namespace {
 constexpr auto ulp = Measure::ulp;
 constexpr auto conditioned = Measure::conditioned;
 
-/// Any of glTF's materials or modified Phong; roughness 0, 10^-4 and 1, index 0, 1, 1 + 10^-7 and
-/// 10 among them.
+/// Any glTF material or modified Phong, including roughness 0, 10^-4 and 1, and indices 0, 1, 1 +
+/// 10^-7 and 10.
 void put_material(Draw& d) {
     const bool phong = d.once_in(6);
     const auto end_or_share = [&] {
@@ -44,7 +44,7 @@ void put_scattering(Draw& d) {
     put_material(d);
 }
 
-/// And the lobes that are asked for; directions from below among them.
+/// Also the requested lobes; includes directions from below.
 void put_scattering_by_lobes(Draw& d) {
     put_scattering(d);
     const std::uint32_t lobes[] = {LOBES_ALL,   LOBES_ALL,   LOBE_DIFFUSE,
@@ -67,7 +67,7 @@ struct Triangle {
     bool sliver = false;
 };
 
-/// Slivers of aspect 10^6, or places 10^5 sizes from the origin.
+/// A triangle; includes slivers of aspect 10^6 and places 10^5 sizes from the origin.
 Triangle any_triangle(Draw& d, bool sliver) {
     const double size = d.magnitude(-10, 10);
     const bool far = !sliver && d.once_in(4);
@@ -86,7 +86,7 @@ void put(Draw& d, const Triangle& t) {
     d.put(t.v2);
 }
 
-/// Weights inside, on an edge or in a vertex.
+/// Barycentric weights inside, on an edge or at a vertex.
 glm::dvec2 any_weights(Draw& d) {
     double u = d.between(0, 1);
     double v = d.between(0, 1);
@@ -112,11 +112,11 @@ glm::dvec3 at(const Triangle& t, glm::dvec2 b) {
     return glm::dvec3(t.v0) * (1 - b.x - b.y) + glm::dvec3(t.v1) * b.x + glm::dvec3(t.v2) * b.y;
 }
 
-/// Towards a point in, on the edge of or beside a triangle: along axes and grazing by 10^-7 among
-/// them.
+/// A ray towards a point in, on the edge of, or beside a triangle; includes rays along axes and
+/// rays that graze by 10^-7.
 void put_ray_and_triangle(Draw& d, bool sliver) {
     const Triangle t = any_triangle(d, sliver);
-    // At a sliver's tips no rounding is small enough for the truth to be told.
+    // At a sliver's tips even double precision cannot decide.
     const glm::dvec2 weights =
         t.sliver ? glm::dvec2(d.between(0.2, 0.4), d.between(0.2, 0.4)) : any_weights(d);
     const glm::dvec3 target = at(t, weights) + (d.once_in(4) ? glm::dvec3(d.direction()) *
@@ -128,7 +128,7 @@ void put_ray_and_triangle(Draw& d, bool sliver) {
     glm::vec3 direction = d.direction();
     const bool on_border = weights.x == 0 || weights.y == 0 || weights.x + weights.y == 1;
     if (has_normal && on_border) {
-        // Seen edge-on the border is as thin as a sliver's.
+        // Seen edge-on, the band around the edge is as thin as a sliver.
         direction = glm::dot(direction, n) < 0 ? direction - n : direction + n;
         direction =
             glm::length(direction) > 0.5f ? rounded(glm::normalize(glm::dvec3(direction))) : n;
@@ -289,7 +289,8 @@ std::vector<Function> scatter_table() {
          [](Draw& d) {
              const auto vertices = static_cast<std::uint32_t>(d.bits() % 13);
              auto followed = static_cast<std::uint32_t>(d.bits() % 4096);
-             followed = d.once_in(3) ? followed : 4095u ^ (1u << (d.bits() % 13)); // one estimated
+             // One estimated vertex.
+             followed = d.once_in(3) ? followed : 4095u ^ (1u << (d.bits() % 13));
              d.put(static_cast<float>(vertices));
              d.put(static_cast<float>(followed & 4095u));
          },

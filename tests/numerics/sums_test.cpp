@@ -1,5 +1,5 @@
-// Ways to add up ten million photons' fluxes: how far they are off, what they cost, and that the
-// engine's hold.
+// Compares methods of adding the fluxes of ten million photons: their errors, their costs, and
+// whether the engine's methods meet their bounds.
 #include "results.hpp"
 #include "shared/compensated.h"
 #include "shared/fixed_point.h"
@@ -15,8 +15,8 @@
 namespace argand::testing {
 namespace {
 
-/// Fluxes over twelve orders of magnitude, as lights of very different power and many scatterings
-/// make them.
+/// Fluxes over twelve orders of magnitude, like those of lights of very different power after many
+/// scatterings.
 std::vector<float> any_fluxes(std::size_t count) {
     std::mt19937 bits(5);
     std::lognormal_distribution<float> flux(0.0f, 3.0f);
@@ -40,7 +40,7 @@ float halves(const float* terms, std::size_t count) {
                       : halves(terms, count / 2) + halves(terms + count / 2, count - count / 2);
 }
 
-/// In 1024 chunks, as a device's invocations would, and then those.
+/// Sums 1024 chunks, like a device's invocations, and then their sums.
 float chunks(const std::vector<float>& terms) {
     float sum = 0;
     const std::size_t size = (terms.size() + 1023) / 1024;
@@ -75,7 +75,7 @@ float neumaier(const std::vector<float>& terms) {
     return sum + lost;
 }
 
-/// As photons' ledgers and flux_sum.h: units by the mean flux, 64 bits in two words.
+/// Like photon ledgers and flux_sum.h: the unit is relative to the mean flux; 64 bits in two words.
 double fixed_point(const std::vector<float>& terms, double mean, double unit_of_the_mean) {
     const auto unit = static_cast<float>(mean * unit_of_the_mean);
     glm::uvec2 sum(0);
@@ -93,7 +93,7 @@ double in_double(const std::vector<float>& terms) {
     return sum;
 }
 
-/// Kahan's, in extended or double precision: far more exact than any of the others.
+/// Kahan's sum in extended or double precision, far more accurate than the others.
 long double exact(const std::vector<float>& terms) {
     long double sum = 0;
     long double lost = 0;
@@ -108,9 +108,9 @@ long double exact(const std::vector<float>& terms) {
 
 struct Sum {
     const char* name;
-    const char* used; ///< where the engine does so
-    bool any_order;   ///< gives the same bits in whatever order the terms come
-    double bound;     ///< of the relative error; 0: none is promised
+    const char* used; ///< where the engine uses it
+    bool any_order;   ///< gives the same bits for every order of the terms
+    double bound;     ///< of the relative error; 0: no bound
     std::function<double(const std::vector<float>&)> add;
 };
 
@@ -159,7 +159,7 @@ void check_sums(std::size_t count) {
                                {"bound", sum.bound},
                                {"ns", 1e9 * best / static_cast<double>(count)}});
     }
-    // What makes the others necessary.
+    // The reason for the other methods.
     EXPECT_GT(std::abs(double(naive(fluxes)) - truth) / truth, 1e-6);
 }
 

@@ -6,28 +6,31 @@
 
 namespace argand::testing {
 
-/// What bounds an error.
+/// Unit of an error's bound.
 enum class Measure {
-    ulp,        ///< units in the last place of the result (of a vector: of its length)
-    conditioned ///< what half a unit in the last place of every input and of the result makes of
-                ///< the result
+    /// Change of the result when half a unit in the last place is added to every input and to the
+    /// result.
+    ulp, ///< units in the last place of the result; for a vector, of its length
+    conditioned
 };
 
-/// One function of the shared maths. A further one is a row here and a case in one of
+/// A function of the shared maths. To add one, add a row to a table and a case to one of
 /// *_functions.h.
 struct Function {
     const char* name;
     unsigned id;              ///< of_*
-    const char* inputs;       ///< in words
-    void (*draw)(Draw& draw); ///< puts the inputs
-    int rounded; ///< so many inputs, the first ones, are rounded numbers; the others are exact
-    const char*
-        parts; ///< of the results: d a decision, c a cell's number, 1 a number, 2, 3 or 6 a vector
+    const char* inputs;       ///< description
+    void (*draw)(Draw& draw); ///< draws the inputs
+    /// Number of leading inputs that are rounded numbers; all others are exact.
+    int rounded;
+    /// Kinds of the results: d a decision, c the number of a cell, 1 a number, 2, 3 or 6 a vector.
+    const char* parts;
     Measure measure;
-    double bound; ///< of the measure; decisions differ from the truth's only where rounding the
-                  ///< inputs makes the truth's differ
-    double borderline = 0.015; ///< so large a share of the cases at most may be such; more where
-                               ///< inputs are drawn from there on purpose
+    /// Bound in units of `measure`. Decisions may differ from the reference's only in borderline
+    /// cases, where rounding the inputs changes the reference's decision.
+    double bound;
+    /// Largest share of borderline cases; higher if inputs are drawn from borderlines on purpose.
+    double borderline = 0.015;
 };
 
 std::vector<Function> maths_table();

@@ -2,8 +2,8 @@
 
 #include <array>
 
-/// The functions of functions.h in double precision, behind plain types: no source file sees both
-/// builds.
+/// The functions of functions.h in double precision, behind plain types, because a source file can
+/// include only one of both precisions.
 namespace argand::truth {
 
 using Inputs = std::array<float, 32>;
