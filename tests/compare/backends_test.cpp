@@ -106,7 +106,7 @@ TEST_F(Faults, AreFoundOnlyInTheirStage) {
             EXPECT_EQ(stage.unequal > 0, stage.name == kernel) << stage.name;
             found = found || stage.name == kernel;
         }
-        EXPECT_TRUE(found) << kernel;
+        EXPECT_TRUE(found) << "kernel " << kernel;
     }
 }
 

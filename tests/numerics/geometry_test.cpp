@@ -79,9 +79,9 @@ TEST_F(Extremes, CoplanarTrianglesOfTwoMaterials) {
             const double low = layer(dark, "").pixels[i].g;
             const double high = layer(light, "").pixels[i].g;
             const double found = layer(both, "").pixels[i].g;
-            EXPECT_RELATIVE(low * 4, high, 1e-4) << method << ", " << i;
+            EXPECT_RELATIVE(low * 4, high, 1e-4) << method << ", case " << i;
             const double outside = std::max(low - found, found - high) / high;
-            EXPECT_LT(outside, 1e-4) << method << ", " << i;
+            EXPECT_LT(outside, 1e-4) << method << ", case " << i;
             worst.take(std::max(outside, 0.0), method);
             const double share = (found - low) / (high - low);
             most = std::max(most, share);
@@ -137,7 +137,7 @@ TEST_F(Extremes, SunsThatGraze) {
         for (const std::string& method : method_names()) {
             const double found =
                 radiance(scene, direct(method), {0.3f, height + 1, 0.1f}, {0.1f, height, 0}).g;
-            EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", " << sine;
+            EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", sine " << sine;
             worst.take(std::abs(found / (0.5 / double(pi)) - 1),
                        fmt::format("{}, {:.0e}", method, sine));
         }
@@ -154,7 +154,7 @@ TEST_F(Extremes, EyesThatGraze) {
             // A bundle much narrower than its height above the floor.
             scene.cameras = {parallel_rays({0.5f, 0.5f * sine, 0}, {0, 0, 0}, 1e-4f * sine)};
             const double found = mean(layer(sound(scene, direct(method)), "")).g;
-            EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", " << sine;
+            EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", sine " << sine;
             worst.take(std::abs(found / (0.5 / double(pi)) - 1),
                        fmt::format("{}, {:.0e}", method, sine));
         }

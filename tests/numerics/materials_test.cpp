@@ -35,7 +35,8 @@ TEST_F(Extremes, GlassOfAnyIndexLosesNothing) {
             const Scene scene = block_in_a_furnace(glass(ior, solid));
             for (const std::string method : {"path", "footprints"}) {
                 const double found = mean(layer(sound(scene, small(method, 64, 8)), "")).g;
-                EXPECT_NEAR(found, 1, 0.05) << ior << ", " << solid << ", " << method;
+                EXPECT_NEAR(found, 1, 0.05)
+                    << "ior " << ior << ", solid " << solid << ", " << method;
                 worst.take(std::abs(found - 1),
                            fmt::format("{} {} {:.8g}", method, solid ? "solid" : "thin", ior));
             }
@@ -78,7 +79,7 @@ TEST_F(Extremes, GlassOfAnyIndexFromAFile) {
                 const RenderResult result = sound(scene, small(method, 16, 8));
                 if (method == "path" || method == "footprints") {
                     const double found = mean(layer(result, "")).g;
-                    EXPECT_NEAR(found, 1, 0.05) << written << ", " << solid << ", " << method;
+                    EXPECT_NEAR(found, 1, 0.05) << written << ", solid " << solid << ", " << method;
                     worst.take(std::abs(found - 1),
                                fmt::format("{} {} {}", method, solid ? "solid" : "thin", written));
                 }
@@ -120,8 +121,9 @@ TEST_F(Extremes, MetalFromMirrorToRough) {
                 mean(layer(sound(sphere_in_a_furnace(metal), small(method, 16)), "")).g;
             // Smooth metal loses nothing; rough metal loses up to a third, which a second
             // scattering would return.
-            EXPECT_LT(found, 1.01) << roughness << ", " << method;
-            EXPECT_GT(found, roughness < 0.5f ? 0.99 : 0.6) << roughness << ", " << method;
+            EXPECT_LT(found, 1.01) << "roughness " << roughness << ", " << method;
+            EXPECT_GT(found, roughness < 0.5f ? 0.99 : 0.6)
+                << "roughness " << roughness << ", " << method;
             lowest = std::min(lowest, found);
         }
         figures += fmt::format("{}{:.2g}: {:.4f}", figures.empty() ? "" : "; ", roughness, lowest);

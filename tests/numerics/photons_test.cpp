@@ -25,7 +25,7 @@ TEST_F(Extremes, ZeroOneAndTwoPhotons) {
             // One photon carries all of the light's power; each of two carries half.
             const FluxSums& flux = few.statistics.flux;
             const double emitted = static_cast<double>(flux.emitted[1]) * flux.unit;
-            EXPECT_RELATIVE(emitted, power, 1e-5) << method << ", " << photons;
+            EXPECT_RELATIVE(emitted, power, 1e-5) << method << ", photons " << photons;
             worst.take(std::abs(emitted / power - 1), fmt::format("{}, {}", method, photons));
         }
     }
@@ -67,7 +67,7 @@ TEST_F(Extremes, RadiusNearZero) {
             // At 10^-3 of the scene, some discs contain one of the 5,000 photons.
             if (radius < 1e-4) {
                 EXPECT_EQ(mean(layer(found, "indirect")), glm::dvec3(0))
-                    << method << ", " << radius;
+                    << method << ", radius " << radius;
             }
         }
     }
@@ -108,7 +108,7 @@ TEST_F(Extremes, RadiusAsLargeAsTheScene) {
         // Relative to the emitted radiance, after two and more scatterings.
         const double expected = reflected * reflected / (1 - reflected) * share_left(radius);
         const double found = mean(layer(sound(scene, settings), "indirect")).g;
-        EXPECT_RELATIVE(found, expected, 0.03) << radius;
+        EXPECT_RELATIVE(found, expected, 0.03) << "radius " << radius;
         figures +=
             fmt::format("{}{} of {}", figures.empty() ? "" : "; ", shown(found), shown(expected));
     }

@@ -37,7 +37,7 @@ TEST_F(Extremes, EveryPixelFollowsTheFormula) {
                 const double found =
                     layer(result, "").pixels[static_cast<std::size_t>(y * size + x)].g;
                 const double outside = std::max({low - found, found - high, 0.0}) / high;
-                EXPECT_LT(outside, 1e-6) << method << ", " << x << ", " << y;
+                EXPECT_LT(outside, 1e-6) << method << ", x " << x << ", y " << y;
                 worst.take(outside, method);
                 constexpr int n = 4;
                 for (int i = 0; i < n * n; ++i) {

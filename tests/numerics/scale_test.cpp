@@ -102,7 +102,7 @@ TEST_F(Extremes, FluxOfThirtyOrdersOfMagnitude) {
             for (const float factor : {1e-30f, 1e30f}) {
                 const RenderResult found = sound(brighter(scene, factor), small(method));
                 const double error = difference(darker(found, factor), expected);
-                EXPECT_LT(error, 1e-6) << name << ", " << method << ", " << factor;
+                EXPECT_LT(error, 1e-6) << name << ", " << method << ", factor " << factor;
                 worst.take(error, fmt::format("{} {} × {:.0e}", method, name, factor));
                 if (method != "path") {
                     const double ratio = static_cast<double>(found.statistics.flux.emitted[1]) /

@@ -72,7 +72,8 @@ TEST(Smoothing, AsManyFootprintsOnAPointAsAreAskedFor) {
             const double area = std::numbers::pi * std::pow(u, 0.25) * std::pow(v, 0.25);
             const double expected = std::sqrt(on_point * spacing * spacing / area);
             const double found = smoothing_of(stored, on_point);
-            EXPECT_NEAR(found, expected, 0.06 * expected) << ratio << ", " << on_point;
+            EXPECT_NEAR(found, expected, 0.06 * expected)
+                << "ratio " << ratio << ", on point " << on_point;
             // Half of the points lie in as many of these footprints.
             std::vector<int> counts;
             for (const glm::vec3& p : points_in_the_middle()) {
@@ -86,7 +87,8 @@ TEST(Smoothing, AsManyFootprintsOnAPointAsAreAskedFor) {
             }
             const auto enough =
                 std::count_if(counts.begin(), counts.end(), [&](int n) { return n >= on_point; });
-            EXPECT_NEAR(static_cast<double>(enough), 48, 8) << ratio << ", " << on_point;
+            EXPECT_NEAR(static_cast<double>(enough), 48, 8)
+                << "ratio " << ratio << ", on point " << on_point;
         }
     }
 }

@@ -58,11 +58,11 @@ TEST(GltfFuzz, TruncatedAtEveryLength) {
     ASSERT_TRUE(loads_or_explains(directory, glb));
     for (std::size_t length = 0; length < glb.size(); ++length) {
         Bytes cut(glb.begin(), glb.begin() + std::ptrdiff_t(length));
-        EXPECT_FALSE(loads_or_explains(directory, cut)) << length;
+        EXPECT_FALSE(loads_or_explains(directory, cut)) << "length " << length;
         if (length >= 12) { // with a header that states the same length
             cut[8] = static_cast<std::uint8_t>(length);
             cut[9] = static_cast<std::uint8_t>(length >> 8);
-            EXPECT_FALSE(loads_or_explains(directory, cut)) << length;
+            EXPECT_FALSE(loads_or_explains(directory, cut)) << "length " << length;
         }
     }
 }

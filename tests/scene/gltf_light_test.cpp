@@ -99,7 +99,7 @@ TEST(GltfLight, RejectsInvalidLights) {
         GltfBuilder builder = with_light({{"type", "point"}});
         builder.root["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = index;
         EXPECT_THAT(builder.problem(), HasSubstr("node 1 refers to a light that does not exist"))
-            << index;
+            << "index " << index;
     }
 }
 

@@ -65,10 +65,11 @@ TEST(GltfNode, MirroringKeepsTheFrontInFront) {
         const Scene scene = load_transformed({{"scale", scale}});
         // Before the transform, the normal (1, 0, 1) and the winding (0, 0, 1) are on the same
         // side; they must be so afterwards.
-        EXPECT_GT(glm::dot(winding_normal(scene, 0), glm::dvec3(scene.normals[0])), 0) << scale;
+        EXPECT_GT(glm::dot(winding_normal(scene, 0), glm::dvec3(scene.normals[0])), 0)
+            << "scale " << scale;
         const double z = scale[2].get<double>() < 0 ? -1 : 1;
-        EXPECT_GT(winding_normal(scene, 0).z * z, 0) << scale;
-        EXPECT_GT(scene.normals[0].z * z, 0) << scale;
+        EXPECT_GT(winding_normal(scene, 0).z * z, 0) << "scale " << scale;
+        EXPECT_GT(scene.normals[0].z * z, 0) << "scale " << scale;
     }
 }
 

@@ -37,7 +37,7 @@ TEST(SpotSolidAngle, AgreesWithQuadrature) {
     for (const auto& [inner, outer] : cones) {
         const double expected = quadrature(inner, outer);
         EXPECT_NEAR(spot_solid_angle(inner, outer), expected, 1e-5 * expected)
-            << inner << " " << outer;
+            << "inner " << inner << ", outer " << outer;
     }
 }
 

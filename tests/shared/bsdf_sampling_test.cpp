@@ -175,11 +175,12 @@ TEST(BsdfSampling, SmoothLobesKeepTheirAlbedo) {
         const auto means = mean_weights(m, wo, front, LOBES_ALL, 4000);
         EXPECT_NEAR(means[2].value(), bsdf_albedo(m, wo, front, LOBE_MIRROR).y,
                     5 * means[2].deviation() + 2e-3)
-            << i;
+            << "case " << i;
         EXPECT_NEAR(means[3].value(), bsdf_albedo(m, wo, front, LOBE_TRANSMIT).y,
                     5 * means[3].deviation() + 2e-3)
-            << i;
-        EXPECT_NEAR(means[4].value(), 1 - m.coverage, 5 * means[4].deviation() + 2e-3) << i;
+            << "case " << i;
+        EXPECT_NEAR(means[4].value(), 1 - m.coverage, 5 * means[4].deviation() + 2e-3)
+            << "case " << i;
     }
 }
 

@@ -127,7 +127,7 @@ TEST(Bsdf, IsReciprocal) {
         const vec3 f = bsdf_eval(m, a, b, LOBES_ALL);
         const vec3 g = bsdf_eval(m, b, a, LOBES_ALL);
         for (int k = 0; k < 3; ++k) {
-            ASSERT_NEAR(f[k], g[k], 2e-6 * f[k]) << i;
+            ASSERT_NEAR(f[k], g[k], 2e-6 * f[k]) << "case " << i;
         }
     }
 }
@@ -275,7 +275,8 @@ TEST(Fresnel, AgreesWithTheEquationsInAngles) {
                 EXPECT_EQ(f, 1.0f);
                 EXPECT_EQ(refracted, 0.0f);
             } else if (sine / eta < 0.999) {
-                EXPECT_NEAR(f, fresnel_by_angles(sine, eta), 1e-5) << eta << " " << angle;
+                EXPECT_NEAR(f, fresnel_by_angles(sine, eta), 1e-5)
+                    << "eta " << eta << ", angle " << angle;
                 EXPECT_NEAR(refracted, std::sqrt(1 - sine * sine / eta / eta), 1e-5);
             }
         }
@@ -323,9 +324,9 @@ TEST(Bsdf, SinglePrecisionIsStable) {
         const double alpha = std::max(double(m.roughness) * m.roughness, 1e-3);
         const double bound = 4e-6 + 1e-6 / alpha;
         for (int k = 0; k < 3; ++k) {
-            ASSERT_NEAR(f[k], f_truth[k], bound * f_truth[k]) << i;
+            ASSERT_NEAR(f[k], f_truth[k], bound * f_truth[k]) << "case " << i;
         }
-        ASSERT_NEAR(pdf, pdf_truth, bound * pdf_truth) << i;
+        ASSERT_NEAR(pdf, pdf_truth, bound * pdf_truth) << "case " << i;
     }
 }
 
@@ -347,12 +348,13 @@ TEST(Bsdf, SinglePrecisionSamplesLikeDouble) {
         ++compared;
         // If u.z is near 1, at the rim of the normals visible from wo, their height is a small
         // difference.
-        ASSERT_NEAR(glm::length(glm::dvec3(s.wi) - t.wi), 0, 4e-5 + 1e-8 / (1 - double(u.z))) << i;
+        ASSERT_NEAR(glm::length(glm::dvec3(s.wi) - t.wi), 0, 4e-5 + 1e-8 / (1 - double(u.z)))
+            << "case " << i;
         ASSERT_EQ(s.weight.x >= 0, true);
         const double alpha = std::max(double(m.roughness) * m.roughness, 1e-3);
         for (int k = 0; k < 3; ++k) {
             ASSERT_NEAR(s.weight[k], t.weight[k], (2e-4 + 1e-5 / alpha) * (t.weight[k] + 0.03))
-                << i;
+                << "case " << i;
         }
     }
     EXPECT_GT(compared, 100'000);

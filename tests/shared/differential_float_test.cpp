@@ -37,8 +37,8 @@ TEST(DifferentialFloat, IsCloseToDoublePrecision) {
                     size;
                 errors.push_back(error);
                 worst = std::max(worst, error);
-                ASSERT_LT(error, 1e-3)
-                    << start << " " << walls << " " << seed << " " << t.conditioning;
+                ASSERT_LT(error, 1e-3) << "start " << start << ", walls " << walls << ", seed "
+                                       << seed << ", conditioning " << t.conditioning;
             }
         }
     }
@@ -96,14 +96,14 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
         default:
             gloss_differential(d, direction, direction, n, dn[0], dn[1], 1e5f, 1.0f);
         }
-        ASSERT_TRUE(finite(d)) << i;
+        ASSERT_TRUE(finite(d)) << "case " << i;
         ASSERT_LT(glm::length(d.dd_du), 1.001e3f);
         ASSERT_LT(glm::length(d.dd_dv), 1.001e3f);
         for (int again = 0; again < 20; ++again) {
             transfer_differential(d, direction, 1e6f * scale, n);
             reflect_differential(d, direction, n, dn[0], dn[1]);
         }
-        ASSERT_TRUE(finite(d)) << i;
+        ASSERT_TRUE(finite(d)) << "case " << i;
     }
 }
 

@@ -54,11 +54,11 @@ TEST(Differential, AgreesWithNeighbouringPhotons) {
                     finite_difference_error(Start(start), seed, walls, alike, conditioning);
                 if (alike && conditioning > 0.1) {
                     ++compared;
-                    ASSERT_LT(error, 1e-4)
-                        << start << " " << walls << " " << seed << " " << conditioning;
+                    ASSERT_LT(error, 1e-4) << "start " << start << ", walls " << walls << ", seed "
+                                           << seed << ", conditioning " << conditioning;
                 }
             }
-            EXPECT_GT(compared, 150) << start << " " << walls;
+            EXPECT_GT(compared, 150) << "start " << start << ", walls " << walls;
         }
     }
 }
@@ -109,7 +109,7 @@ TEST(Glossy, SpreadMatchesTheSampler) {
             gloss_differential(d, -wo, s.wi, vec3(0, 0, 1), vec3(0), vec3(0), n, s.pdf);
             const double expected = stretch(direction, vec2(u)) / n;
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-3 * expected)
-                << m.roughness << " " << seed;
+                << "roughness " << m.roughness << ", seed " << seed;
         }
     }
     EXPECT_GT(compared, 1400);
@@ -207,10 +207,10 @@ TEST(Ball, FocusesLikeTracedPhotons) {
                 const vec3 truth = (forth - back) / (2 * h);
                 const vec3 ours = k == 0 ? d.dp_du : d.dp_dv;
                 EXPECT_NEAR(glm::length(ours - truth), 0, 1e-6 * (1 + glm::length(truth)))
-                    << eta << " " << seed;
+                    << "eta " << eta << ", seed " << seed;
             }
         }
-        EXPECT_GT(compared, 200) << eta;
+        EXPECT_GT(compared, 200) << "eta " << eta;
     }
 }
 

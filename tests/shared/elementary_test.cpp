@@ -50,8 +50,8 @@ TEST(Elementary, SinesOfTurnsHaveAFewUlps) {
         sine.take(ulps(s, truth[0]), u);
         cosine.take(ulps(c, truth[1]), u);
     }
-    EXPECT_LE(sine.error, 2.5) << sine;
-    EXPECT_LE(cosine.error, 2.5) << cosine;
+    EXPECT_LE(sine.error, 2.5) << "sine " << sine;
+    EXPECT_LE(cosine.error, 2.5) << "cosine " << cosine;
 }
 
 TEST(Elementary, QuarterTurnsAreExact) {
@@ -104,9 +104,9 @@ TEST(Elementary, LogarithmAndExponentialKeepTheDigitsOfSmallNumbers) {
         complement.take(ulps(exp_complement(y), -std::expm1(double(y))), y);
         exp.take(ulps(exp_negative(y), std::exp(double(y))), y);
     }
-    EXPECT_LE(log.error, 3) << log;
-    EXPECT_LE(exp.error, 2) << exp;
-    EXPECT_LE(complement.error, 2) << complement;
+    EXPECT_LE(log.error, 3) << "log " << log;
+    EXPECT_LE(exp.error, 2) << "exp " << exp;
+    EXPECT_LE(complement.error, 2) << "complement " << complement;
     EXPECT_EQ(log_complement(0.0f), 0.0f);
     EXPECT_EQ(exp_negative(0.0f), 1.0f);
     EXPECT_EQ(exp_complement(0.0f), 0.0f);

@@ -72,12 +72,12 @@ TEST(Follow, LongPathsKeepTheirClass) {
     uint indirect = state_after(state_after(0, false), false);
     for (uint i = 1; i < path_depth_mask; ++i) {
         caustic = state_after(caustic, true);
-        ASSERT_EQ(layer_of_emission(caustic), layer_caustic) << i;
+        ASSERT_EQ(layer_of_emission(caustic), layer_caustic) << "case " << i;
         ASSERT_EQ(caustic & path_depth_mask, i);
         if (i > 1) {
             indirect = state_after(indirect, i % 2 == 0);
         }
-        ASSERT_EQ(layer_of_emission(indirect), layer_indirect) << i;
+        ASSERT_EQ(layer_of_emission(indirect), layer_indirect) << "case " << i;
         ASSERT_EQ(indirect & path_depth_mask, i);
     }
 }

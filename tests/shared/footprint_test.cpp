@@ -111,8 +111,8 @@ TEST(Footprint, FluxIsConservedOnPlanes) {
         if (std::min(thin, double(glm::length(f.w))) < 0.03 * reach) {
             continue; // too thin for this grid
         }
-        EXPECT_NEAR(flux_on_plane(duals, n, m, reach, flatness, true), 1, 0.03) << i;
-        EXPECT_NEAR(flux_on_plane(duals, n, m, reach, flatness, false), 1, 3e-3) << i;
+        EXPECT_NEAR(flux_on_plane(duals, n, m, reach, flatness, true), 1, 0.03) << "case " << i;
+        EXPECT_NEAR(flux_on_plane(duals, n, m, reach, flatness, false), 1, 3e-3) << "case " << i;
     }
 }
 
@@ -228,15 +228,15 @@ TEST(Footprint, DegenerateDifferentialsHaveFootprints) {
             }
             s.principal_axes = uint(i / 8) % 2;
             const Footprint f = make_footprint(d, n, i % 16 < 8, s);
-            ASSERT_TRUE(is_finite3(f.u) && is_finite3(f.v) && is_finite3(f.w)) << i;
+            ASSERT_TRUE(is_finite3(f.u) && is_finite3(f.v) && is_finite3(f.w)) << "case " << i;
             const float longest = std::max(glm::length(f.u / length), glm::length(f.v / length));
-            ASSERT_LT(longest, 0.05f * 1.00001f) << i;
-            ASSERT_GT(longest, 0.99e-6f) << i;
+            ASSERT_LT(longest, 0.05f * 1.00001f) << "case " << i;
+            ASSERT_GT(longest, 0.99e-6f) << "case " << i;
             // The narrowest width is about radius_min.
-            ASSERT_GT(area_of(f.u / length, f.v / length), 0.99e-6 * longest) << i;
+            ASSERT_GT(area_of(f.u / length, f.v / length), 0.99e-6 * longest) << "case " << i;
             const FootprintDuals duals = stored_duals(f, n);
             const float weight = footprint_weight(duals, n, n, vec3(0), s.flatness, false);
-            ASSERT_TRUE(is_finite(weight) && weight > 0) << i;
+            ASSERT_TRUE(is_finite(weight) && weight > 0) << "case " << i;
             ASSERT_TRUE(is_finite3(footprint_extent(f)));
         }
     }
@@ -281,7 +281,7 @@ TEST(FootprintScaling, ShrinksWithTheExponent) {
         EXPECT_NEAR(radius(1e5, 0.5, caustic), radius(1e5, 1.0 / 6, caustic), 1e-6);
         for (const double exponent : {0.5, 1.0 / 6, 0.25}) {
             const double ratio = radius(1e6, exponent, caustic) / radius(1e4, exponent, caustic);
-            EXPECT_NEAR(ratio, std::pow(100, -exponent), 1e-5) << exponent;
+            EXPECT_NEAR(ratio, std::pow(100, -exponent), 1e-5) << "exponent " << exponent;
         }
     }
 }

@@ -122,7 +122,7 @@ TEST(Sampling, CornersOfTheSquareGiveValidDirections) {
     for (const float x : {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, last}) {
         for (const float y : {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, last}) {
             const vec3 h = sample_cosine_hemisphere(vec2(x, y));
-            EXPECT_GT(h.z, 0.0f) << x << " " << y;
+            EXPECT_GT(h.z, 0.0f) << "x " << x << ", y " << y;
             EXPECT_NEAR(dot_double(h, h), 1, 1e-6);
             EXPECT_NEAR(dot_double(sample_sphere(vec2(x, y)), sample_sphere(vec2(x, y))), 1, 1e-6);
             const vec2 b = sample_triangle(vec2(x, y));
@@ -177,10 +177,10 @@ TEST(PackedUnit, EveryCodeUnpacksToAUnitVectorThatPacksToItsEqual) {
         code = i % 4 == 0 ? code & 0xffff0000u
                           : code; // the lowest coordinate, one step outside the square
         const vec3 v = unpack_unit(code);
-        ASSERT_NEAR(dot_double(v, v), 1, 1e-6) << code;
+        ASSERT_NEAR(dot_double(v, v), 1, 1e-6) << "code " << code;
         const vec3 again = unpack_unit(pack_unit(v));
         ASSERT_NEAR(dot_double(v - again, v - again), 0, 1e-8)
-            << code; // on the seams two codes mean the same vector
+            << "code " << code; // on the seams two codes mean the same vector
     }
 }
 

@@ -67,9 +67,9 @@ TEST(Emission, SpacingMatchesTheSamplers) {
                     4; // share of the spread that directions get: docs/methods/footprints.md
             }
             EXPECT_NEAR(area_of(d.dp_du, d.dp_dv), positions, 1e-5 * positions)
-                << int(start) << " " << seed;
+                << "start " << int(start) << ", seed " << seed;
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), directions, 1e-5 * directions)
-                << int(start) << " " << seed;
+                << "start " << int(start) << ", seed " << seed;
         }
     }
     EXPECT_GT(compared, 400);
@@ -114,7 +114,7 @@ TEST(Emission, SpotsFollowTheirFalloff) {
             const PhotonDifferential d = light_differential(
                 l, all_light_kinds, direction(vec2(m, around)), vec3(0), 2.0, n, n);
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-5 * expected)
-                << on_ramp << " " << m;
+                << "on the ramp " << on_ramp << ", m " << m;
         }
     }
 }
@@ -179,7 +179,7 @@ TEST(Emission, AreaTimesDensityOfAnEmitter) {
             l.double_sided = both;
             const double disc = area / (area + PI * height * height);
             EXPECT_NEAR(area_times_density(l, 0.05, 1'000'000), 1 + disc, 0.08)
-                << height << " " << both;
+                << "height " << height << ", both sides " << both;
         }
     }
 }

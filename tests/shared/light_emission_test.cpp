@@ -112,8 +112,10 @@ TEST(LightEmission, SpotsFollowTheirFalloff) {
             const double turn = std::atan2(d.y, d.x) / (2 * pi) + 0.5;
             ++around[std::min<std::size_t>(31, static_cast<std::size_t>(turn * 32))];
         }
-        EXPECT_LT(chi_square_deviations(counts), unlikely) << inner << " " << outer;
-        EXPECT_LT(chi_square_deviations(around), unlikely) << inner << " " << outer;
+        EXPECT_LT(chi_square_deviations(counts), unlikely)
+            << "inner " << inner << ", outer " << outer;
+        EXPECT_LT(chi_square_deviations(around), unlikely)
+            << "inner " << inner << ", outer " << outer;
     }
 }
 

@@ -58,7 +58,8 @@ TEST(LightPower, IsTheIntegral) {
             const double x = std::min((cosine - l.cos_outer) / ramp, 1.0);
             integral += x * x * 2 * pi * (1 - double(l.cos_outer)) / steps;
         }
-        EXPECT_NEAR(power(l, 1), integral, 1e-5 * integral) << inner << " " << outer;
+        EXPECT_NEAR(power(l, 1), integral, 1e-5 * integral)
+            << "inner " << inner << ", outer " << outer;
     }
 }
 
@@ -207,12 +208,12 @@ TEST(LightSample, ShadowRaysEndJustBeforeTheEmitter) {
         const double cosine = std::abs(dot3(light_normal(l, area), s.wi));
         const double extent = max_component(max(abs(p), max(abs(v[0]), max(abs(v[1]), abs(v[2])))));
         ASSERT_LE(s.distance, distance);
-        ASSERT_GE(s.distance, distance * (1 - 2e-6) - 3e-6 * extent / cosine) << i;
+        ASSERT_GE(s.distance, distance * (1 - 2e-6) - 3e-6 * extent / cosine) << "case " << i;
         const float longest = std::max(
             {glm::distance(v[0], v[1]), glm::distance(v[1], v[2]), glm::distance(v[2], v[0])});
         if (area / longest / longest > 0.5f / 30) { // no needle
             ASSERT_FALSE(hit_of(ray_shear(s.wi), p, v[0], v[1], v[2], 0, s.distance).hit)
-                << i << " " << cosine;
+                << "case " << i << ", cosine " << cosine;
         }
     }
     EXPECT_GT(sampled, 150'000);
@@ -244,7 +245,7 @@ TEST(LightSample, SinglePrecisionIsStable) {
             const vec3 n = light_normal(l, area);
             const double cosine = std::abs(dot3(n, s.wi));
             if (cosine > 0.05 && area > 0.05 * scale * scale) {
-                ASSERT_NEAR(s.pdf, t.pdf, 2e-4 * t.pdf) << i;
+                ASSERT_NEAR(s.pdf, t.pdf, 2e-4 * t.pdf) << "case " << i;
                 ASSERT_NEAR(s.radiance.x, t.radiance.x, 2e-4 * t.radiance.x);
             }
         }

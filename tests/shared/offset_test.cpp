@@ -119,7 +119,7 @@ TEST(OffsetOrigin, OwnTriangleIsNotHit) {
         const vec3 o = offset_ray_origin(c.point, c.error, c.normal, w);
         const bool hit = hit_of(ray_shear(w), o, c.v[0], c.v[1], c.v[2]).hit;
         if (slimness(c) > 1.0 / 30) {
-            ASSERT_FALSE(hit) << i << " " << dot3(w, c.normal);
+            ASSERT_FALSE(hit) << "case " << i << ", cosine " << dot3(w, c.normal);
             ++others;
         } else {
             ++needles;
@@ -154,8 +154,8 @@ TEST(OffsetOrigin, IsJustOffThePlane) {
         for (const vec3& v : c.v) {
             extent = std::max(extent, double(max_component(abs(v))));
         }
-        ASSERT_GT(height, 0) << i;
-        ASSERT_LT(height, 3e-6 * extent) << i;
+        ASSERT_GT(height, 0) << "case " << i;
+        ASSERT_LT(height, 3e-6 * extent) << "case " << i;
     }
 }
 
@@ -187,10 +187,10 @@ TEST(OffsetOrigin, CoplanarNeighboursAreNotHit) {
         for (int x = -3; x <= 3; ++x) {
             for (int y = -3; y <= 3; ++y) {
                 ASSERT_FALSE(hit_of(shear, o, vertex(x, y), vertex(x + 1, y), vertex(x, y + 1)).hit)
-                    << i;
+                    << "case " << i;
                 ASSERT_FALSE(
                     hit_of(shear, o, vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)).hit)
-                    << i;
+                    << "case " << i;
             }
         }
     }

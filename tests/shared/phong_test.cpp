@@ -90,8 +90,9 @@ TEST(Phong, AgreesWithTheFormula) {
         const double bound =
             2e-6 *
             (0.25 + peak * (0.5 * std::sqrt(double(n)) * std::sqrt(std::sqrt(power)) + power));
-        ASSERT_NEAR(f.x, 0.25 / pi + 0.5 * peak * power, bound) << n << " " << power;
-        ASSERT_NEAR(f.y, 0.25 / pi + 0.25 * peak * power, bound) << n << " " << power;
+        ASSERT_NEAR(f.x, 0.25 / pi + 0.5 * peak * power, bound) << "n " << n << ", power " << power;
+        ASSERT_NEAR(f.y, 0.25 / pi + 0.25 * peak * power, bound)
+            << "n " << n << ", power " << power;
         ASSERT_FLOAT_EQ(f.z, float(0.25 / pi));
     }
 }
@@ -103,24 +104,26 @@ TEST(Phong, IsReciprocal) {
         const vec3 a = any_upper(bits);
         const vec3 b = rounded(
             around_mirror(glm::dvec3(a), m.exponent, {to_unit_float(bits), to_unit_float(bits)}));
-        ASSERT_EQ(bsdf_eval(m, a, b, LOBES_ALL), bsdf_eval(m, b, a, LOBES_ALL)) << i;
+        ASSERT_EQ(bsdf_eval(m, a, b, LOBES_ALL), bsdf_eval(m, b, a, LOBES_ALL)) << "case " << i;
     }
 }
 
 TEST(Phong, ReflectsAllLightAlongTheNormalAndLessElsewhere) {
     for (const float n : exponents) {
         const MaterialRecord m = phong(vec3(0.375f), vec3(0.625f), n);
-        EXPECT_NEAR(reflected(m, {0, 0, 1}), 1, 2e-4) << n;
+        EXPECT_NEAR(reflected(m, {0, 0, 1}), 1, 2e-4) << "n " << n;
         for (const double angle : {20.0, 50.0, 70.0, 85.0, 89.9}) {
             const glm::dvec3 wo(at_angle(angle, 40));
             const double sum = reflected(m, wo);
-            EXPECT_LT(sum, 1.0001) << n << " " << angle;
-            EXPECT_GT(sum, 0.375) << n << " " << angle;
+            EXPECT_LT(sum, 1.0001) << "n " << n << ", angle " << angle;
+            EXPECT_GT(sum, 0.375) << "n " << n << ", angle " << angle;
             // Russian roulette and the choice of lobes use this approximation.
-            EXPECT_NEAR(bsdf_albedo(m, vec3(wo), true, LOBES_ALL).x, sum, 0.1) << n << " " << angle;
+            EXPECT_NEAR(bsdf_albedo(m, vec3(wo), true, LOBES_ALL).x, sum, 0.1)
+                << "n " << n << ", angle " << angle;
         }
         if (n >= 100) { // nearly a mirror of k_s cos
-            EXPECT_NEAR(reflected(m, glm::dvec3(at_angle(60))), 0.375 + 0.625 * 0.5, 0.01) << n;
+            EXPECT_NEAR(reflected(m, glm::dvec3(at_angle(60))), 0.375 + 0.625 * 0.5, 0.01)
+                << "n " << n;
         }
     }
 }

@@ -94,9 +94,9 @@ TEST(FluxUnits, AreRoundedToTheNearest) {
         const double exact = double(flux) / double(unit);
         // Rounding of the quotient and of the sum, each at most half a unit in the last place of
         // 2^22.
-        ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 0.5 + 1e-6) << i;
+        ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 0.5 + 1e-6) << "case " << i;
         if (exact < 0x1p12) {
-            ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 1e-3) << i;
+            ASSERT_NEAR(flux_units(flux, unit), exact, 0.5 + 1e-3) << "case " << i;
         }
     }
     EXPECT_EQ(flux_units(0, 1e-30f), 0u);

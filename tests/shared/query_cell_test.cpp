@@ -48,15 +48,16 @@ TEST(QueryCell, HoldsPointsWithinTwiceItsEdge) {
             const auto cells = cells_of_plane({0.3f, -2, 5}, normal, 0.5f, 0.1f, wanted);
             for (const auto& [key, extent] : cells) {
                 // A point is jittered by up to half an edge along each axis.
-                ASSERT_LE(glm::length(extent.high - extent.low), 2 * 1.7321f * edge) << wanted;
+                ASSERT_LE(glm::length(extent.high - extent.low), 2 * 1.7321f * edge)
+                    << "size " << wanted;
             }
             // About the plane's area in edges squared, and a row more on each side; slanted planes
             // also cross the cells' heights.
             const double squares = 1 / (double(edge) * edge);
             EXPECT_GT(static_cast<double>(cells.size()), 0.9 * squares * (squares < 2000 ? 1 : 0.5))
-                << wanted;
+                << "size " << wanted;
             EXPECT_LT(static_cast<double>(cells.size()), 2.5 * (1 / edge + 2) * (1 / edge + 2))
-                << wanted;
+                << "size " << wanted;
         }
     }
 }
@@ -83,8 +84,8 @@ TEST(QueryCell, ScalesWithTheScene) {
     for (const float scale : {1e-20f, 1e-6f, 1.0f, 1e6f, 1e20f}) {
         const auto cells =
             cells_of_plane(vec3(1, 2, 3) * scale, {0, 1, 0}, 0.5f * scale, 0.1f * scale, 1e30f);
-        EXPECT_GE(cells.size(), 100u) << scale;
-        EXPECT_LE(cells.size(), 144u) << scale;
+        EXPECT_GE(cells.size(), 100u) << "scale " << scale;
+        EXPECT_LE(cells.size(), 144u) << "scale " << scale;
     }
     // Far away, where coordinates have no digits left for cells, the result is still valid.
     cell(vec3(3e38f), {1, 0, 0}, 1e-30f, 1e-30f);
@@ -106,7 +107,7 @@ TEST(QueryCell, DirectionsInACellAreClose) {
             // and half as much again in corners.
             ASSERT_LT(std::acos(glm::dot(found->second, v) * 0.999999f),
                       1.5 * std::sqrt(2.0) * 3.1416 / steps)
-                << alpha;
+                << "alpha " << alpha;
         }
         EXPECT_GT(first.size(), 2 * steps * steps);
     }

@@ -87,7 +87,8 @@ TEST(Random, NeighboursAreIndependent) {
             }
         }
         for (int pair = 0; pair < 16; ++pair) {
-            EXPECT_LT(chi_square_deviations(counts[pair]), unlikely) << kind << " " << pair;
+            EXPECT_LT(chi_square_deviations(counts[pair]), unlikely)
+                << "kind " << kind << ", pair " << pair;
         }
     }
 }
@@ -107,7 +108,7 @@ TEST(Random, OneBitOfTheCounterChangesHalfOfTheBits) {
                                              static_cast<std::uint32_t>(after[lane]));
                 }
             }
-            EXPECT_NEAR(changed / (tries * 96), 0.5, 0.02) << word << " " << bit;
+            EXPECT_NEAR(changed / (tries * 96), 0.5, 0.02) << "word " << word << ", bit " << bit;
         }
     }
 }

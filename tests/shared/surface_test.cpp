@@ -59,11 +59,11 @@ TEST(Surface, NormalsAreUnitAndFaceTheRay) {
     for (int i = 0; i < 100'000; ++i) {
         const Case c = any_case(bits, 30);
         const Surface s = c.surface();
-        ASSERT_NEAR(dot_double(s.geometric_normal, s.geometric_normal), 1, 1e-6) << i;
-        ASSERT_NEAR(dot_double(s.shading_normal, s.shading_normal), 1, 1e-6) << i;
-        ASSERT_LE(dot_double(s.geometric_normal, c.direction), 1e-7) << i;
-        ASSERT_LE(dot_double(s.shading_normal, c.direction), 1e-7) << i;
-        ASSERT_GE(dot_double(s.shading_normal, s.geometric_normal), -1e-7) << i;
+        ASSERT_NEAR(dot_double(s.geometric_normal, s.geometric_normal), 1, 1e-6) << "case " << i;
+        ASSERT_NEAR(dot_double(s.shading_normal, s.shading_normal), 1, 1e-6) << "case " << i;
+        ASSERT_LE(dot_double(s.geometric_normal, c.direction), 1e-7) << "case " << i;
+        ASSERT_LE(dot_double(s.shading_normal, c.direction), 1e-7) << "case " << i;
+        ASSERT_GE(dot_double(s.shading_normal, s.geometric_normal), -1e-7) << "case " << i;
         shaded += s.shading_normal != s.geometric_normal;
     }
     EXPECT_GT(shaded, 20'000);
@@ -77,7 +77,7 @@ TEST(Surface, SinglePrecisionIsStable) {
         const Surface s = c.surface();
         const truth::Surface t = c.truth();
         for (int k = 0; k < 3; ++k) {
-            ASSERT_LE(std::abs(double(s.position[k]) - t.position[k]), s.error[k]) << i;
+            ASSERT_LE(std::abs(double(s.position[k]) - t.position[k]), s.error[k]) << "case " << i;
         }
         // Skip cases where rounding may flip a normal: slim triangles, rays along them, normals
         // perpendicular to the ray.
@@ -95,9 +95,11 @@ TEST(Surface, SinglePrecisionIsStable) {
             continue;
         }
         ++compared;
-        ASSERT_EQ(s.front, t.front) << i;
-        ASSERT_LT(glm::length(glm::dvec3(s.geometric_normal) - t.geometric_normal), 1e-5) << i;
-        ASSERT_LT(glm::length(glm::dvec3(s.shading_normal) - t.shading_normal), 1e-5) << i;
+        ASSERT_EQ(s.front, t.front) << "case " << i;
+        ASSERT_LT(glm::length(glm::dvec3(s.geometric_normal) - t.geometric_normal), 1e-5)
+            << "case " << i;
+        ASSERT_LT(glm::length(glm::dvec3(s.shading_normal) - t.shading_normal), 1e-5)
+            << "case " << i;
     }
     EXPECT_GT(compared, 50'000);
 }
@@ -115,8 +117,8 @@ TEST(Surface, WindingDeterminesTheFront) {
         if (std::abs(dot3(a.geometric_normal, c.direction)) < 1e-3f) {
             continue;
         }
-        ASSERT_NE(a.front, b.front) << i;
-        ASSERT_EQ(a.geometric_normal, b.geometric_normal) << i;
+        ASSERT_NE(a.front, b.front) << "case " << i;
+        ASSERT_EQ(a.geometric_normal, b.geometric_normal) << "case " << i;
     }
 }
 

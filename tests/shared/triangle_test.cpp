@@ -132,7 +132,7 @@ TEST(Triangle, ClosedMeshIsWatertight) {
                         hit_of(shear, origin, mesh.vertices[p], mesh.vertices[q], mesh.vertices[r])
                             .hit;
                 }
-                ASSERT_GT(hits, 0) << scale << " " << i;
+                ASSERT_GT(hits, 0) << "scale " << scale << ", case " << i;
             }
         }
     }
