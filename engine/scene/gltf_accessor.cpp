@@ -58,10 +58,13 @@ std::uint32_t load_index(const std::uint8_t* from, int type) {
     }
 }
 
-/// Address of the first of `count` elements of `size` bytes, `stride` apart. Checks that all of
-/// them lie within view and buffer.
-const std::uint8_t* locate(const GltfSource& source, int view_index, std::size_t offset,
-                           std::size_t count, std::size_t size, std::size_t stride,
+/// Elements of a buffer view: `count` of them, `size` bytes each, `stride` bytes apart.
+struct ElementRange {
+    std::size_t offset, count, size, stride;
+};
+
+/// Address of the first element. Checks that all of them lie within view and buffer.
+const std::uint8_t* locate(const GltfSource& source, int view_index, const ElementRange& range,
                            const std::string& what) {
     const tinygltf::Model& model = source.model;
     if (view_index < 0 || std::size_t(view_index) >= model.bufferViews.size()) {
@@ -77,17 +80,17 @@ const std::uint8_t* locate(const GltfSource& source, int view_index, std::size_t
         source.fail("buffer view {} ({} bytes at {}) goes past the {} bytes of buffer {}",
                     view_index, view.byteLength, view.byteOffset, bytes.size(), view.buffer);
     }
-    if (count == 0) {
+    if (range.count == 0) {
         return nullptr;
     }
     // offset + stride·(count − 1) + size ≤ byteLength, in a form that cannot overflow.
-    if (offset > view.byteLength || size > view.byteLength - offset ||
-        count - 1 > (view.byteLength - offset - size) / stride) {
+    if (range.offset > view.byteLength || range.size > view.byteLength - range.offset ||
+        range.count - 1 > (view.byteLength - range.offset - range.size) / range.stride) {
         source.fail(
             "{} ({} elements, {} bytes apart, at {}) go past the {} bytes of buffer view {}", what,
-            count, stride, offset, view.byteLength, view_index);
+            range.count, range.stride, range.offset, view.byteLength, view_index);
     }
-    return bytes.data() + view.byteOffset + offset;
+    return bytes.data() + view.byteOffset + range.offset;
 }
 
 void open_sparse(const GltfSource& source, const tinygltf::Accessor& accessor, GltfAccessor& view,
@@ -106,12 +109,12 @@ void open_sparse(const GltfSource& source, const tinygltf::Accessor& accessor, G
     view.sparse_count = std::size_t(sparse.count);
     const std::size_t index_size = component_size(view.sparse_index_type);
     const std::size_t size = component_size(view.component_type) * std::size_t(view.components);
-    view.sparse_indices =
-        locate(source, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset),
-               view.sparse_count, index_size, index_size, what);
+    view.sparse_indices = locate(
+        source, sparse.indices.bufferView,
+        {std::size_t(sparse.indices.byteOffset), view.sparse_count, index_size, index_size}, what);
     view.sparse_values =
-        locate(source, sparse.values.bufferView, std::size_t(sparse.values.byteOffset),
-               view.sparse_count, size, size, what);
+        locate(source, sparse.values.bufferView,
+               {std::size_t(sparse.values.byteOffset), view.sparse_count, size, size}, what);
     std::uint32_t previous = 0;
     for (std::size_t i = 0; i < view.sparse_count; ++i) {
         const std::uint32_t index =
@@ -174,8 +177,8 @@ GltfAccessor open_accessor(const GltfSource& source, int index, const std::strin
                             what, size, accessor.bufferView, view.stride);
             }
         }
-        view.data = locate(source, accessor.bufferView, accessor.byteOffset, view.count, size,
-                           view.stride, what);
+        view.data = locate(source, accessor.bufferView,
+                           {accessor.byteOffset, view.count, size, view.stride}, what);
     } else if (view.count > most_zeros) {
         source.fail("{} are {} elements without data; at most {} are allowed", what, view.count,
                     most_zeros);
