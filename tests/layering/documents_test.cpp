@@ -146,6 +146,32 @@ TEST(Documents, SourcesThatThePagesNameExist) {
     EXPECT_THAT(faults, IsEmpty());
 }
 
+TEST(Documents, TestsThatThePagesNameExist) {
+    static const std::regex definition(R"(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\))");
+    static const std::regex name(R"(`(?:test_\w+: )?([A-Z]\w+\.[A-Z]\w+)`)");
+    std::set<std::string> tests;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "tests")) {
+        if (entry.path().extension() != ".cpp") {
+            continue;
+        }
+        const std::string text = read_text(entry.path());
+        for (const std::smatch& match : matches(text, definition)) {
+            tests.insert(match[1].str() + "." + match[2].str());
+        }
+    }
+    ASSERT_TRUE(tests.contains("Documents.LinksLeadSomewhere"));
+    std::vector<std::string> faults;
+    for (const fs::path& page : files_with({".md"})) {
+        const std::string text = read_text(page);
+        for (const std::smatch& match : matches(text, name)) {
+            if (!tests.contains(match[1])) {
+                faults.push_back(page.lexically_relative(root).string() + ": " + match[1].str());
+            }
+        }
+    }
+    EXPECT_THAT(faults, IsEmpty());
+}
+
 TEST(Documents, TheDesignNamesEveryFolderOfTheEngineAndNoOther) {
     const std::string design = read_text(root / "docs/design.md");
     const std::string layout = design.substr(
