@@ -200,5 +200,25 @@ TEST(Documents, TheIndexOfResultsNamesEveryPage) {
     }
 }
 
+// As write_index() in tools/results_common.py finds them.
+TEST(Documents, TheIndexOfResultsHasTheRevisionsOfThePages) {
+    static const std::regex row(R"(\| \[[^\]]+\]\((\w+\.md)\) \| [^|]+ \| ([^|]+) \|)");
+    static const std::regex revision(R"(revisions?\s+([0-9a-f]{7})\b)");
+    const std::string index = read_text(root / "docs/results/README.md");
+    const std::vector<std::smatch> rows = matches(index, row);
+    ASSERT_GT(rows.size(), 10u);
+    for (const std::smatch& match : rows) {
+        const std::string page = read_text(root / "docs/results" / match[1].str());
+        std::string revisions;
+        for (const std::smatch& found : matches(page, revision)) {
+            if (revisions.find(found[1].str()) == std::string::npos) {
+                revisions += (revisions.empty() ? "" : ", ") + found[1].str();
+            }
+        }
+        EXPECT_EQ(match[2], revisions.empty() ? "not recorded" : revisions)
+            << match[1] << ": run write_index() of tools/results_common.py";
+    }
+}
+
 } // namespace
 } // namespace argand
