@@ -7,16 +7,18 @@
 
 namespace argand {
 
-/// Writes layers of one size as one OpenEXR file in one step: linear 32-bit floats, ZIP
-/// compression, channels R, G, B for the layer "" and NAME.R, NAME.G, NAME.B for the others. Error
-/// if there is no layer, two have one name, sizes differ, or the file cannot be written.
+/// Writes layers of one size to one OpenEXR file, in one step (base/atomic_write.hpp): linear
+/// 32-bit floats, ZIP compression, channels R, G, B for the layer "" and NAME.R, NAME.G, NAME.B for
+/// the others. Throws Error if there is no layer, if two layers have the same name or different
+/// sizes, or if the file cannot be written.
 void write_exr(const std::filesystem::path& path, std::span<const Layer> layers);
 
-/// Reads the layers of a single-part scan-line OpenEXR file, the layer "" first, the others by
-/// name. Half, float and integer samples; a layer with Y alone is grey, and of R, G, B what is
-/// missing is 0; other channels are left out. Error, naming file and reason, if the file is
-/// damaged, of another kind (tiled, deep, multi-part, sub-sampled), of a compression other than
-/// none, RLE, ZIP, PIZ, or has no layer.
+/// Reads the layers of an OpenEXR file, sorted by name, which puts the layer "" first. Samples may
+/// be half, float or integer, stored as scan lines or tiles (of which the finest level is read).
+/// The image covers the data window. A layer with the channel Y alone is grey; a missing R, G or B
+/// is 0; other channels are ignored. Throws Error, naming the file and the reason, if the file is
+/// damaged, is deep, multi-part or sub-sampled, has no layer, is larger than image_size.hpp allows,
+/// or is compressed otherwise than by RLE, ZIP, PIZ or PXR24.
 std::vector<Layer> read_exr(const std::filesystem::path& path);
 
 } // namespace argand

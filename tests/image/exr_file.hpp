@@ -7,8 +7,8 @@
 
 namespace argand::testing {
 
-/// An uncompressed scan-line OpenEXR file put together byte by byte, after "OpenEXR File Layout",
-/// so that readers are tested on what our writer does not write.
+/// Builds an uncompressed scan-line OpenEXR file byte by byte ("OpenEXR File Layout", openexr.com),
+/// with any header, so that the reader is tested on files that no library writes.
 struct ExrFile {
     struct Channel {
         std::string name;
@@ -19,7 +19,7 @@ struct ExrFile {
 
     int width = 1, height = 1;
     std::int32_t x0 = 0, y0 = 0;
-    std::vector<Channel> channels{}; ///< in the file's order
+    std::vector<Channel> channels{}; ///< sorted by name, as the format requires
     std::uint32_t version = 2;
     std::uint8_t compression = 0;
     bool bottom_first = false;
