@@ -43,7 +43,7 @@ function(argand_add_kernels target)
         list(APPEND generated ${directory}/${name}.hpp ${twin_header})
         list(APPEND twin_headers ${twin_header})
     endforeach()
-    target_include_directories(${target} PUBLIC ${CMAKE_BINARY_DIR}/generated)
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/generated>)
     # Most of the time that one binding takes to compile goes to the headers, so ten of them share a translation unit.
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     set(count 0)
