@@ -32,7 +32,7 @@ namespace {
     fail_to_write(target, std::strerror(code), advice);
 }
 
-/// A file descriptor that is closed, and a file that is removed, unless told otherwise.
+/// An open file that is closed and, unless `path` was cleared, removed on destruction.
 struct Scratch {
     fs::path path;
     int descriptor = -1;
@@ -50,13 +50,12 @@ struct Scratch {
     }
 };
 
-/// The path to replace: links are followed, so that they stay links. `mode` gets the existing
-/// file's permissions, `special` whether it is a pipe or a device.
+/// The file to replace: the target after its symbolic links, which stay links.
 struct Destination {
     fs::path path;
     bool exists = false;
-    bool special = false;
-    mode_t mode = 0;
+    bool special = false; ///< a pipe or a device
+    mode_t mode = 0;      ///< permissions of the existing file
 };
 
 Destination resolve(const fs::path& target) {
@@ -64,7 +63,7 @@ Destination resolve(const fs::path& target) {
         fail_to_write(target, "the name is empty", "give a file name");
     }
     Destination destination{.path = target};
-    // A loop of links ends in stat's ELOOP below.
+    // In a loop of links, stat below fails with ELOOP.
     for (int hop = 0; hop < 40; ++hop) {
         std::error_code none;
         if (!fs::is_symlink(fs::symlink_status(destination.path, none))) {
@@ -106,11 +105,11 @@ Destination resolve(const fs::path& target) {
     return destination;
 }
 
-/// Creates a file of a new name in the destination's directory.
+/// Creates a file with a new name in the destination's directory.
 void open_beside(const fs::path& target, const Destination& destination, Scratch& scratch) {
     static std::atomic<unsigned> counter{0};
     for (;;) {
-        // A short name of its own: the target's may already be as long as a name can be.
+        // Not the target's name with a suffix: it may already have the greatest length allowed.
         fs::path path = destination.path.parent_path() /
                         fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
         const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -159,7 +158,7 @@ void write_atomically(const fs::path& target, std::span<const std::uint8_t> byte
     }
     open_beside(target, destination, scratch);
     write_all(target, scratch.descriptor, bytes);
-    // Without it a power cut after the rename could leave the new name with no content.
+    // Otherwise a power failure after the rename could leave an empty file.
     if (::fsync(scratch.descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) {
         fail_with_errno(target, errno);
     }

@@ -8,17 +8,16 @@
 
 namespace argand {
 
-/// Writes a file in one step: the bytes go to a new file beside the target, which then takes the
-/// target's name, so that whatever happens the target holds its old content or all of the new.
-/// Through a symbolic link the file that it points to is replaced; an existing file keeps its
-/// permissions; a pipe or device is written to directly. Error, with nothing left behind, if the
-/// target is a directory, is write-protected, its directory does not exist or cannot be written to,
-/// or the disk is full.
+/// Writes a file in one step: the bytes go to a new file beside the target, which is then renamed
+/// to the target. Whatever happens, the target holds either its old content or all of the new.
+/// Symbolic links are followed; an existing file keeps its permissions; a pipe or device is written
+/// to directly. Throws Error, and leaves no file behind, if the target is a directory or is
+/// write-protected, if its directory does not exist or is write-protected, or if the disk is full.
 void write_atomically(const std::filesystem::path& target, std::span<const std::uint8_t> bytes);
 void write_atomically(const std::filesystem::path& target, std::string_view text);
 
-/// Fails as `write_atomically` would, as far as that can be known beforehand: for a check before
-/// hours of work.
+/// Throws the Error that `write_atomically` would throw, as far as it can be known beforehand. Call
+/// it before hours of work.
 void check_writable(const std::filesystem::path& target);
 
 } // namespace argand

@@ -6,7 +6,7 @@
 
 namespace argand {
 
-/// Bytes as base64 with padding (RFC 4648, §4).
+/// Encodes bytes as base64 with padding (RFC 4648, section 4).
 std::string base64(std::span<const std::uint8_t> bytes);
 
 } // namespace argand

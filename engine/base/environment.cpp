@@ -20,7 +20,7 @@ void set_default_environment(const char* name, const std::string& value) {
 }
 
 std::filesystem::path cache_directory() {
-    // The specification says that a relative XDG_CACHE_HOME is to be ignored.
+    // By the specification, a relative XDG_CACHE_HOME is ignored.
     if (const std::filesystem::path xdg = environment("XDG_CACHE_HOME"); xdg.is_absolute()) {
         return xdg / "argand";
     }

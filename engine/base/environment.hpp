@@ -11,8 +11,8 @@ std::string environment(const char* name);
 /// Sets an environment variable unless it is set.
 void set_default_environment(const char* name, const std::string& value);
 
-/// Argand's own cache directory, after the XDG base directory specification; it need not exist.
-/// Empty if there is no place for one.
+/// Argand's cache directory by the XDG base directory specification. It may not exist yet. Empty if
+/// neither XDG_CACHE_HOME nor HOME holds an absolute path.
 std::filesystem::path cache_directory();
 
 } // namespace argand

@@ -6,18 +6,18 @@
 
 namespace argand {
 
-/// What a user is told: one line that says what was done, to what, what is wrong and what to do.
-/// Exit status 1.
+/// An error for the user. The message is one line that names the operation, its object, the problem
+/// and a remedy. The program exits with status 1.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A command line that asks for something that does not exist. Exit status 2.
+/// A mistake on the command line, such as an unknown name. The program exits with status 2.
 struct UsageError : Error {
     using Error::Error;
 };
 
-/// A device that stopped working while it was opened or used; one of another backend may do.
+/// A failure of a device while it is opened or used. A device of another backend may work.
 struct DeviceFault : Error {
     DeviceFault(std::string of, const std::string& message)
         : Error(message), backend(std::move(of)) {}

@@ -8,8 +8,8 @@ namespace argand {
 
 inline constexpr std::uint64_t empty_fingerprint = 0xcbf29ce484222325u;
 
-/// FNV-1a of 64 bits, to tell files apart that are not meant to be alike; `before`: of what comes
-/// before these bytes.
+/// 64-bit FNV-1a hash, which tells files apart unless a collision is crafted. `before` is the
+/// fingerprint of the bytes that precede these.
 inline std::uint64_t fingerprint(std::span<const std::byte> bytes,
                                  std::uint64_t before = empty_fingerprint) {
     std::uint64_t hash = before;

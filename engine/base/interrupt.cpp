@@ -22,11 +22,11 @@ void note_signal(int signal) {
 void catch_interrupts() {
     struct sigaction action {};
     action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART; // reads and writes in flight go on
+    action.sa_flags = SA_RESTART; // reads and writes in progress continue
     sigemptyset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM}) {
-        // What was started with the signal ignored (nohup, a script's background job) keeps
-        // ignoring it.
+        // A program that was started with the signal ignored (by nohup, or in the background of a
+        // script) keeps ignoring it.
         struct sigaction before {};
         if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) {
             ::sigaction(signal, &action, nullptr);

@@ -2,15 +2,15 @@
 
 namespace argand {
 
-/// From now on SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program, so that long
-/// work can stop at its next step and leave nothing half-written. A second one ends the program at
-/// once, with status 128 + signal.
+/// Makes SIGINT (Ctrl-C) and SIGTERM set a flag instead of ending the program, so that long work
+/// can stop at its next step and leave no half-written file. A second signal ends the program at
+/// once with status 128 + signal.
 void catch_interrupts();
 
-/// True once such a signal has come.
+/// Whether a signal has arrived.
 bool interrupted();
 
-/// Forgets a signal that has come.
+/// Clears the flag.
 void forget_interrupt();
 
 } // namespace argand

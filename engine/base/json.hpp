@@ -6,8 +6,9 @@
 
 namespace argand {
 
-/// JSON as text, two spaces a level, a newline at the end. Numbers that JSON cannot express
-/// (infinity, NaN) become null; bytes that are not UTF-8, as file names may hold, become U+FFFD.
+/// Formats JSON with two spaces per level and a newline at the end. Numbers that JSON cannot
+/// express (infinity, NaN) become null. Bytes that are not UTF-8, which file names may hold, become
+/// U+FFFD.
 std::string json_text(const nlohmann::ordered_json& value);
 
 /// Writes `json_text` to a file in one step (base/atomic_write.hpp).

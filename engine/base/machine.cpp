@@ -41,7 +41,7 @@ std::string processor_name() {
 
 std::filesystem::path program_file() {
 #ifdef _WIN32
-    std::wstring name(1 << 15, L'\0'); // the most that Windows knows
+    std::wstring name(1 << 15, L'\0'); // the longest path that Windows allows
     name.resize(GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size())));
     return name;
 #else

@@ -6,13 +6,13 @@
 
 namespace argand {
 
-/// Bytes of memory that the machine has; a guess of 2 GiB where that cannot be asked.
+/// The machine's physical memory in bytes, or 2 GiB if the system does not report it.
 std::uint64_t physical_memory();
 
-/// What the machine's processor calls itself, or "processor".
+/// The processor's name as the system reports it, or "processor".
 std::string processor_name();
 
-/// The program that runs: its executable file.
+/// Path of the running program's executable file.
 std::filesystem::path program_file();
 
 } // namespace argand

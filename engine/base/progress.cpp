@@ -10,7 +10,8 @@ namespace argand {
 namespace {
 
 constexpr std::chrono::milliseconds between_lines{100};
-constexpr double too_early = 0.01; // a guess from less than this would jump about
+/// Share of the work that must be done before the time left is estimated; earlier it would jump.
+constexpr double too_early = 0.01;
 
 std::string duration(double seconds) {
     const long whole = std::lround(std::min(seconds, 1e9));

@@ -7,9 +7,9 @@
 
 namespace argand {
 
-/// One line on a terminal that says how far the work is, "tracing photons  42 %  12 s left",
-/// redrawn in place at most ten times a second and erased at the end. Where the output is not a
-/// terminal, or `quiet`, nothing is printed.
+/// Shows the progress of work as one line on a terminal, "tracing photons  42 %  12 s left". The
+/// line is redrawn in place at most ten times a second and erased at the end. Prints nothing if
+/// `quiet` is set or the output is not a terminal.
 class Progress {
 public:
     explicit Progress(std::string work, bool quiet = false, int descriptor = 2);
@@ -17,7 +17,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `fraction` of the work that is done, clamped to [0, 1].
+    /// Reports the share of the work that is done, clamped to [0, 1].
     void update(double fraction);
 
     /// Erases the line; also done on destruction.

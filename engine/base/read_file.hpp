@@ -6,7 +6,7 @@
 
 namespace argand {
 
-/// The bytes of a regular file (which may be empty). Error if it is missing, a directory or another
+/// Reads a regular file, which may be empty. Throws Error if it is missing, is a directory or a
 /// special file, or cannot be read.
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path);
 

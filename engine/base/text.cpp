@@ -5,8 +5,7 @@
 namespace argand {
 namespace {
 
-/// Length in bytes of the UTF-8 character that `text` begins with; 0 if it is not valid UTF-8 (RFC
-/// 3629).
+/// Length in bytes of the first character of `text`; 0 if it is not valid UTF-8 (RFC 3629).
 std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     const std::uint8_t first = byte(0);

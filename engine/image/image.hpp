@@ -6,15 +6,15 @@
 
 namespace argand {
 
-/// Linear RGB pixels in rows from the top left.
+/// Linear RGB pixels, row by row from the top, each row from the left.
 struct Image {
     int width = 0;
     int height = 0;
     std::vector<glm::vec3> pixels; ///< width × height
 };
 
-/// Named pictures of one size that are kept in one OpenEXR file: "" is the whole picture (channels
-/// R, G, B), any other name a layer (channels NAME.R, NAME.G, NAME.B).
+/// A named image. An OpenEXR file holds layers of one size: "" is the whole picture (channels R, G,
+/// B), any other name a part of it (channels NAME.R, NAME.G, NAME.B).
 struct Layer {
     std::string name;
     Image image;

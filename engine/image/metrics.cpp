@@ -10,7 +10,7 @@ namespace argand {
 
 namespace {
 
-constexpr double dark_share = 0.01; // of the squared mean, keeps dark pixels from ruling relMSE
+constexpr double dark_share = 0.01; // of the squared mean; keeps dark pixels from dominating relMSE
 
 void check_finite(const Image& image, std::string_view name) {
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -47,7 +47,7 @@ glm::dvec3 mean_of(const Image& image) {
 
 double mean_of_channels(const glm::dvec3& v) { return (v.r + v.g + v.b) / 3; }
 
-/// difference² / scale², where 0/0 is no error.
+/// squared_difference / squared_scale, where 0 / 0 is 0.
 double relative(double squared_difference, double squared_scale) {
     if (squared_difference == 0) {
         return 0;
@@ -56,7 +56,7 @@ double relative(double squared_difference, double squared_scale) {
                              : std::numeric_limits<double>::infinity();
 }
 
-/// Mean over pixels and channels of `square(pixel, channel, a, b)` over what relMSE divides by.
+/// Mean over pixels and channels of `square(pixel, channel, a, b)`, divided as in relMSE.
 template <class Square>
 double mean_relative(const Image& reference_a, const Image& reference_b, Square square) {
     const double mean = mean_of_channels(0.5 * (mean_of(reference_a) + mean_of(reference_b)));

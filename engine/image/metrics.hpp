@@ -8,8 +8,8 @@
 
 namespace argand {
 
-/// How far picture A is from the reference B. Sums run in double precision over all pixels and
-/// channels.
+/// Distance of image A from the reference B. Means are over all pixels and channels, in double
+/// precision.
 struct Metrics {
     double rel_mse = 0;   ///< mean((a − b)² / (b² + 0.01·mean(b)²))
     double rmse = 0;      ///< sqrt(mean((a − b)²))
@@ -17,43 +17,44 @@ struct Metrics {
     double psnr = 0;      ///< [dB] 20·log10(peak / rmse), peak the largest value of B
     double ssim = 0;      ///< structural similarity of the displayed luminance, see `ssim`
     glm::dvec3 mean_a{0}; ///< mean radiance per channel
-    glm::dvec3 mean_b{0};
+    glm::dvec3 mean_b{0}; ///< mean radiance per channel
 };
 
-/// Compares A with the reference B. Where B is black (the denominator of relMSE is 0) an equal
-/// pixel counts 0 and another one infinity; PSNR of equal pictures is infinity. Error, naming the
-/// file and the first such pixel, if the sizes differ, a picture is empty or a pixel is not finite;
-/// the names are the files'.
+/// Compares A with the reference B. If B is black, the denominator of relMSE is 0: then an equal
+/// pixel counts as 0 and any other as infinity. The PSNR of equal images is infinity. Throws Error
+/// if the sizes differ, an image is empty, or a pixel is not finite; the message names the files as
+/// `name_a` and `name_b` do, and the first such pixel.
 Metrics compare(const Image& a, const Image& b, std::string_view name_a = "A",
                 std::string_view name_b = "B");
 
-/// relMSE as in Metrics, of an image whose reference is known from two pictures of independent
-/// noise: theirs does not count, as its product is 0 on average. (What is divided by is their mean,
-/// whose noise should be small.) Errors as in `compare`.
+/// relMSE as in Metrics against two references with independent noise: the mean of
+/// (image − a)(image − b) / (r² + 0.01·mean(r)²), where r is the mean of a and b. The noise of the
+/// references does not add to the result, because its product is 0 on average; the noise of r in
+/// the denominator should be small. Throws as `compare` does.
 double rel_mse(const Image& image, const Image& reference_a, const Image& reference_b);
 
-/// Variance, without bias, of two or more independent pictures of one thing, divided pixel by pixel
-/// as in that relMSE: so the mean of their relMSE less this is their squared bias. Errors as in
-/// `compare`, and if there are fewer than two.
+/// Unbiased sample variance of two or more independent images of the same scene, with the
+/// denominator of `rel_mse`. The mean of their relMSE minus this is their squared bias. Throws as
+/// `compare` does, and if there are fewer than two images.
 double rel_variance(std::span<const Image> images, const Image& reference_a,
                     const Image& reference_b);
 
-/// (a − b)(c − d) of each pixel, the mean of its channels, divided as in relMSE by what follows
-/// from `reference`: where the two differences have independent noise, it counts as 0 on average.
-/// Errors as in `compare`.
+/// Per pixel, the mean over channels of (a − b)(c − d) / (r² + 0.01·mean(r)²), where r is
+/// `reference`. Noise that is independent in the two differences averages to 0. Throws as `compare`
+/// does.
 std::vector<double> rel_products(const Image& a, const Image& b, const Image& c, const Image& d,
                                  const Image& reference);
 
 /// Mean structural similarity (Wang et al. 2004, "Image Quality Assessment: From Error Visibility
 /// to Structural Similarity") of the sRGB-encoded luminance, clamped to [0, 1]: Gaussian window of
-/// 11 × 11, σ = 1.5, K1 = 0.01, K2 = 0.03, averaged over all places where the window lies within
-/// the picture. Along a side shorter than the window, the window is the longest odd one that fits.
-/// Both pictures must be of one size and not empty.
+/// 11 × 11, σ = 1.5, K1 = 0.01, K2 = 0.03, averaged over all positions where the window lies within
+/// the image. Along a side that is shorter than the window, the window has the longest odd length
+/// that fits. The images must have one size and must not be empty.
 double ssim(const Image& a, const Image& b);
 
-/// Their difference, to look at: black where A equals B, red where A is brighter, blue where it is
-/// darker, in full colour where the luminances differ by sqrt(b² + 0.01·mean(b)²) or more. Errors
-/// as in `compare`.
+/// Image of the difference, for display: black where A equals B, red where A is brighter, blue
+/// where it is darker. The colour is full where the luminances differ by sqrt(b² + 0.01·mean(b)²)
+/// or more. Throws as `compare` does.
 Image difference_picture(const Image& a, const Image& b, std::string_view name_a = "A",
                          std::string_view name_b = "B");
 

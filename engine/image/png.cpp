@@ -13,8 +13,8 @@
 #include <new>
 #include <vector>
 
-// Static, so that no other copy of stb in the program is meant; only what is used, so that a file
-// that pretends to be a PNG does not reach another decoder.
+// Static, so that this copy of stb does not clash with another one in the program. Only these two
+// decoders are compiled, so that a file that pretends to be a PNG reaches no other one.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -46,7 +46,7 @@ void append(void* context, void* data, int size) {
     bytes.insert(bytes.end(), begin, begin + size);
 }
 
-/// The bytes of a file that stb can address, checked to be of the kind that `is_kind` tells.
+/// Reads a file that `is_kind` recognises and that is small enough for stb (2 GiB).
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const char* kind,
                                      int (*is_kind)(const stbi_uc*, int)) {
     std::vector<std::uint8_t> bytes = read_file(path);
@@ -80,7 +80,7 @@ Image to_image(const T* samples, int width, int height, Convert convert) {
     return image;
 }
 
-/// Linear value of every code of an unsigned integer type that holds sRGB.
+/// The linear value of every sRGB code of the unsigned integer type T.
 template <class T> std::vector<float> decode_table() {
     constexpr std::size_t codes = std::size_t{std::numeric_limits<T>::max()} + 1;
     std::vector<float> table(codes);

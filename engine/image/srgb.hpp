@@ -5,8 +5,8 @@
 
 namespace argand {
 
-/// IEC 61966-2-1: linear [0, 1] to the encoded value [0, 1]; what is outside is clamped, NaN
-/// becomes 0.
+/// Encodes a linear value by IEC 61966-2-1. The result is in [0, 1]; values outside are clamped,
+/// NaN becomes 0.
 inline double srgb_encode(double linear) {
     if (!(linear > 0)) {
         return 0;

@@ -26,12 +26,12 @@ std::vector<double> gaussian(int radius) {
         sum += weights.back();
     }
     for (double& weight : weights) {
-        weight /= sum; // at least the middle's 1
+        weight /= sum; // the sum is at least 1, the weight of the middle
     }
     return weights;
 }
 
-/// Radius of the longest odd window that fits into a side.
+/// Radius of the longest window that fits into a side; windows have odd lengths.
 int fitting_radius(int side) { return std::min(window_radius, (side - 1) / 2); }
 
 Plane filter_rows(const Plane& in, const std::vector<double>& weights) {
@@ -64,8 +64,8 @@ Plane transposed(const Plane& in) {
     return out;
 }
 
-/// Gaussian mean at every place where the window fits; the result is transposed, which the mean of
-/// all does not mind.
+/// Gaussian mean at every position where the window fits. The result is transposed, which does not
+/// change the mean over all positions.
 Plane local_mean(const Plane& in) {
     const Plane rows = filter_rows(in, gaussian(fitting_radius(in.width)));
     return filter_rows(transposed(rows), gaussian(fitting_radius(in.height)));
@@ -101,8 +101,8 @@ double ssim(const Image& a, const Image& b) {
         const double variance_x = mean_xx.values[i] - mx * mx,
                      variance_y = mean_yy.values[i] - my * my;
         const double covariance = mean_xy.values[i] - mx * my;
-        // Both factors are at least c1 and about c2: means are squared, variances negative by
-        // rounding at most.
+        // The denominator is positive: one factor is at least c1, the other about c2 or more, since
+        // variances are negative by rounding alone.
         sum += (2 * mx * my + c1) * (2 * covariance + c2) /
                ((mx * mx + my * my + c1) * (variance_x + variance_y + c2));
     }

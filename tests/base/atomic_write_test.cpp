@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Permissions bind everyone but root, who becomes nobody for a while.
+/// Lets root, whom permissions do not bind, act as the user nobody until the end of the scope.
 class WithoutPrivilege {
 public:
     WithoutPrivilege() {
@@ -33,7 +33,7 @@ private:
     bool was_root_ = false;
 };
 
-/// Files of more than `bytes` cannot be written, as on a full disk.
+/// Makes writes beyond `bytes` of a file fail, as on a full disk, until the end of the scope.
 class FullDisk {
 public:
     explicit FullDisk(rlim_t bytes) {
@@ -53,7 +53,7 @@ private:
     void (*handler_)(int) = SIG_DFL;
 };
 
-/// Relative paths are taken from here.
+/// Changes the working directory until the end of the scope.
 class WorkingDirectory {
 public:
     explicit WorkingDirectory(const fs::path& path) : before_(fs::current_path()) {

@@ -6,15 +6,15 @@ using namespace argand;
 
 namespace {
 
-/// What the test's own parent made of the signals (a background job ignores SIGINT) must not
-/// matter.
-void take_signals_as_usual() {
+/// Restores the default handling of the signals, which the test's parent may have changed: a
+/// background job ignores SIGINT.
+void restore_default_signals() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
 }
 
-TEST(Interrupt, FirstSignalIsNoted) {
-    take_signals_as_usual();
+TEST(Interrupt, FirstSignalSetsTheFlag) {
+    restore_default_signals();
     catch_interrupts();
     for (const int signal : {SIGINT, SIGTERM}) {
         EXPECT_FALSE(interrupted());
@@ -23,12 +23,12 @@ TEST(Interrupt, FirstSignalIsNoted) {
         forget_interrupt();
     }
     EXPECT_FALSE(interrupted());
-    take_signals_as_usual();
+    restore_default_signals();
 }
 
 TEST(InterruptDeathTest, SecondSignalEndsTheProgramAtOnce) {
     const auto twice = [](int signal) {
-        take_signals_as_usual();
+        restore_default_signals();
         catch_interrupts();
         std::raise(signal);
         std::raise(signal);
@@ -42,7 +42,7 @@ TEST(Interrupt, AnIgnoredSignalStaysIgnored) {
     catch_interrupts();
     std::raise(SIGINT);
     EXPECT_FALSE(interrupted());
-    take_signals_as_usual();
+    restore_default_signals();
 }
 
 } // namespace

@@ -13,7 +13,7 @@ TEST(Json, KeepsOrderAndEndsWithANewline) {
               "{\n  \"z\": 1,\n  \"a\": [\n    1.5,\n    \"x\"\n  ]\n}\n");
 }
 
-TEST(Json, ExpressesWhatJsonCannot) {
+TEST(Json, ReplacesValuesThatJsonCannotExpress) {
     EXPECT_EQ(json_text(std::numeric_limits<double>::infinity()), "null\n");
     EXPECT_EQ(json_text(std::numeric_limits<double>::quiet_NaN()), "null\n");
     EXPECT_EQ(json_text("caf\xe9"), "\"caf\xef\xbf\xbd\"\n");

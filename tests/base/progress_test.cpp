@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// A terminal of the test's own; `read` gives what was printed on it.
+/// A pseudo-terminal; `read` returns the text printed on it since the last call.
 class Terminal {
 public:
     Terminal() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
@@ -42,7 +42,7 @@ private:
     int master_ = -1, slave_ = -1;
 };
 
-TEST(Progress, LineSaysHowFarAndHowLong) {
+TEST(Progress, LineShowsShareAndTimeLeft) {
     EXPECT_EQ(progress_line("tracing", 0, 0), "tracing  0 %");
     EXPECT_EQ(progress_line("tracing", 0.25, 10), "tracing  25 %  30 s left");
     EXPECT_EQ(progress_line("tracing", 0.5, 90), "tracing  50 %  1 min 30 s left");
@@ -65,7 +65,7 @@ TEST(Progress, DrawsOnATerminalAndErasesItself) {
     EXPECT_THAT(terminal.read(), EndsWith("\r\x1b[K"));
 }
 
-TEST(Progress, DrawsSeldom) {
+TEST(Progress, DrawsAtMostTenTimesASecond) {
     const Terminal terminal;
     ASSERT_GE(terminal.descriptor(), 0);
     const auto start = std::chrono::steady_clock::now();

@@ -32,7 +32,7 @@ TEST_F(ReadFile, GivesTheBytes) {
     EXPECT_TRUE(read_file(directory / "empty").empty());
 }
 
-TEST_F(ReadFile, SaysWhatIsWrong) {
+TEST_F(ReadFile, NamesTheProblem) {
     EXPECT_THAT(problem_of(directory / "absent"), ::testing::HasSubstr("there is no such file"));
     EXPECT_THAT(problem_of(directory.path()), ::testing::HasSubstr("it is a directory"));
     EXPECT_THAT(problem_of(""), ::testing::HasSubstr("there is no such file"));
@@ -45,12 +45,12 @@ TEST_F(ReadFile, DoesNotWaitForAPipe) {
     EXPECT_THAT(problem_of(directory / "pipe"), ::testing::HasSubstr("it is not a regular file"));
 }
 
-TEST_F(ReadFile, SaysThatPermissionsForbidIt) {
+TEST_F(ReadFile, NamesMissingPermissions) {
     namespace fs = std::filesystem;
     testing::write_text(directory / "secret", "x");
     fs::permissions(directory.path(), fs::perms::all);
     fs::permissions(directory / "secret", fs::perms::none);
-    const bool is_root = geteuid() == 0; // who may read everything
+    const bool is_root = geteuid() == 0; // root may read every file
     if (is_root) {
         ASSERT_EQ(seteuid(65534), 0);
     }

@@ -16,7 +16,7 @@ TEST(OneLine, FoldsWhiteSpaceAndControlCharacters) {
     EXPECT_EQ(one_line("\n\n"), "");
 }
 
-TEST(OneLine, KeepsUtf8AndReplacesWhatIsNot) {
+TEST(OneLine, KeepsUtf8AndReplacesOtherBytes) {
     EXPECT_EQ(one_line("\u2764\u267b \U0001f600 é"), "\u2764\u267b \U0001f600 é");
     EXPECT_EQ(one_line("a\xff"
                        "b\xc3"),
@@ -27,7 +27,7 @@ TEST(OneLine, KeepsUtf8AndReplacesWhatIsNot) {
     EXPECT_EQ(one_line("\xf4\x90\x80\x80"), "????"); // beyond U+10FFFF
 }
 
-TEST(OneLine, CutsAtACharacter) {
+TEST(OneLine, TruncatesBetweenCharacters) {
     EXPECT_EQ(one_line("abcdef", 6), "abcdef");
     EXPECT_EQ(one_line("abcdefg", 6), "abcdef...");
     EXPECT_EQ(one_line("ab\u2764", 4), "ab...");

@@ -29,7 +29,7 @@ TEST(Metrics, HandComputed) {
     EXPECT_EQ(metrics.mean_b, glm::dvec3(0.5, 3, 2.5));
 }
 
-TEST(Metrics, IdenticalPictures) {
+TEST(Metrics, IdenticalImages) {
     const Image image = noise(23, 17, 4, 3);
     const Metrics metrics = compare(image, image);
     EXPECT_EQ(metrics.rel_mse, 0);
@@ -68,7 +68,7 @@ TEST(Metrics, BlackReference) {
 }
 
 TEST(Metrics, SumsDoNotLoseSmallTerms) {
-    // In single precision the ones would vanish beside the first pixel's 2^25.
+    // In single precision, adding 1 to the first pixel's 2^25 would change nothing.
     Image b = constant(1000, 100, glm::vec3(1));
     b.pixels[0] = glm::vec3(33554432.0f);
     EXPECT_NEAR(compare(b, b).mean_b.r, (33554432.0 + 99999) / 100000, 1e-9);
@@ -91,7 +91,7 @@ TEST(Metrics, RefusesSizesAndNonFinitePixels) {
     }
 }
 
-TEST(Metrics, DifferencePictureShowsWhereAndWhichWay) {
+TEST(Metrics, DifferenceImageShowsPlaceAndSign) {
     const Image b = constant(3, 1, glm::vec3(1));
     const Image a{3, 1, {glm::vec3(1), glm::vec3(1.1f), glm::vec3(0.9f)}};
     const Image picture = difference_picture(a, b);
@@ -100,7 +100,7 @@ TEST(Metrics, DifferencePictureShowsWhereAndWhichWay) {
     EXPECT_EQ(picture.pixels[1].b, 0);
     EXPECT_NEAR(picture.pixels[2].b, 0.1 / std::sqrt(1.01), 1e-6);
     EXPECT_EQ(picture.pixels[2].r, 0);
-    // Never beyond full colour, and a black reference is no trouble.
+    // The colour saturates, and a black reference is allowed.
     EXPECT_EQ(difference_picture(constant(1, 1, glm::vec3(1e30f)), constant(1, 1, glm::vec3(0)))
                   .pixels[0]
                   .r,
@@ -108,7 +108,7 @@ TEST(Metrics, DifferencePictureShowsWhereAndWhichWay) {
     EXPECT_EQ(difference_picture(b, b).pixels[2], glm::vec3(0));
 }
 
-/// SSIM as its definition reads: every window on its own, two-dimensional weights, centred moments.
+/// SSIM by its definition: each window separately, two-dimensional weights, centred moments.
 double plain_ssim(const Image& a, const Image& b) {
     const auto shown = [](const Image& image, int x, int y) {
         const glm::vec3& p = image.pixels[static_cast<std::size_t>(y * image.width + x)];
@@ -157,7 +157,7 @@ TEST(Ssim, AgreesWithThePlainDefinition) {
     const int sizes[][2] = {{1, 1},   {2, 1},   {1, 9},   {5, 30},
                             {10, 10}, {11, 11}, {12, 13}, {40, 23}};
     for (const auto& [width, height] : sizes) {
-        const Image b = noise(width, height, 5, 1.2f); // some of it clamped
+        const Image b = noise(width, height, 5, 1.2f); // some values are clamped
         Image a = b;
         const Image other = noise(width, height, 6, 0.4f);
         for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -169,8 +169,8 @@ TEST(Ssim, AgreesWithThePlainDefinition) {
     }
 }
 
-TEST(Ssim, ConstantPicturesHaveAClosedForm) {
-    // Without variance SSIM is (2·x·y + C1) / (x² + y² + C1) of the encoded values, here 0.25 and
+TEST(Ssim, ConstantImagesHaveAClosedForm) {
+    // Without variance, SSIM is (2·x·y + C1) / (x² + y² + C1) of the encoded values, here 0.25 and
     // 0.75.
     const auto x = static_cast<float>(srgb_decode(0.25)), y = static_cast<float>(srgb_decode(0.75));
     const double expected = (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4);
@@ -193,7 +193,7 @@ TEST(Ssim, FallsWithNoise) {
     }
 }
 
-TEST(Metrics, VarianceInTheUnitOfRelMse) {
+TEST(Metrics, VarianceHasTheUnitOfRelMse) {
     const std::vector<Image> images{constant(3, 2, glm::vec3(1)), constant(3, 2, glm::vec3(3))};
     const Image low = constant(3, 2, glm::vec3(1.5f)), high = constant(3, 2, glm::vec3(2.5f));
     EXPECT_NEAR(rel_variance(images, low, high), 2 / (4 + 0.01 * 4), 1e-12);
@@ -201,8 +201,8 @@ TEST(Metrics, VarianceInTheUnitOfRelMse) {
     EXPECT_THROW(rel_variance(images, low, constant(2, 3, glm::vec3(1))), Error);
 }
 
-TEST(Metrics, ErrorWithoutTheReferencesNoise) {
-    // A picture that is off by 0.1 everywhere, of which there are two noisy references.
+TEST(Metrics, ErrorExcludesTheNoiseOfTheReferences) {
+    // The image is off by 0.1 everywhere; its two references are noisy.
     std::mt19937 random(3);
     std::normal_distribution<float> noise(0, 0.04f);
     Image truth{64, 64, {}};

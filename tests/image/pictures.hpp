@@ -5,7 +5,7 @@
 
 namespace argand::testing {
 
-/// A picture of pseudo-random values in [0, scale).
+/// An image of pseudo-random values in [0, scale).
 inline Image noise(int width, int height, std::uint32_t seed, float scale = 1) {
     Image image{width, height, {}};
     std::uint32_t state = seed * 2654435761u + 1;

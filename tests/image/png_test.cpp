@@ -29,8 +29,8 @@ std::string chunk(const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + body + big_endian(~crc);
 }
 
-/// A PNG put together by hand, with stored (not compressed) rows that each begin with their
-/// filter's byte.
+/// Builds a PNG from rows that are stored without compression. Each row begins with the byte that
+/// names its filter.
 std::string png(std::uint32_t width, std::uint32_t height, int depth, int color_type,
                 const std::string& rows) {
     std::uint32_t a = 1, b = 0;
@@ -55,7 +55,7 @@ Image read_back(const Image& image, float exposure = 0) {
     return read_png(scratch / "a.png");
 }
 
-/// The code that a linear value is stored as, found through the reader.
+/// The 8-bit code that `write_png` stores for a linear value, recovered with `read_png`.
 int code_of(float linear, float exposure = 0) {
     const float decoded = read_back(constant(1, 1, glm::vec3(linear)), exposure).pixels[0].r;
     return static_cast<int>(std::lround(255 * srgb_encode(decoded)));
@@ -74,7 +74,7 @@ TEST(Png, EveryCodeSurvives) {
 }
 
 TEST(Png, FollowsTheStandardsCurve) {
-    // Values of IEC 61966-2-1, worked out by hand: 0.18 → 0.4613561 · 255 = 117.6, 0.5 → 187.5
+    // Values of IEC 61966-2-1, computed by hand: 0.18 → 0.4613561 · 255 = 117.6, 0.5 → 187.5
     // (rounds to 188), the joint of line and curve 0.0031308 → 10.3.
     EXPECT_EQ(code_of(0.18f), 118);
     EXPECT_EQ(code_of(0.5f), 188);
@@ -101,7 +101,7 @@ TEST(Png, ExposureScalesByPowersOfTwo) {
     EXPECT_EQ(code_of(0, std::numeric_limits<float>::infinity()), 0);
 }
 
-TEST(Png, ClampsWhatCannotBeShown) {
+TEST(Png, ClampsValuesOutsideTheRange) {
     using Limits = std::numeric_limits<float>;
     EXPECT_EQ(code_of(-1), 0);
     EXPECT_EQ(code_of(7), 255);
@@ -140,7 +140,7 @@ TEST(Png, ReadsOtherKindsOfPng) {
               (std::vector<glm::vec3>{glm::vec3(0), glm::vec3(1)}));
 }
 
-TEST(Png, RefusesWhatIsNoPictureAndWhereItCannotWrite) {
+TEST(Png, RefusesEmptyImagesAndUnwritablePaths) {
     const ScratchDirectory scratch;
     EXPECT_THAT(error_of([&] { write_png(scratch / "a.png", {}); }), HasSubstr("0 × 0"));
     EXPECT_THAT(error_of([&] {
@@ -155,7 +155,7 @@ TEST(Png, RefusesWhatIsNoPictureAndWhereItCannotWrite) {
                 HasSubstr("does not exist"));
 }
 
-TEST(PngHostile, NamesWhatIsWrong) {
+TEST(PngHostile, NamesTheProblem) {
     const ScratchDirectory scratch;
     const auto error = [&](const std::string& bytes) {
         write_text(scratch / "bad.png", bytes);
@@ -193,8 +193,8 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
     }
     for (std::size_t place = 0; place < whole.size(); ++place) {
         for (const char value : {'\0', '\x01', '\x7f', '\xff'}) {
-            // A width of thousands of millions is stb's to refuse, but memory for 65536² would be
-            // too much for a test.
+            // stb refuses a width of billions of pixels, but 65536² pixels would take too much
+            // memory for a test.
             if (place >= 16 && place < 24 && value != '\0') {
                 continue;
             }
@@ -207,8 +207,7 @@ TEST(PngHostile, SurvivesTruncationAndDamage) {
 
 TEST(Hdr, ReadsSharedExponents) {
     const ScratchDirectory scratch;
-    // Two pixels of (128, 64, 0) · 2^(e − 136): e = 129 is 1, 0.5, 0; e = 139 is 1024 times as
-    // much.
+    // Two pixels of (128, 64, 0) · 2^(e − 136): e = 129 gives (1, 0.5, 0), e = 139 1024 times that.
     write_text(scratch / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
                                       std::string("\x80\x40\0\x81\x80\x40\0\x8b", 8));
     const Image image = read_hdr(scratch / "a.hdr");
@@ -217,7 +216,7 @@ TEST(Hdr, ReadsSharedExponents) {
     EXPECT_EQ(image.pixels[1], glm::vec3(1024, 512, 0));
 }
 
-TEST(Hdr, NamesWhatIsWrong) {
+TEST(Hdr, NamesTheProblem) {
     const ScratchDirectory scratch;
     const auto error = [&](const std::string& bytes) {
         write_text(scratch / "bad.hdr", bytes);
