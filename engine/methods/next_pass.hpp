@@ -1,11 +1,18 @@
 #pragma once
 
 #include "methods/budget.hpp"
-#include "methods/methods.hpp"
+#include "methods/render.hpp"
 
 namespace argand {
 
-/// The next pass: as on_pass says, or one of `passes`, or while the budget has time; none: no more.
+/// Who is told of a render's progress, and who decides on its passes.
+struct Listeners {
+    const OnProgress& progress;
+    const OnPass& on_pass; ///< may be empty
+};
+
+/// The next pass: as on_pass says; else the next of `passes`, which go on as long as the budget has
+/// time. None: no more.
 inline std::optional<PassPlan> next_pass(const Listeners& listeners, Budget& budget,
                                          const PictureSoFar& so_far, std::uint64_t passes) {
     if (listeners.on_pass) {
@@ -17,8 +24,8 @@ inline std::optional<PassPlan> next_pass(const Listeners& listeners, Budget& bud
     return PassPlan{.expected = budget.expected(so_far.passes, passes)};
 }
 
-/// Tells how much is done, with `part` of the pass after so many of them. Returns false if the work
-/// is to end.
+/// Reports the share of the work that is done: `done` passes and `part` of the next one. Returns
+/// false if the work is to end.
 inline bool tell_progress(const Listeners& listeners, const Budget& budget, const PassPlan& plan,
                           std::uint64_t done, double part, std::uint64_t passes) {
     return listeners.progress(listeners.on_pass ? (static_cast<double>(done) + part) / plan.expected

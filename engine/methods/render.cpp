@@ -1,52 +1,74 @@
 #include "methods/render.hpp"
 
 #include "base/error.hpp"
-#include "methods/methods.hpp"
-
-#include <algorithm>
+#include "methods/method.hpp"
+#include "methods/next_pass.hpp"
 
 namespace argand {
 
 namespace {
 
-struct NamedMethod {
-    const char* name;
-    Method method;
-};
+RenderContext make_context(Device& device, const Scene& scene, const RenderSettings& settings,
+                           MethodTable methods) {
+    RenderContext context{.device = device,
+                          .scene = scene,
+                          .settings = settings,
+                          .on_device =
+                              upload_scene(device, scene, plan_render(scene, settings, methods)),
+                          .eye = {}};
+    context.eye = make_eye_workspace(
+        device, context.on_device.plan, settings,
+        camera_record(scene.cameras[settings.camera], settings.width, settings.height));
+    return context;
+}
 
-constexpr NamedMethod methods[] = {{"footprints", render_footprints},
-                                   {"photons", render_photons},
-                                   {"knn", render_nearest},
-                                   {"path", render_path}};
+/// Adds passes to the film until the listeners, the budget, the random numbers or the method's
+/// number of passes end it.
+void run_passes(Method& method, const RenderContext& context, Budget& budget,
+                const Listeners& listeners, RenderStatistics& statistics) {
+    const auto plan_next = [&] {
+        const auto layers = [&] {
+            return resolve_film(context.device, context.eye, context.settings, statistics);
+        };
+        return next_pass(listeners, budget, {statistics.passes, layers}, method.passes());
+    };
+    Streams streams(context.settings.seed);
+    std::optional<PassPlan> plan = plan_next();
+    while (plan) {
+        const Pass pass{.expected = plan->expected, .numbers = streams.next(plan->stream)};
+        const bool finished = method.pass(pass, [&](double part) {
+            return tell_progress(listeners, budget, *plan, statistics.passes, part,
+                                 method.passes());
+        });
+        ++statistics.passes;
+        statistics.interrupted = !finished;
+        plan = finished && method.has_numbers(pass.numbers.index + 1) ? plan_next() : std::nullopt;
+    }
+}
 
 } // namespace
 
-std::vector<std::string> method_names() {
-    std::vector<std::string> names;
-    for (const NamedMethod& named : methods) {
-        names.emplace_back(named.name);
-    }
-    return names;
-}
-
-Plan plan_render(const Scene& scene, const RenderSettings& settings) {
+Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable methods) {
+    const Abilities& abilities = methods.at(settings.method).abilities;
     return make_plan(scene, {.follow_roughness = settings.follow_roughness,
-                             .photon_map = settings.method != "path",
-                             .footprints = settings.method == "footprints",
+                             .photon_map = abilities.photon_map,
+                             .footprints = abilities.footprints,
                              .final_gather = settings.final_gather,
                              .everything = settings.everything});
 }
 
 RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,
-                    const OnProgress& progress, const OnPass& on_pass) {
-    const auto named =
-        std::find_if(std::begin(methods), std::end(methods),
-                     [&](const NamedMethod& m) { return settings.method == m.name; });
-    if (named == std::end(methods)) {
-        throw UsageError(fmt::format("rendering '{}': there is no method '{}'; choose from {}",
-                                     scene.name, settings.method, fmt::join(method_names(), ", ")));
-    }
-    return named->method(device, scene, settings, {progress, on_pass});
+                    const OnProgress& progress, const OnPass& on_pass, MethodTable methods) {
+    const MethodInfo& info = methods.at(settings.method);
+    Budget budget(settings.budget);
+    RenderContext context = make_context(device, scene, settings, methods);
+    const std::unique_ptr<Method> method = info.make(context);
+    method->begin(budget);
+    RenderResult result;
+    run_passes(*method, context, budget, {progress, on_pass}, result.statistics);
+    method->report(result.statistics);
+    result.layers = resolve_film(device, context.eye, settings, result.statistics);
+    return result;
 }
 
 } // namespace argand

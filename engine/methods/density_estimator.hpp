@@ -1,0 +1,39 @@
+#pragma once
+
+#include "methods/bandwidth.hpp"
+#include "methods/method.hpp"
+
+namespace argand {
+
+/// How radiance is estimated from a photon map: what one photon-mapping method has and another has
+/// not. All else is theirs in common (photon_mapping.hpp).
+class DensityEstimator {
+public:
+    virtual ~DensityEstimator() = default;
+
+    /// What learn_bandwidth() is to learn.
+    virtual Estimator kind() const = 0;
+
+    /// The typical radius of an estimate. Area samples are as dense, and cells of shared answers as
+    /// large, as suits it.
+    virtual double typical_radius(const Bandwidth& bandwidth) const {
+        return bandwidth.radii.indirect;
+    }
+
+    /// Size of the photons' footprints in a map of `photons` emitted photons; none if the estimator
+    /// uses points.
+    virtual std::optional<FootprintScale> footprints(const Bandwidth&, const FootprintSettings&,
+                                                     double /*photons*/, const SceneRecord&) const {
+        return std::nullopt;
+    }
+
+    /// Which queries share an answer, in cells of the given edge. may_part: the caustic part of the
+    /// map may be queried by itself.
+    virtual QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const = 0;
+
+    /// Answers the queries of `asking` from the map.
+    virtual void gather(RenderContext& context, const PhotonMap& map, const Bandwidth& bandwidth,
+                        const GatherTarget& target, const Count& asking) const = 0;
+};
+
+} // namespace argand

@@ -1,0 +1,73 @@
+#include "photon/nearest.hpp"
+#include "methods/photon_mapping.hpp"
+#include "methods/render_options.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+// Radius of a typical estimate over r_max: queries use their own discs, of which many are smaller
+// than the median.
+constexpr double typical_over_max = 0.3;
+
+/// Density over the disc that the k nearest photons fill (Jensen 1996).
+class Nearest : public DensityEstimator {
+public:
+    Estimator kind() const override { return Estimator::nearest; }
+
+    double typical_radius(const Bandwidth& bandwidth) const override {
+        return typical_over_max * bandwidth.radii.indirect;
+    }
+
+    QuerySharing sharing(const Bandwidth& bandwidth, double cell,
+                         bool /*may_part*/) const override {
+        // The nearest photons may be caustic ones, and then very near.
+        return {.cell = cell, .pixel_sized = bandwidth.caustics};
+    }
+
+    void gather(RenderContext& c, const PhotonMap& map, const Bandwidth& bandwidth,
+                const GatherTarget& target, const Count& asking) const override {
+        gather_nearest(
+            c.device, c.on_device, map, target, c.eye.traversal,
+            {.neighbours = bandwidth.neighbours,
+             .radius = bandwidth.radii.indirect,
+             .samples_per_area = map.area_samples / std::max(c.on_device.surface_area, 1e-30)},
+            asking);
+    }
+};
+
+Option neighbours_option() {
+    Option option = member_option(
+        "k", "Photons that each estimate takes, the nearest (default: from the photons stored)",
+        [](RenderSettings & s) -> auto& { return s.neighbours; }, 1, 0xffffffff);
+    option.fixes_bandwidth = true;
+    option.sweep = {.around =
+                        [](const RenderStatistics& learnt, double factor) {
+                            if (learnt.neighbours == 0) {
+                                return std::string();
+                            }
+                            // One photon has no area.
+                            return value_text(static_cast<std::uint32_t>(
+                                std::max(factor * learnt.neighbours, 2.0)));
+                        },
+                    .matters = finds_photons};
+    return option;
+}
+
+} // namespace
+
+MethodInfo knn_method() {
+    return {.name = "knn",
+            .summary = "photon mapping, density over the k nearest photons",
+            .paper = "Jensen 1996",
+            .abilities = {.photon_map = true},
+            .law = photon_mapping_law,
+            .options = all_photon_map_options({neighbours_option()}),
+            .make = [](RenderContext& context) {
+                return make_photon_mapping(context, std::make_unique<Nearest>());
+            }};
+}
+
+} // namespace argand

@@ -1,0 +1,222 @@
+#include "methods/photon_mapping.hpp"
+
+#include "base/error.hpp"
+#include "methods/bandwidth.hpp"
+#include "photon/photon_map.hpp"
+#include "plan/radius.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+// Units of the fixed-point flux sums in the mean flux of a photon.
+constexpr double units_per_photon = 1 << 18;
+
+/// How photons and samples are spread over passes. All passes count the same, so they are of one
+/// size: the noise of a small last one would be the noise of the image. Each pass has at least one
+/// sample, so the image has more samples than were asked for if there are more passes than that,
+/// or if samples do not divide evenly.
+struct PassSplit {
+    std::uint64_t passes = 1;
+    std::uint64_t photons = 1; ///< of the largest pass
+    std::uint32_t samples = 1; ///< of each pass, per pixel
+};
+
+PassSplit split(std::uint64_t photons, std::uint32_t samples, std::uint64_t most_photons) {
+    PassSplit s;
+    s.passes = std::max<std::uint64_t>((photons + most_photons - 1) / most_photons, 1);
+    s.photons = std::max<std::uint64_t>((photons + s.passes - 1) / s.passes, 1);
+    s.samples = static_cast<std::uint32_t>((samples + s.passes - 1) / s.passes);
+    return s;
+}
+
+void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, double unit) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        sums.emitted[channel] = words[channel];
+        sums.absorbed[channel] = words[3 + channel];
+        sums.escaped[channel] = words[6 + channel];
+        sums.cut[channel] = words[9 + channel];
+    }
+    sums.unit = unit;
+}
+
+class PhotonMapping : public Method {
+public:
+    PhotonMapping(RenderContext& context, std::unique_ptr<DensityEstimator> estimator)
+        : c_(context), estimator_(std::move(estimator)) {
+        // Without indirect light no photon is ever looked up.
+        const bool indirect = c_.settings.bounces > 0 && c_.on_device.record.light_count > 0;
+        emitted_ = indirect ? c_.settings.photons : 0;
+    }
+
+    void begin(Budget& budget) override {
+        first_ = trace_first(budget);
+        learnt_ = budget.once([&] {
+            const std::vector<glm::vec3> queries = sample_queries(
+                c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
+            return learn_bandwidth(c_.device, c_.on_device, photons_, *first_, queries, c_.settings,
+                                   estimator_->kind(), static_cast<double>(split_.passes));
+        });
+    }
+
+    std::uint64_t passes() const override { return split_.passes; }
+
+    bool pass(const Pass& pass, const OnPart& on_part) override;
+
+    bool has_numbers(std::uint64_t index) const override {
+        // Photons have numbers of 32 bits, beyond which they would be the same again.
+        const PhotonPass emission = emission_of({.index = index});
+        return emission.first + emission.count <= 0xffffffffu &&
+               has_sample_numbers(index, split_.samples);
+    }
+
+    void report(RenderStatistics& statistics) const override;
+
+private:
+    PhotonPass emission_of(const PassNumbers& numbers) const;
+    void make_workspace();
+    std::optional<StoredPhotons> trace(const PassNumbers& numbers);
+    StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
+    StoredPhotons trace_first(Budget& budget);
+    PhotonMap build_map(const PassNumbers& numbers);
+
+    RenderContext& c_;
+    std::unique_ptr<DensityEstimator> estimator_;
+    std::uint64_t emitted_ = 0; ///< photons that the settings ask for, all passes together
+    PassSplit split_;
+    double flux_unit_ = 0; ///< of the fixed-point sums
+    PhotonWorkspace photons_;
+    std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
+    Bandwidth learnt_;                   ///< for as many passes as the settings ask for
+    // Of the last pass.
+    StoredPhotons stored_;
+    Bandwidth bandwidth_;
+    std::optional<FootprintScale> footprint_scale_;
+    double mean_footprints_ = 0;
+    std::uint32_t leaf_size_ = 0;
+    // Of all passes.
+    std::uint64_t passes_done_ = 0, photons_emitted_ = 0, photons_stored_ = 0;
+    FluxSums flux_;
+};
+
+/// The photons of a pass. Their numbers go on where there is time for more passes than were asked
+/// for.
+PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
+    const std::uint64_t round = numbers.index / split_.passes;
+    const std::uint64_t in_round = numbers.index % split_.passes;
+    const std::uint64_t first = emitted_ * in_round / split_.passes;
+    return {.seed = numbers.seed,
+            .first = round * emitted_ + first,
+            .count = emitted_ * (in_round + 1) / split_.passes - first,
+            .bounces = c_.settings.bounces};
+}
+
+void PhotonMapping::make_workspace() {
+    photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
+    photons_ = make_photon_workspace(c_.device, split_.photons,
+                                     c_.on_device.plan.needs(Feature::differentials));
+    photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
+    photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    const auto& power = c_.on_device.power;
+    flux_unit_ = std::max({power.r, power.g, power.b}) / static_cast<double>(split_.photons) /
+                 units_per_photon;
+}
+
+std::optional<StoredPhotons> PhotonMapping::trace(const PassNumbers& numbers) {
+    return trace_photons(c_.device, c_.on_device, photons_, emission_of(numbers),
+                         static_cast<float>(flux_unit_));
+}
+
+StoredPhotons PhotonMapping::stored_or_fail(const std::optional<StoredPhotons>& stored) const {
+    if (!stored) {
+        fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer "
+             "bounces or photons",
+             c_.scene.name, c_.device.info().name);
+    }
+    return *stored;
+}
+
+/// Traces the photons of the first pass. Light that is hardly absorbed stores every photon very
+/// often; passes then have fewer photons, so that later ones, which store a few more or less, fit
+/// as well.
+StoredPhotons PhotonMapping::trace_first(Budget& budget) {
+    split_ = split(emitted_, c_.settings.samples,
+                   std::min(max_photons_per_pass(c_.device), c_.settings.photons_per_pass));
+    for (;;) {
+        make_workspace();
+        budget.start_pass();
+        const std::optional<StoredPhotons> stored = trace({.seed = c_.settings.seed});
+        const bool has_room = stored && stored->slots <= max_stored_photons(c_.device) / 10 * 9;
+        if (has_room || split_.photons == 1) {
+            return stored_or_fail(stored);
+        }
+        split_ = split(emitted_, c_.settings.samples, split_.photons / 2);
+    }
+}
+
+PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
+    footprint_scale_ =
+        estimator_->footprints(bandwidth_, c_.settings.footprints,
+                               static_cast<double>(split_.photons), c_.on_device.record);
+    const double radius = estimator_->typical_radius(bandwidth_);
+    PhotonMap map =
+        build_photon_map(c_.device, c_.on_device, photons_, stored_,
+                         {.area_samples = area_samples(c_.on_device.surface_area, radius),
+                          .seed = numbers.seed + static_cast<std::uint32_t>(numbers.index),
+                          .leaf_size = c_.settings.footprints.leaf_size,
+                          .wide_codes = c_.settings.wide_codes,
+                          .footprints = footprint_scale_});
+    mean_footprints_ = map.mean_footprints;
+    leaf_size_ = map.leaf_size;
+    return map;
+}
+
+bool PhotonMapping::pass(const Pass& pass, const OnPart& on_part) {
+    bandwidth_ =
+        for_passes(learnt_, static_cast<double>(split_.passes), pass.expected, c_.settings);
+    stored_ = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
+    first_.reset();
+    const PhotonMap map = build_map(pass.numbers);
+    c_.eye.sharing = estimator_->sharing(
+        bandwidth_, c_.settings.query_cell * estimator_->typical_radius(bandwidth_),
+        c_.settings.query_cell > 0 || c_.settings.final_gather);
+    const Gather gather = [&](const Count& asking, std::uint32_t part) {
+        estimator_->gather(c_, map, bandwidth_, query_target(c_.eye, part), asking);
+    };
+    RenderSettings settings = c_.settings;
+    settings.seed = pass.numbers.seed;
+    const auto first_sample = static_cast<std::uint32_t>(pass.numbers.index * split_.samples);
+    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, settings, first_sample,
+                                          split_.samples, gather, on_part);
+    ++passes_done_;
+    photons_emitted_ += emission_of(pass.numbers).count;
+    photons_stored_ += stored_.photons;
+    // Every pass emits all of the lights' power.
+    add_flux_sums(flux_, download<std::int64_t>(c_.device, photons_.flux_sums, 12),
+                  flux_unit_ / static_cast<double>(passes_done_));
+    return finished;
+}
+
+void PhotonMapping::report(RenderStatistics& statistics) const {
+    statistics.photons_emitted = photons_emitted_;
+    statistics.photons_stored = photons_stored_;
+    statistics.radius = bandwidth_.radii.indirect;
+    statistics.caustic_radius = bandwidth_.radii.caustic;
+    statistics.neighbours = bandwidth_.neighbours;
+    statistics.smoothing = bandwidth_.smoothing;
+    statistics.mean_footprints = mean_footprints_;
+    statistics.leaf_size = leaf_size_;
+    statistics.footprint_scale = footprint_scale_;
+    statistics.flux = flux_;
+}
+
+} // namespace
+
+std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
+                                            std::unique_ptr<DensityEstimator> estimator) {
+    return std::make_unique<PhotonMapping>(context, std::move(estimator));
+}
+
+} // namespace argand

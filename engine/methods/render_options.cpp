@@ -1,0 +1,168 @@
+#include "methods/render_options.hpp"
+
+#include "scene/material_record.hpp"
+#include "shared/follow.h"
+#include "shared/photon_records.h"
+
+#include <fmt/format.h>
+
+namespace argand {
+
+namespace {
+
+bool has_estimated_light(const Turn& turn) {
+    return turn.plan.needs(Feature::diffuse) || turn.plan.needs(Feature::glossy_estimates);
+}
+
+bool looks_up_photons(const Turn& turn) {
+    return has_estimated_light(turn) && turn.base.bounces > 0;
+}
+
+/// Whether the roughness up to which lobes are followed makes another choice of lobes.
+bool follows_other_lobes(const Turn& turn) {
+    const auto choice = [&](float roughness) {
+        std::vector<std::uint32_t> lobes;
+        for (const Material& material : turn.scene.materials) {
+            lobes.push_back(followed_lobes(material_record(material), roughness));
+        }
+        return lobes;
+    };
+    return choice(turn.turned.follow_roughness) != choice(turn.base.follow_roughness);
+}
+
+Option photons_option() {
+    Option option = member_option(
+        "photons", "Photons emitted", [](RenderSettings & s) -> auto& { return s.photons; }, 0,
+        4'000'000'000);
+    option.sweep = {.quick = {"10000", "50000", "1000000"},
+                    .full = {"10000", "30000", "100000", "300000", "1000000"},
+                    .matters = looks_up_photons};
+    return option;
+}
+
+Option radius_option() {
+    // The square of the radius and its inverse are finite.
+    Option option = member_option(
+        "radius",
+        "Radius of density estimation; with knn its maximum; with footprints it bounds their size "
+        "(default: from the scene)",
+        [](RenderSettings & s) -> auto& { return s.radius; }, 1e-18, 1e18);
+    option.fixes_bandwidth = true;
+    option.sweep = {.around = [](const RenderStatistics& learnt,
+                                 double factor) { return around_width(learnt.radius, factor); },
+                    .matters = finds_photons};
+    return option;
+}
+
+Option query_cell_option() {
+    Option option = member_option(
+        "query-cell",
+        "Edge of the cells in which eye paths share one estimate, in radii of estimation; 0: no "
+        "sharing",
+        [](RenderSettings & s) -> auto& { return s.query_cell; }, 0, 10);
+    option.sweep = {.full = {"0", "0.5"}, .matters = finds_photons};
+    return option;
+}
+
+Option leaf_size_option() {
+    Option option = member_option(
+        "leaf-size", "Maximum number of photons in a leaf of the photon map; 0: automatic",
+        [](RenderSettings & s) -> auto& { return s.footprints.leaf_size; }, 0, most_photons_a_leaf);
+    option.sweep = {.full = {"4", "16", "64"}, .matters = finds_photons};
+    return option;
+}
+
+Option wide_codes_option() {
+    Option option = member_option(
+        "wide-codes",
+        "Sort photons by 63-bit codes instead of 30-bit ones: for scenes much larger than the part "
+        "in view",
+        [](RenderSettings & s) -> auto& { return s.wide_codes; });
+    option.sweep = {.full = {"on"}, .matters = finds_photons};
+    return option;
+}
+
+Option photon_sampling_option() {
+    Option option{.name = "photon-sampling",
+                  .help = "Sequence of numbers that decides the paths of photons",
+                  .kind = OptionKind::choice,
+                  .choices = {"sobol", "random"},
+                  .report_key = "photon_sampling",
+                  .get =
+                      [](const RenderSettings& settings) {
+                          return settings.photon_sampling == Sampling::sobol ? "sobol" : "random";
+                      },
+                  .set =
+                      [](RenderSettings& settings, const std::string& text) {
+                          settings.photon_sampling =
+                              text == "random" ? Sampling::random : Sampling::sobol;
+                      },
+                  .sweep = {.full = {"random"}, .matters = finds_photons}};
+    return option;
+}
+
+Option final_gather_option() {
+    Option option = member_option(
+        "final-gather",
+        "Look up the photon map one bounce later, except for caustics: noise instead of blotches",
+        [](RenderSettings & s) -> auto& { return s.final_gather; });
+    option.sweep = {.full = {"on"}, .matters = finds_photons};
+    return option;
+}
+
+} // namespace
+
+bool finds_photons(const Turn& turn) { return looks_up_photons(turn) && turn.base.photons > 0; }
+
+std::string around_width(double learnt, double factor) {
+    return learnt > 0 ? fmt::format("{:.3g}", factor * learnt) : "";
+}
+
+Option samples_option() {
+    Option option = member_option(
+        "spp", "Eye paths per pixel; at least one for each pass of 262,144 photons",
+        [](RenderSettings & s) -> auto& { return s.samples; }, 1, 1 << 24);
+    option.sweep = {.quick = {"32"}, .full = {"2", "4", "16", "32"}};
+    return option;
+}
+
+Option bounces_option() {
+    Option option = member_option(
+        "bounces",
+        "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)",
+        [](RenderSettings & s) -> auto& { return s.bounces; }, 0, unlimited_bounces);
+    option.get = [](const RenderSettings& settings) {
+        return settings.bounces == unlimited_bounces ? "auto" : value_text(settings.bounces);
+    };
+    option.sweep = {.full = {"1", "4"}, .matters = has_estimated_light};
+    return option;
+}
+
+Option follow_roughness_option() {
+    Option option = member_option(
+        "follow-roughness",
+        "Glossy reflection up to this roughness is followed from the eye like a mirror; rougher "
+        "reflection is estimated",
+        [](RenderSettings & s) -> auto& { return s.follow_roughness; }, 0, 1);
+    option.sweep = {.full = {"0", "0.5"}, .matters = [](const Turn& turn) {
+                        const bool glossy =
+                            turn.plan.needs(Feature::ggx) || turn.plan.needs(Feature::phong);
+                        return glossy && looks_up_photons(turn) && follows_other_lobes(turn);
+                    }};
+    return option;
+}
+
+std::vector<Option> photon_map_options() {
+    return {photons_option(),    radius_option(),          query_cell_option(),  leaf_size_option(),
+            wide_codes_option(), photon_sampling_option(), final_gather_option()};
+}
+
+std::vector<Option> all_photon_map_options(std::vector<Option> own) {
+    std::vector<Option> options{samples_option(), bounces_option(), follow_roughness_option()};
+    for (const std::vector<Option>& more : {photon_map_options(), own}) {
+        options.insert(options.end(), more.begin(), more.end());
+    }
+    return options;
+}
+
+} // namespace argand

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "methods/option.hpp"
+
+namespace argand {
+
+/// The options that methods share. A method lists those that it uses.
+
+/// Of every method.
+Option samples_option();
+Option bounces_option();
+Option follow_roughness_option();
+
+/// Of methods with a photon map, in this order: photons, radius, query-cell, leaf-size, wide-codes,
+/// photon-sampling, final-gather.
+std::vector<Option> photon_map_options();
+
+/// `samples_option` and all that follow above, then a method's own.
+std::vector<Option> all_photon_map_options(std::vector<Option> own);
+
+/// Whether density estimation has photons to find: what most options of photon maps need to
+/// matter.
+bool finds_photons(const Turn& turn);
+
+/// The value at `factor` times a width that a method learnt, rounded so that it is easy to type;
+/// empty if it learnt none.
+std::string around_width(double learnt, double factor);
+
+} // namespace argand

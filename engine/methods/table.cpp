@@ -1,0 +1,64 @@
+#include "methods/table.hpp"
+
+#include "base/error.hpp"
+#include "methods/method.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/ranges.h>
+
+// The built-in methods, the default first. METHOD(name) needs a function `MethodInfo
+// name_method()`, which stands in the file of the method.
+#define ARGAND_METHODS(METHOD)                                                                     \
+    METHOD(footprints)                                                                             \
+    METHOD(photons)                                                                                \
+    METHOD(knn)                                                                                    \
+    METHOD(path)
+
+namespace argand {
+
+#define DECLARE(name) MethodInfo name##_method();
+ARGAND_METHODS(DECLARE)
+#undef DECLARE
+
+MethodTable builtin_methods() {
+#define CALL(name) name##_method(),
+    static const std::array methods{ARGAND_METHODS(CALL)};
+#undef CALL
+    return MethodTable(methods);
+}
+
+const MethodInfo* MethodTable::find(std::string_view name) const {
+    const MethodInfo* found =
+        std::find_if(begin(), end(), [&](const MethodInfo& method) { return method.name == name; });
+    return found == end() ? nullptr : found;
+}
+
+const MethodInfo& MethodTable::at(std::string_view name) const {
+    if (const MethodInfo* method = find(name)) {
+        return *method;
+    }
+    throw UsageError(
+        fmt::format("choosing method '{}': choose from {}", name, fmt::join(names(), ", ")));
+}
+
+std::vector<std::string> MethodTable::names() const {
+    std::vector<std::string> names;
+    for (const MethodInfo& method : *this) {
+        names.push_back(method.name);
+    }
+    return names;
+}
+
+const Option* MethodInfo::option(std::string_view option_name) const {
+    const auto found = std::find_if(options.begin(), options.end(), [&](const Option& option) {
+        return option.name == option_name;
+    });
+    return found == options.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> method_names() { return builtin_methods().names(); }
+
+std::string default_method() { return builtin_methods().begin()->name; }
+
+} // namespace argand
