@@ -21,35 +21,40 @@ constexpr std::array<std::string_view, 17> exact_stages{
     "triangle_boxes", "photon_codes", "photon_count",       "photon_leaves", "photon_order",
     "photon_tally",   "query_owners"};
 
-bool keep_going(double) { return true; }
+RenderResult render_with(Device& device, const Scene& scene, const RenderSettings& settings,
+                         MethodTable methods) {
+    return render(
+        device, scene, settings, [](double) { return true; }, nullptr, methods);
+}
 
 RenderResult render_timed(Device& device, const Scene& scene, const RenderSettings& settings,
-                          double& seconds) {
-    render(device, scene, settings, keep_going); // compiles the kernels
+                          MethodTable methods, double& seconds) {
+    render_with(device, scene, settings, methods); // compiles the kernels
     const Clock::time_point start = Clock::now();
-    RenderResult result = render(device, scene, settings, keep_going);
+    RenderResult result = render_with(device, scene, settings, methods);
     seconds = seconds_since(start);
     return result;
 }
 
 std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& scene,
-                                            const RenderSettings& settings, Pairing pairing) {
+                                            const RenderSettings& settings, MethodTable methods,
+                                            Pairing pairing) {
     PairedDevice pair(a, b, pairing);
-    render(pair, scene, settings, keep_going);
+    render_with(pair, scene, settings, methods);
     return pair.comparisons();
 }
 
 } // namespace
 
 BackendComparison compare_backends(Device& a, Device& b, const Scene& scene,
-                                   const RenderSettings& settings) {
+                                   const RenderSettings& settings, MethodTable methods) {
     BackendComparison result;
-    const RenderResult image_a = render_timed(a, scene, settings, result.seconds_a);
-    const RenderResult image_b = render_timed(b, scene, settings, result.seconds_b);
+    const RenderResult image_a = render_timed(a, scene, settings, methods, result.seconds_a);
+    const RenderResult image_b = render_timed(b, scene, settings, methods, result.seconds_b);
     result.rel_mse =
         compare(image_b.layers.front().image, image_a.layers.front().image, "B", "A").rel_mse;
-    result.isolated = compare_stages(a, b, scene, settings, Pairing::isolated);
-    result.end_to_end = compare_stages(a, b, scene, settings, Pairing::end_to_end);
+    result.isolated = compare_stages(a, b, scene, settings, methods, Pairing::isolated);
+    result.end_to_end = compare_stages(a, b, scene, settings, methods, Pairing::end_to_end);
     return result;
 }
 
@@ -78,12 +83,13 @@ bool passes(const BackendComparison& comparison) {
                        passes_end_to_end);
 }
 
-GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings) {
+GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings,
+                            MethodTable methods) {
     host::HostDevice other(host::describe());
     PairedDevice pair(device, other, Pairing::isolated);
     GoldenCapture capture;
     pair.record(capture);
-    render(pair, scene, settings, keep_going);
+    render_with(pair, scene, settings, methods);
     return capture;
 }
 
@@ -99,7 +105,8 @@ RenderSettings settings_of(const Golden& golden, const std::string& method) {
 }
 
 std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method,
-                                                 Device& device, const Scene& scene) {
+                                                 Device& device, const Scene& scene,
+                                                 MethodTable methods) {
     const auto capture = golden.captures.find(method);
     if (capture == golden.captures.end()) {
         fail("comparing with a golden capture of '{}': it has none of method {}", golden.scene,
@@ -112,7 +119,7 @@ std::vector<StageComparison> compare_with_golden(const Golden& golden, const std
     }
     GoldenDevice recorded(golden, capture->second);
     PairedDevice pair(recorded, device, Pairing::isolated);
-    render(pair, scene, settings_of(golden, method), keep_going);
+    render_with(pair, scene, settings_of(golden, method), methods);
     recorded.expect_end();
     return pair.comparisons();
 }

@@ -22,10 +22,12 @@ struct BackendComparison {
 
 /// Renders the scene on each device separately and then on both side by side.
 BackendComparison compare_backends(Device& a, Device& b, const Scene& scene,
-                                   const RenderSettings& settings);
+                                   const RenderSettings& settings,
+                                   MethodTable methods = builtin_methods());
 
 /// Records the results of every stage while a device renders the scene with these settings.
-GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings);
+GoldenCapture record_golden(Device& device, const Scene& scene, const RenderSettings& settings,
+                            MethodTable methods = builtin_methods());
 
 /// The settings with which a capture was recorded.
 RenderSettings settings_of(const Golden& golden, const std::string& method);
@@ -34,7 +36,8 @@ RenderSettings settings_of(const Golden& golden, const std::string& method);
 /// scene or this version of Argand runs other stages than were recorded, or the file has no capture
 /// of that method.
 std::vector<StageComparison> compare_with_golden(const Golden& golden, const std::string& method,
-                                                 Device& device, const Scene& scene);
+                                                 Device& device, const Scene& scene,
+                                                 MethodTable methods = builtin_methods());
 
 /// Whether all items of a stage must be equal to the bit. True for integers, and for floats with
 /// hardly any arithmetic.

@@ -50,6 +50,29 @@ std::vector<std::string> MethodTable::names() const {
     return names;
 }
 
+std::vector<const Option*> MethodTable::options() const {
+    std::vector<const Option*> options;
+    for (const MethodInfo& method : *this) {
+        for (const Option& option : method.options) {
+            const auto is_same = [&](const Option* known) { return known->name == option.name; };
+            if (std::none_of(options.begin(), options.end(), is_same)) {
+                options.push_back(&option);
+            }
+        }
+    }
+    return options;
+}
+
+std::vector<std::string> MethodTable::users_of(std::string_view option) const {
+    std::vector<std::string> users;
+    for (const MethodInfo& method : *this) {
+        if (method.option(option)) {
+            users.push_back(method.name);
+        }
+    }
+    return users;
+}
+
 const Option* MethodInfo::option(std::string_view option_name) const {
     const auto found = std::find_if(options.begin(), options.end(), [&](const Option& option) {
         return option.name == option_name;

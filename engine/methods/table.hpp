@@ -8,6 +8,7 @@
 namespace argand {
 
 struct MethodInfo;
+struct Option;
 
 /// The methods that a program offers, the default first. It views an array that must outlive it.
 class MethodTable {
@@ -24,6 +25,11 @@ public:
     /// Throws UsageError, which lists the names, if no method has this one.
     const MethodInfo& at(std::string_view name) const;
     std::vector<std::string> names() const;
+
+    /// Every option that some method lists, once, in the order in which the methods list them.
+    std::vector<const Option*> options() const;
+    /// Names of the methods that list the option.
+    std::vector<std::string> users_of(std::string_view option) const;
 
 private:
     const MethodInfo* first_;

@@ -19,11 +19,12 @@ namespace argand {
 namespace {
 
 struct BackendOptions {
+    MethodTable table;
     std::string scene;
     std::string a = "vulkan";
     std::string b = "cpu";
     std::string device_a, device_b;
-    std::vector<std::string> methods = method_names();
+    std::vector<std::string> methods;
     std::string size = "64x64";
     RenderSettings settings{.samples = 4, .photons = 20'000};
     std::string golden;
@@ -77,7 +78,7 @@ void compare_live(const BackendOptions& options, const Scene& scene) {
     for (const std::string& method : options.methods) {
         RenderSettings settings = options.settings;
         settings.method = method;
-        const BackendComparison found = compare_backends(*a, *b, scene, settings);
+        const BackendComparison found = compare_backends(*a, *b, scene, settings, options.table);
         same = same && passes(found);
         report["methods"][method] = {{"relMSE", found.rel_mse},
                                      {"render_seconds_a", found.seconds_a},
@@ -110,7 +111,7 @@ void compare_golden(const BackendOptions& options, const Scene& scene) {
     bool same = true;
     for (const auto& [method, capture] : golden.captures) {
         const std::vector<StageComparison> found =
-            compare_with_golden(golden, method, *device, scene);
+            compare_with_golden(golden, method, *device, scene, options.table);
         same = same && std::all_of(found.begin(), found.end(), passes_isolated);
         report["methods"][method] = {{"isolated", to_json(found, passes_isolated)}};
         if (!options.json) {
@@ -144,14 +145,14 @@ void record(const BackendOptions& options, const Scene& scene) {
     for (const std::string& method : options.methods) {
         RenderSettings settings = options.settings;
         settings.method = method;
-        golden.captures[method] = record_golden(*device, scene, settings);
+        golden.captures[method] = record_golden(*device, scene, settings, options.table);
     }
     write_golden(options.record, golden);
     fmt::print("{}: {} by {}\n", options.record, fmt::join(options.methods, ", "), golden.device);
 }
 
 void run(BackendOptions& options) {
-    check_methods(options.methods);
+    check_methods(options.methods, options.table);
     if ((options.b == "golden") != !options.golden.empty()) {
         throw UsageError(
             "comparing with a golden capture: --b golden and --golden FILE belong together");
@@ -175,10 +176,11 @@ void run(BackendOptions& options) {
 
 } // namespace
 
-void add_compare_backends_command(CLI::App& app) {
+void add_compare_backends_command(CLI::App& app, MethodTable methods) {
     CLI::App* command =
         app.add_subcommand("compare-backends", "Compare two backends stage by stage");
-    auto options = std::make_shared<BackendOptions>();
+    auto options = std::make_shared<BackendOptions>(
+        BackendOptions{.table = methods, .methods = methods.names()});
     const std::string backends = fmt::format("{}", fmt::join(backend_names(), ", "));
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("--a", options->a, backends)->capture_default_str();
@@ -197,7 +199,7 @@ void add_compare_backends_command(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--methods", options->methods,
-                     fmt::format("{}", fmt::join(method_names(), ",")))
+                     fmt::format("{}", fmt::join(methods.names(), ",")))
         ->delimiter(',');
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command->add_option("--spp", options->settings.samples, "Eye paths per pixel")

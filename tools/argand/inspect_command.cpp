@@ -1,7 +1,7 @@
 #include "commands.hpp"
 
 #include "base/json.hpp"
-#include "methods/render.hpp"
+#include "methods/method.hpp"
 #include "scene/gltf.hpp"
 #include "scene/summary.hpp"
 
@@ -17,14 +17,16 @@ namespace argand {
 namespace {
 
 struct InspectOptions {
+    MethodTable methods;
     std::string scene;
     bool json = false;
 };
 
-/// What `argand render` without options would make of the scene.
-nlohmann::ordered_json plan_json(const Scene& scene) {
-    const RenderSettings settings;
-    const Plan plan = plan_render(scene, settings);
+/// The plan of `argand render` without options.
+nlohmann::ordered_json plan_json(const Scene& scene, MethodTable methods) {
+    RenderSettings settings;
+    settings.method = methods.begin()->name;
+    const Plan plan = plan_render(scene, settings, methods);
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
     for (const auto& [feature, by] : plan.required) {
         const FeatureText text = text_of(feature);
@@ -65,7 +67,7 @@ std::string plan_text(const nlohmann::ordered_json& plan) {
 void inspect(const InspectOptions& options) {
     const Scene scene = load_gltf(options.scene);
     nlohmann::ordered_json summary = summary_json(scene);
-    const nlohmann::ordered_json plan = plan_json(scene);
+    const nlohmann::ordered_json plan = plan_json(scene, options.methods);
     if (options.json) {
         summary["plan"] = plan;
         fmt::print("{}", json_text(summary));
@@ -76,11 +78,11 @@ void inspect(const InspectOptions& options) {
 
 } // namespace
 
-void add_inspect_command(CLI::App& app) {
+void add_inspect_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand(
         "inspect",
-        "Say what is in a scene, what of it is not understood, and what would be done with it");
-    auto options = std::make_shared<InspectOptions>();
+        "Describe a scene: its contents, what Argand ignores, and what a render would require");
+    auto options = std::make_shared<InspectOptions>(InspectOptions{.methods = methods});
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_flag("--json", options->json, "Print JSON");
     command->footer("Example:\n  argand inspect assets/cornell_glass.glb");

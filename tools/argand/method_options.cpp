@@ -1,58 +1,101 @@
 #include "method_options.hpp"
 
 #include "base/error.hpp"
-#include "methods/render.hpp"
+#include "numbers.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <vector>
 
 namespace argand {
 
 namespace {
 
-struct MethodOption {
-    const char* name;
-    std::vector<std::string> methods; ///< that use it
-};
+const char* type_name(OptionKind kind) {
+    switch (kind) {
+    case OptionKind::integer:
+        return "UINT";
+    case OptionKind::number:
+        return "FLOAT";
+    default:
+        return "TEXT";
+    }
+}
 
-/// Options of `argand render` that not every method uses.
-std::vector<MethodOption> method_options() {
-    const std::vector<std::string> maps{"footprints", "photons", "knn"};
-    std::vector<MethodOption> options{{"--k", {"knn"}}};
-    for (const char* name : {"--photons", "--radius", "--query-cell", "--wide-codes",
-                             "--final-gather", "--photon-sampling", "--leaf-size"}) {
-        options.push_back({name, maps});
+CLI::Validator accepted_values(const Option& option) {
+    switch (option.kind) {
+    case OptionKind::integer:
+        return integer_between(static_cast<std::uint64_t>(option.low),
+                               static_cast<std::uint64_t>(option.high));
+    case OptionKind::number:
+        return number_between(option.low, option.high);
+    default:
+        return CLI::IsMember(option.choices);
     }
-    for (const char* name :
-         {"--smoothing", "--caustic-smoothing", "--max-footprint", "--flatness", "--uniform-kernel",
-          "--fixed-smoothing", "--paper-axes", "--paper-reemission"}) {
-        options.push_back({name, {"footprints"}});
+}
+
+void add_option(CLI::App& command, RenderSettings& settings, const Option& option) {
+    const std::string name = "--" + option.name;
+    if (option.kind == OptionKind::flag) {
+        command.add_flag_callback(
+            name, [&settings, set = option.set] { set(settings, "on"); }, option.help);
+        return;
     }
-    return options;
+    CLI::Option* added = command.add_option_function<std::string>(
+        name, [&settings, set = option.set](const std::string& value) { set(settings, value); },
+        option.help);
+    added->type_name(type_name(option.kind))->check(accepted_values(option));
+    if (const std::string initially = option.get(settings); initially != "auto") {
+        added->default_str(initially);
+    }
 }
 
 } // namespace
 
-void check_methods(const std::vector<std::string>& names) {
-    const std::vector<std::string> known = method_names();
-    for (const std::string& name : names) {
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            throw UsageError(
-                fmt::format("choosing method '{}': choose from {}", name, fmt::join(known, ", ")));
+void add_method_options(CLI::App& command, RenderSettings& settings, MethodTable methods) {
+    std::vector<const Option*> alone;
+    for (const Option* option : methods.options()) {
+        if (methods.users_of(option->name).size() > 1) {
+            add_option(command, settings, *option);
+        } else {
+            alone.push_back(option);
+        }
+    }
+    for (const MethodInfo& method : methods) {
+        CLI::App* group = nullptr;
+        for (const Option* option : alone) {
+            if (method.option(option->name)) {
+                group = group ? group : command.add_option_group("Method " + method.name);
+                add_option(*group, settings, *option);
+            }
         }
     }
 }
 
-void check_method_options(const CLI::App& command, const std::string& method) {
-    for (const MethodOption& option : method_options()) {
-        const bool used =
-            std::find(option.methods.begin(), option.methods.end(), method) != option.methods.end();
-        if (!used && command.get_option(option.name)->count() > 0) {
+std::string describe_methods(MethodTable methods) {
+    std::string text = "Methods:";
+    for (const MethodInfo& method : methods) {
+        text += fmt::format("\n  {:<12}{} ({})", method.name, method.summary, method.paper);
+    }
+    return text;
+}
+
+bool is_given(const CLI::App& command, const std::string& option) {
+    const CLI::Option* found = command.get_option_no_throw(option);
+    return found && found->count() > 0;
+}
+
+void check_methods(const std::vector<std::string>& names, MethodTable methods) {
+    for (const std::string& name : names) {
+        methods.at(name);
+    }
+}
+
+void check_method_options(const CLI::App& command, const MethodInfo& method, MethodTable methods) {
+    for (const Option* option : methods.options()) {
+        if (!method.option(option->name) && is_given(command, "--" + option->name)) {
             throw UsageError(fmt::format(
-                "reading {}: it has no effect with --method {}; it is for {}; leave it out",
-                option.name, method, fmt::join(option.methods, ", ")));
+                "reading --{}: it has no effect with --method {}; it is for {}; leave it out",
+                option->name, method.name, fmt::join(methods.users_of(option->name), ", ")));
         }
     }
 }

@@ -8,10 +8,8 @@
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
 #include "base/progress.hpp"
-#include "footprint_options.hpp"
 #include "image/files.hpp"
 #include "method_options.hpp"
-#include "methods/render.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
 #include "picture_size.hpp"
@@ -19,33 +17,30 @@
 #include "scene/gltf.hpp"
 
 #include <charconv>
-#include <map>
 #include <memory>
 
 namespace argand {
 
 namespace {
 
-const std::map<std::string, Sampling> samplings{{"sobol", Sampling::sobol},
-                                                {"random", Sampling::random}};
-
 struct RenderOptions {
+    MethodTable methods;
     std::string scene;
     std::vector<std::string> outputs;
-    std::string method = method_names().front();
     std::string size = "512x512";
     std::string camera;
     std::string backend = "auto";
     std::string device;
     std::string report;
-    double radius = 0;
     float exposure = 0;
     bool quiet = false;
     std::optional<double> target_error;
     RenderSettings settings;
+
+    const MethodInfo& method() const { return methods.at(settings.method); }
 };
 
-/// A render, and how it was aimed at an error or a time, if it was.
+/// A render, and what was chosen for it, if Argand chose.
 struct Rendered {
     RenderResult result;
     std::optional<AimedRender> aimed;
@@ -71,42 +66,48 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
          choice, scene.name, scene.cameras.size());
 }
 
-/// Whether the method or the numbers of photons and samples are for Argand to choose.
+/// Whether Argand is to choose the method or the numbers of photons and samples.
 bool is_aimed(const RenderOptions& options, const CLI::App& command) {
-    return options.target_error ||
-           (options.settings.budget && command.get_option("--method")->count() == 0);
+    return options.target_error || (options.settings.budget && !is_given(command, "--method"));
 }
 
-/// Options that decide what Argand is asked to choose.
+/// Throws UsageError on options that fix what Argand is asked to choose.
 void check_aimed(const RenderOptions& options, const CLI::App& command) {
-    if (command.get_option("--method")->count() == 0) {
-        // Those of one method have no effect with all others.
-        for (const std::string& method : method_names()) {
-            if (method != "path") {
-                check_method_options(command, method);
+    const MethodTable methods = options.methods;
+    if (is_given(command, "--method")) {
+        if (!options.method().abilities.resumable) {
+            throw UsageError(fmt::format("reading --target-error: method {} cannot add passes to "
+                                         "an image, so that it cannot render to an error",
+                                         options.method().name));
+        }
+    } else {
+        // An option that one of the candidates does not use has no effect if that one is chosen.
+        for (const MethodInfo& method : methods) {
+            if (method.trial != TrialOrder::never) {
+                check_method_options(command, method, methods);
             }
         }
     }
-    for (const char* name : {"--radius", "--k", "--fixed-smoothing"}) {
-        if (command.get_option(name)->count() > 0) {
-            throw UsageError(fmt::format("reading {}: with --target-error, or --budget without "
-                                         "--method, widths of estimation "
-                                         "follow from the aim; leave one of the two out",
-                                         name));
+    for (const Option* option : methods.options()) {
+        if (option->fixes_bandwidth && is_given(command, "--" + option->name)) {
+            throw UsageError(fmt::format("reading --{}: with --target-error, or --budget without "
+                                         "--method, Argand chooses the widths of estimation; "
+                                         "leave one of the two out",
+                                         option->name));
         }
     }
-    if (command.get_option("--photons")->count() > 0 && options.settings.photons == 0) {
+    if (is_given(command, "--photons") && options.settings.photons == 0) {
         throw UsageError("reading --photons 0: without photons the error of indirect light does "
                          "not fall; leave it out");
     }
 }
 
 void check(const RenderOptions& options, const CLI::App& command) {
-    check_methods({options.method});
+    check_methods({options.settings.method}, options.methods);
     if (is_aimed(options, command)) {
         check_aimed(options, command);
     }
-    check_method_options(command, options.method);
+    check_method_options(command, options.method(), options.methods);
     std::vector<std::string> files{options.scene};
     for (const std::string& output : options.outputs) {
         check_overwrites_none(output, files);
@@ -128,20 +129,21 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
     };
     if (!is_aimed(options, command)) {
         progress.emplace("rendering", options.quiet);
-        return {render(device, scene, options.settings, on_progress), std::nullopt};
+        return {render(device, scene, options.settings, on_progress, nullptr, options.methods),
+                std::nullopt};
     }
     // How long pilots take shows only as they run.
     progress.emplace("trying methods", options.quiet);
     bool picked_one = false;
     const Aim aim{.error = options.target_error, .seconds = options.settings.budget};
-    const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
-    const Chosen chosen{.method = is_given("--method"),
-                        .samples = is_given("--spp"),
-                        .photons = is_given("--photons")};
+    const Chosen chosen{.method = is_given(command, "--method"),
+                        .samples = is_given(command, "--spp"),
+                        .photons = is_given(command, "--photons")};
     const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
         return render(
             device, scene, settings,
-            [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass);
+            [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass,
+            options.methods);
     };
     AimedRender aimed =
         render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
@@ -158,7 +160,7 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
     return {std::move(result), std::move(aimed)};
 }
 
-/// What the user should know of how the render went. seconds: that it took.
+/// Notes for the user on a render that took so many `seconds`.
 std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& rendered,
                                   double seconds) {
     constexpr double clearly_more = 1.2;
@@ -169,11 +171,12 @@ std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& 
         notes.push_back(describe_outcome(*rendered.aimed));
     }
     if (settings.budget && seconds > clearly_more * *settings.budget) {
-        notes.push_back(fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of "
-                                    "--budget; passes are shorter "
-                                    "with a lower --spp{}",
-                                    seconds, passes, passes == 1 ? "" : "es", *settings.budget,
-                                    settings.method == "path" ? "" : " or fewer --photons"));
+        notes.push_back(
+            fmt::format("rendering took {:.3g} s in {} pass{}, not the {:.3g} s of "
+                        "--budget; passes are shorter "
+                        "with a lower --spp{}",
+                        seconds, passes, passes == 1 ? "" : "es", *settings.budget,
+                        options.method().option("photons") ? " or fewer --photons" : ""));
     }
     return notes;
 }
@@ -182,10 +185,6 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     const PictureSize size = parse_picture_size(options.size);
     options.settings.width = size.width;
     options.settings.height = size.height;
-    options.settings.method = options.method;
-    if (options.radius > 0) {
-        options.settings.radius = options.radius;
-    }
     if (options.outputs.empty()) {
         options.outputs.push_back(
             std::filesystem::path(options.scene).filename().replace_extension(".png").string());
@@ -231,14 +230,19 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     }
     times.write = seconds_since(writing);
     if (!options.report.empty()) {
-        nlohmann::ordered_json report =
-            render_report(*device, scene, options.settings, options.exposure, options.outputs,
-                          result.statistics, times);
+        nlohmann::ordered_json report = render_report({.device = *device,
+                                                       .scene = scene,
+                                                       .method = options.method(),
+                                                       .settings = options.settings,
+                                                       .exposure = options.exposure,
+                                                       .outputs = options.outputs,
+                                                       .statistics = result.statistics,
+                                                       .times = times});
         for (const std::string& note : notes) {
             report["notes"].push_back(note);
         }
         if (rendered.aimed) {
-            report["aim"] = aim_report(*rendered.aimed);
+            report["aim"] = aim_report(*rendered.aimed, options.methods);
         }
         write_json(options.report, report);
     }
@@ -261,10 +265,11 @@ void render_file(RenderOptions& options, const CLI::App& command) {
 
 } // namespace
 
-void add_render_command(CLI::App& app) {
+void add_render_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to PNG and OpenEXR");
-    auto options = std::make_shared<RenderOptions>();
+    auto options = std::make_shared<RenderOptions>(RenderOptions{.methods = methods});
     RenderSettings& settings = options->settings;
+    settings.method = methods.begin()->name;
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command
         ->add_option("-o,--output", options->outputs,
@@ -273,70 +278,22 @@ void add_render_command(CLI::App& app) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
-        ->add_option("--method", options->method,
-                     fmt::format("{}", fmt::join(method_names(), ", ")))
+        ->add_option("--method", settings.method,
+                     fmt::format("{}; see below", fmt::join(methods.names(), ", ")))
         ->capture_default_str();
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command
-        ->add_option("--spp", settings.samples,
-                     "Eye paths per pixel; at least one for each pass of 262,144 photons")
-        ->capture_default_str()
-        ->check(integer_between(1, 1 << 24));
-    command->add_option("--photons", settings.photons, "Photons emitted")
-        ->capture_default_str()
-        ->check(integer_between(0, 4'000'000'000));
-    command
         ->add_option("--budget", settings.budget,
-                     "Seconds to render in: with --method, so many photons and eye paths again and "
-                     "again, as often as there "
-                     "is time for; without, the method and the numbers that come nearest to the "
-                     "truth, told from pilots")
+                     "Seconds to render. With --method, passes of --photons and --spp are repeated "
+                     "as long as there is time; without it, Argand tries methods and picks the one "
+                     "with the least expected error")
         ->check(number_between(1e-3, 1e7));
     command
         ->add_option("--target-error", options->target_error,
-                     "relMSE to render to (see `argand compare`), with the method and the numbers "
-                     "that get there soonest; with "
-                     "--budget, as near as there is time for")
+                     "relMSE to reach (see `argand compare`): Argand tries methods and picks the "
+                     "fastest; with --budget it gets as near as the time allows")
         ->check(number_between(1e-9, 1e3));
-    command
-        ->add_option(
-            "--bounces", settings.bounces,
-            "Indirect bounces; 0: direct light only (default: unlimited, with Russian roulette)")
-        ->check(integer_between(0, 0xffff));
-    command
-        ->add_option("--radius", options->radius,
-                     "Radius of density estimation; of knn, the largest; of footprints, what "
-                     "bounds their size and the "
-                     "cells of sharing follow from (default: from the scene)")
-        ->check(number_between(1e-18, 1e18)); // its square and the inverse of that are finite
-    command
-        ->add_option("--k", settings.neighbours,
-                     "Photons that an estimate of method knn takes, the nearest (default: from the "
-                     "photons stored)")
-        ->check(integer_between(1, 0xffffffff));
-    command
-        ->add_option("--query-cell", settings.query_cell,
-                     "Edge of the cells in which eye paths share one estimate, in radii of "
-                     "estimation; 0: none shared")
-        ->capture_default_str()
-        ->check(number_between(0, 10));
-    command->add_flag(
-        "--wide-codes", settings.wide_codes,
-        "Morton codes of 63 bits for photons, not of 30: for scenes much larger than what is seen");
-    command
-        ->add_option(
-            "--follow-roughness", settings.follow_roughness,
-            "Glossy reflection up to this roughness is followed from the eye, rougher is estimated")
-        ->capture_default_str()
-        ->check(number_between(0, 1));
-    command->add_flag(
-        "--final-gather", settings.final_gather,
-        "Ask the photon map one bounce later, but for caustics: noise instead of blotches");
-    command
-        ->add_option("--photon-sampling", settings.photon_sampling,
-                     "Numbers that photons take: sobol, random")
-        ->transform(CLI::CheckedTransformer(samplings))
-        ->default_str("sobol");
+    add_method_options(*command, settings, methods);
     command->add_option("--seed", settings.seed, "Seed of the random numbers")
         ->capture_default_str()
         ->check(integer_between(0, 0xffffffff));
@@ -346,16 +303,15 @@ void add_render_command(CLI::App& app) {
         ->capture_default_str()
         ->check(number_between(-100, 100));
     command->add_flag("--everything", settings.everything,
-                      "Also compile and run what the scene does not require: the same picture, to "
-                      "measure what that"
-                      " costs");
+                      "Also compile and run code that the scene does not require: the picture is "
+                      "the same; measures the cost");
     add_backend_options(*command, options->backend, options->device);
     command->add_option("--json", options->report,
                         "Write a report of parameters, times and memory to this file");
-    add_footprint_options(*command, settings.footprints);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");
-    command->footer("Example:\n  argand render assets/cornell_glass.glb -o glass.png -o glass.exr "
-                    "--size 256x256");
+    command->footer(describe_methods(methods) +
+                    "\n\nExample:\n  argand render assets/cornell_glass.glb -o glass.png -o "
+                    "glass.exr --size 256x256");
     command->callback([options, command] { render_file(*options, *command); });
 }
 

@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include <charconv>
+
 namespace argand {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +24,7 @@ Json memory_json(const Device& device) {
     return {{"peak_bytes", device.memory().peak}, {"peak_bytes_by_name", by_name}};
 }
 
-/// Of the method `footprints`.
+/// What footprints are made by.
 Json footprints_json(const FootprintSettings& settings, const FootprintScale& scale) {
     return {{"kernel", settings.uniform_kernel ? "uniform" : "epanechnikov"},
             {"caustic_smoothing", settings.caustic_smoothing},
@@ -34,26 +36,34 @@ Json footprints_json(const FootprintSettings& settings, const FootprintScale& sc
             {"paper_reemission", settings.paper_reemission}};
 }
 
-} // namespace
-
-Json render_report(Device& device, const Scene& scene, const RenderSettings& settings,
-                   float exposure, const std::vector<std::string>& outputs,
-                   const RenderStatistics& statistics, const ReportTimes& times) {
-    const DeviceInfo& info = device.info();
-    const std::uint32_t unlimited_bounces = RenderSettings().bounces;
-    Json stages = Json::array();
-    for (const StageTime& stage : device.stage_times()) {
-        stages.push_back({{"name", stage.name},
-                          {"gpu_seconds", info.features.timestamps ? Json(stage.seconds) : Json()},
-                          {"runs", stage.runs}});
+Json option_json(const Option& option, const RenderSettings& settings) {
+    const std::string text = option.get(settings);
+    if (option.kind == OptionKind::flag) {
+        return text == "on";
     }
+    if (option.kind == OptionKind::choice) {
+        return text;
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+        return Json(); // the method chooses
+    }
+    return option.kind == OptionKind::integer ? Json(static_cast<std::uint64_t>(value))
+                                              : Json(value);
+}
+
+Json parameters_json(const RenderReport& render) {
+    const RenderSettings& settings = render.settings;
+    const RenderStatistics& statistics = render.statistics;
+    const bool is_limited = settings.bounces != unlimited_bounces;
     Json parameters = {
         {"method", settings.method},
         {"width", settings.width},
         {"height", settings.height},
         {"spp", settings.samples},
         {"photons", settings.photons},
-        {"bounces", settings.bounces == unlimited_bounces ? Json() : Json(settings.bounces)},
+        {"bounces", is_limited ? Json(settings.bounces) : Json()},
         {"radius", statistics.radius},
         {"caustic_radius", statistics.caustic_radius},
         {"k", statistics.neighbours},
@@ -67,55 +77,80 @@ Json render_report(Device& device, const Scene& scene, const RenderSettings& set
         {"final_gather", settings.final_gather},
         {"everything", settings.everything},
         {"seed", settings.seed},
-        {"camera", scene.cameras[settings.camera].name},
-        {"exposure", exposure}};
+        {"camera", render.scene.cameras[settings.camera].name},
+        {"exposure", render.exposure}};
     if (statistics.footprint_scale) {
         parameters.update(footprints_json(settings.footprints, *statistics.footprint_scale));
     }
-    return {{"scene", scene.name},
-            {"outputs", outputs},
-            {"parameters", parameters},
-            {"device",
-             {{"backend", info.backend},
-              {"name", info.name},
-              {"driver", info.driver},
-              {"api_version", info.api_version},
-              {"kind", to_string(info.kind)},
-              {"subgroup_size", info.subgroup_size}}},
-            {"wall_seconds",
-             {{"load", times.load},
-              {"open_device", times.open},
-              {"render", times.render},
-              {"write", times.write}}},
-            {"stages", stages},
-            {"samples_per_pixel", statistics.samples},
-            {"passes", statistics.passes},
-            {"photons_emitted", statistics.photons_emitted},
-            {"photons_stored", statistics.photons_stored},
-            {"mean_footprints", statistics.mean_footprints},
-            {"flux",
-             {{"emitted", flux_json(statistics.flux, statistics.flux.emitted)},
-              {"absorbed", flux_json(statistics.flux, statistics.flux.absorbed)},
-              {"escaped", flux_json(statistics.flux, statistics.flux.escaped)},
-              {"cut", flux_json(statistics.flux, statistics.flux.cut)}}},
-            {"non_finite_samples", statistics.non_finite},
-            {"interrupted", statistics.interrupted},
-            {"memory", memory_json(device)},
-            {"notes", scene.notes}};
+    // Options that are new with the method.
+    for (const Option& option : render.method.options) {
+        if (!parameters.contains(option.report_key)) {
+            parameters[option.report_key] = option_json(option, settings);
+        }
+    }
+    return parameters;
 }
 
-Json aim_report(const AimedRender& render) {
+} // namespace
+
+Json render_report(const RenderReport& render) {
+    const RenderStatistics& statistics = render.statistics;
+    const DeviceInfo& info = render.device.info();
+    Json stages = Json::array();
+    for (const StageTime& stage : render.device.stage_times()) {
+        stages.push_back({{"name", stage.name},
+                          {"gpu_seconds", info.features.timestamps ? Json(stage.seconds) : Json()},
+                          {"runs", stage.runs}});
+    }
+    Json report = {{"scene", render.scene.name},
+                   {"outputs", render.outputs},
+                   {"parameters", parameters_json(render)},
+                   {"device",
+                    {{"backend", info.backend},
+                     {"name", info.name},
+                     {"driver", info.driver},
+                     {"api_version", info.api_version},
+                     {"kind", to_string(info.kind)},
+                     {"subgroup_size", info.subgroup_size}}},
+                   {"wall_seconds",
+                    {{"load", render.times.load},
+                     {"open_device", render.times.open},
+                     {"render", render.times.render},
+                     {"write", render.times.write}}},
+                   {"stages", stages},
+                   {"samples_per_pixel", statistics.samples},
+                   {"passes", statistics.passes},
+                   {"photons_emitted", statistics.photons_emitted},
+                   {"photons_stored", statistics.photons_stored},
+                   {"mean_footprints", statistics.mean_footprints},
+                   {"flux",
+                    {{"emitted", flux_json(statistics.flux, statistics.flux.emitted)},
+                     {"absorbed", flux_json(statistics.flux, statistics.flux.absorbed)},
+                     {"escaped", flux_json(statistics.flux, statistics.flux.escaped)},
+                     {"cut", flux_json(statistics.flux, statistics.flux.cut)}}},
+                   {"non_finite_samples", statistics.non_finite},
+                   {"interrupted", statistics.interrupted},
+                   {"memory", memory_json(render.device)},
+                   {"notes", render.scene.notes}};
+    for (const auto& [name, count] : statistics.own) {
+        report[name] = count;
+    }
+    return report;
+}
+
+Json aim_report(const AimedRender& render, MethodTable methods) {
     const Aim& aim = render.aim;
     Json ways = Json::array();
     for (const Prospect& p : render.prospects) {
-        ways.push_back(
-            {{"method", p.settings.method},
-             {"spp_a_pass", p.settings.samples},
-             {"photons_a_pass", p.settings.method == "path" ? Json() : Json(p.settings.photons)},
-             {"passes", p.passes},
-             {"seconds", p.seconds},
-             {"relMSE", p.error},
-             {"squared_bias", bias_after(p.model, p.passes).value}});
+        ways.push_back({{"method", p.settings.method},
+                        {"spp_a_pass", p.settings.samples},
+                        {"photons_a_pass", methods.at(p.settings.method).abilities.photon_map
+                                               ? Json(p.settings.photons)
+                                               : Json()},
+                        {"passes", p.passes},
+                        {"seconds", p.seconds},
+                        {"relMSE", p.error},
+                        {"squared_bias", bias_after(p.model, p.passes).value}});
     }
     return {{"target_error", aim.error ? Json(*aim.error) : Json()},
             {"budget", aim.seconds ? Json(*aim.seconds) : Json()},

@@ -2,7 +2,7 @@
 
 #include "autotune/aim.hpp"
 #include "device/device.hpp"
-#include "methods/render.hpp"
+#include "methods/method.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -13,17 +13,25 @@ struct ReportTimes {
     double load = 0, open = 0, render = 0, write = 0;
 };
 
-/// The report of `argand render --json`: every parameter, the device, times, photons, memory. `spp`
-/// and `photons` are as asked for, `samples_per_pixel` and `photons_emitted` what all passes did;
-/// largest footprints are semi-axes of the last pass in the scene's units. Null: no limit of
-/// bounces, no time stamps to time a stage by.
-nlohmann::ordered_json render_report(Device& device, const Scene& scene,
-                                     const RenderSettings& settings, float exposure,
-                                     const std::vector<std::string>& outputs,
-                                     const RenderStatistics& statistics, const ReportTimes& times);
+/// A finished render.
+struct RenderReport {
+    Device& device;
+    const Scene& scene;
+    const MethodInfo& method;
+    const RenderSettings& settings;
+    float exposure = 0;
+    const std::vector<std::string>& outputs;
+    const RenderStatistics& statistics;
+    const ReportTimes& times;
+};
 
-/// What was asked for, what was picked, what was expected of it and of all else, and what came of
-/// it.
-nlohmann::ordered_json aim_report(const AimedRender& render);
+/// The report of `argand render --json`: every parameter, the device, times, photons, memory. `spp`
+/// and `photons` are as the user asked; `samples_per_pixel` and `photons_emitted` count all passes.
+/// Largest footprints are semi-axes of the last pass in scene units. Null means no limit of
+/// bounces, or a device without time stamps.
+nlohmann::ordered_json render_report(const RenderReport& render);
+
+/// What the user asked for, what was expected of each candidate, and the result.
+nlohmann::ordered_json aim_report(const AimedRender& render, MethodTable methods);
 
 } // namespace argand

@@ -22,6 +22,7 @@ namespace argand {
 namespace {
 
 struct TradeoffOptions {
+    MethodTable table;
     std::string scene;
     std::string folder;
     std::string size = "128x128";
@@ -30,11 +31,11 @@ struct TradeoffOptions {
     std::string reference, second_reference;
     bool quick = false;
     bool quiet = false;
-    TradeoffRequest request{.methods = method_names()};
+    TradeoffRequest request;
 };
 
 void check(const TradeoffOptions& options) {
-    check_methods(options.request.methods);
+    check_methods(options.request.methods, options.table);
     if (options.reference.empty() && !options.second_reference.empty()) {
         throw UsageError(
             "reading --reference-2: it goes with --reference, the other picture of the pair");
@@ -117,11 +118,12 @@ void run(TradeoffOptions& options) {
 
 } // namespace
 
-void add_tradeoff_command(CLI::App& app) {
+void add_tradeoff_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand(
         "tradeoff", "Measure error against time of every method and knob on a scene");
-    auto options = std::make_shared<TradeoffOptions>();
+    auto options = std::make_shared<TradeoffOptions>(TradeoffOptions{.table = methods});
     TradeoffRequest& request = options->request;
+    request.methods = methods.names();
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("-o,--output", options->folder,
                         "Folder for tradeoff.html, .png, .csv and .json, the reference and all "
@@ -147,7 +149,7 @@ void add_tradeoff_command(CLI::App& app) {
         ->check(number_between(0, 1e7));
     command
         ->add_option("--methods", request.methods,
-                     fmt::format("{}", fmt::join(method_names(), ",")))
+                     fmt::format("{}", fmt::join(methods.names(), ",")))
         ->delimiter(',');
     command->add_flag("--quick", options->quick, "Numbers of photons and samples, and widths only");
     add_backend_options(*command, options->backend, options->device);
