@@ -32,14 +32,18 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
                          const Chosen& chosen, const Aim& aim, const OnPick& on_pick) {
     const Clock::time_point start = Clock::now();
     const bool path_is_true = !is_blind_to_caustics(scene);
-    if (chosen.method && base.method == "path" && !path_is_true) {
-        fail("rendering '{}' to a relMSE: method 'path' does not find the light of lamps without "
+    const auto is_unbiased = [&](const RenderSettings& settings) {
+        return aim.methods.at(settings.method).abilities.unbiased;
+    };
+    const bool is_chosen = chosen.method && is_unbiased(base);
+    if (is_chosen && !path_is_true) {
+        fail("rendering '{}' to a relMSE: method '{}' does not find the light of lamps without "
              "extent by way of mirrors and "
              "glass, so its error does not fall; leave --method out",
-             scene.name);
+             scene.name, base.method);
     }
     // Final gather is not for path, so that it is not what was asked for.
-    Pilots pilots(render, aim, chosen.method ? base.method == "path" : !base.final_gather);
+    Pilots pilots(render, aim, chosen.method ? is_chosen : !base.final_gather);
     const Exploration exploration{
         .pilots = pilots, .base = base, .chosen = chosen, .aim = aim, .path_is_true = path_is_true};
     AimedRender aimed{.aim = aim};
@@ -61,7 +65,7 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
     const GoOn go_on = [&]() -> OnPass {
         const Prospect& best = pilots.prospects().front();
         // The others' bias is better known after more paths.
-        const bool asks_truth = pilots.truth() && best.settings.method != "path";
+        const bool asks_truth = pilots.truth() && !is_unbiased(best.settings);
         if (!best.goes_on || asks_truth || exploration.next()) {
             return nullptr;
         }
@@ -89,7 +93,7 @@ AimedRender render_aimed(const RenderPasses& render, const Scene& scene, const R
     }
     if (!course && !aimed.result.statistics.interrupted) {
         const Prospect& best = pilots.prospects().front();
-        const bool asks_truth = best.settings.method != "path" && best.seconds <= most_seconds;
+        const bool asks_truth = !is_unbiased(best.settings) && best.seconds <= most_seconds;
         if (asks_truth && !pilots.improve_truth(share_of_truth * best.seconds)) {
             aimed.result.statistics.interrupted = true;
         } else {

@@ -12,9 +12,10 @@ std::string counted(double count, const char* one, const char* many) {
     return fmt::format("{:L} {}", std::round(count), count < 1.5 ? one : many);
 }
 
-std::string numbers_of(const RenderSettings& settings) {
-    const std::string photons =
-        settings.method == "path" ? "" : fmt::format("{} photons and ", settings.photons);
+std::string numbers_of(const RenderSettings& settings, MethodTable methods) {
+    const std::string photons = methods.at(settings.method).abilities.photon_map
+                                    ? fmt::format("{} photons and ", settings.photons)
+                                    : "";
     return fmt::format("{}{} a pixel in a pass", photons,
                        counted(settings.samples, "sample", "samples"));
 }
@@ -28,10 +29,10 @@ std::string error_of(const Prospect& prospect) {
 
 std::string describe_pick(const AimedRender& render) {
     const Prospect& best = render.prospects.front();
-    std::string text = fmt::format("{}, {}: {} after {}, in {:.2g} s{}, expected",
-                                   best.settings.method, numbers_of(best.settings), error_of(best),
-                                   counted(best.passes, "pass", "passes"), best.seconds,
-                                   best.goes_on ? " more" : "");
+    std::string text = fmt::format(
+        "{}, {}: {} after {}, in {:.2g} s{}, expected", best.settings.method,
+        numbers_of(best.settings, render.aim.methods), error_of(best),
+        counted(best.passes, "pass", "passes"), best.seconds, best.goes_on ? " more" : "");
     std::map<std::string, int> counts;
     for (const Prospect& prospect : render.prospects) {
         ++counts[prospect.settings.method];
@@ -40,7 +41,8 @@ std::string describe_pick(const AimedRender& render) {
         const Prospect& other = render.prospects[i];
         text += i == 1 ? "; not " : ", ";
         text += counts[other.settings.method] > 1
-                    ? fmt::format("{}, {}", other.settings.method, numbers_of(other.settings))
+                    ? fmt::format("{}, {}", other.settings.method,
+                                  numbers_of(other.settings, render.aim.methods))
                     : other.settings.method;
         const bool by_time = reaches(best, render.aim) && reaches(other, render.aim);
         text += by_time ? fmt::format(" ({:.2g} s)", other.seconds)

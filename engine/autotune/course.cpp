@@ -78,7 +78,9 @@ double Course::passes_in_time(std::uint64_t done) const {
     return static_cast<double>(begun_) + own;
 }
 
-bool Course::tells_bias() const { return prospect_.settings.method != "path" && truth_; }
+const MethodInfo& Course::method() const { return aim_.methods.at(prospect_.settings.method); }
+
+bool Course::tells_bias() const { return !method().abilities.unbiased && truth_; }
 
 /// Noise of estimated light tells what bias is usual, where the pilot was too short.
 bool Course::asks_estimated() const { return tells_bias() || !std::isfinite(model_.fixed); }
@@ -104,9 +106,12 @@ void Course::measure() {
         // What the pilot was too short to tell.
         const PilotPictures pictures{means, estimated_.means()};
         const double wide = model_.wide;
-        model_ = model_of(
-            {.settings = prospect_.settings, .passes = 2, .wide = pictures, .narrow = pictures},
-            nullptr, guess);
+        model_ = model_of({.method = &method(),
+                           .settings = prospect_.settings,
+                           .passes = 2,
+                           .wide = pictures,
+                           .narrow = pictures},
+                          nullptr, guess);
         model_.wide = wide;
     }
     measured_ = {.passes = passes,
@@ -124,7 +129,8 @@ double Course::to_error() const {
     ErrorModel model = model_;
     model.fixed *= off;
     model.density *= off;
-    model.bias = scaled(measured_->bias, 1 / bias_share(measured_->passes, model_.wide));
+    model.bias =
+        scaled(measured_->bias, 1 / bias_share(model_.law, measured_->passes, model_.wide));
     return passes_for(model, *aim_.error);
 }
 

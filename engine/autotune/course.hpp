@@ -42,6 +42,7 @@ private:
     void measure();
     bool has_time(std::uint64_t done);
     double passes_in_time(std::uint64_t done) const;
+    const MethodInfo& method() const;
     bool tells_bias() const;
     bool asks_estimated() const;
     double to_error() const;

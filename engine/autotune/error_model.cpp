@@ -8,17 +8,18 @@ namespace argand {
 
 double noise_after(const ErrorModel& model, double passes) {
     const double wide = std::min(model.wide, passes) / passes;
-    return (model.fixed + model.density * (wide + (1 - wide) * std::cbrt(passes))) / passes;
+    const double growth = std::pow(passes, model.law.noise_growth);
+    return (model.fixed + model.density * (wide + (1 - wide) * growth)) / passes;
 }
 
-double bias_share(double passes, double wide) {
+double bias_share(const ErrorLaw& law, double passes, double wide) {
     const double share = std::min(wide, passes) / passes;
-    const double amplitude = share + (1 - share) / std::cbrt(std::sqrt(passes));
+    const double amplitude = share + (1 - share) * std::pow(passes, -0.5 * law.bias_fall);
     return amplitude * amplitude;
 }
 
 Estimate bias_after(const ErrorModel& model, double passes) {
-    return scaled(model.bias, bias_share(passes, model.wide));
+    return scaled(model.bias, bias_share(model.law, passes, model.wide));
 }
 
 double error_after(const ErrorModel& model, double passes) {
@@ -42,11 +43,12 @@ double passes_for(const ErrorModel& model, double error) {
     return high;
 }
 
-ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes) {
-    const double growth = std::cbrt(passes) - 1;
+ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes,
+                     const ErrorLaw& law) {
+    const double growth = std::pow(passes, law.noise_growth) - 1;
     const double density =
         std::clamp((variance_at_passes - variance_at_one) / growth, 0.0, variance_at_one);
-    return {.fixed = std::max(variance_at_one - density, 0.0), .density = density};
+    return {.fixed = std::max(variance_at_one - density, 0.0), .density = density, .law = law};
 }
 
 } // namespace argand

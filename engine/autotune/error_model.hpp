@@ -1,6 +1,7 @@
 #pragma once
 
 #include "autotune/estimate.hpp"
+#include "methods/method.hpp"
 
 namespace argand {
 
@@ -18,12 +19,13 @@ struct ErrorModel {
     double estimated =
         0; ///< part of the variance of one pass, at the widths for one, that is in estimated light
     double wide = 0; ///< passes that were made before it was known how many there will be
+    ErrorLaw law = photon_mapping_law;
 };
 
 double noise_after(const ErrorModel& model, double passes);
 /// Squared bias after so many passes, the first `wide` at the widths for one, over that at the
 /// widths for one.
-double bias_share(double passes, double wide = 0);
+double bias_share(const ErrorLaw& law, double passes, double wide = 0);
 Estimate bias_after(const ErrorModel& model, double passes);
 double error_after(const ErrorModel& model, double passes);
 
@@ -33,6 +35,7 @@ double passes_for(const ErrorModel& model, double error);
 
 /// The model, but for bias, from the variance of one pass at the widths for one pass and for
 /// `passes` > 1. Without negative terms: estimates may be.
-ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes);
+ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes,
+                     const ErrorLaw& law = photon_mapping_law);
 
 } // namespace argand

@@ -19,7 +19,6 @@ constexpr std::uint32_t most_few_samples = 16;
 constexpr std::uint64_t times_photons = 4;
 constexpr double times_samples = 16;
 constexpr double pilots_in_all = 2;
-constexpr const char* first_method = "photons";
 
 std::uint32_t few_samples(const RenderSettings& base) {
     const std::uint64_t pixels =
@@ -53,23 +52,26 @@ std::uint32_t times_more_samples(const Prospect& prospect) {
 
 std::optional<RenderSettings> Exploration::next() const {
     if (pilots.prospects().empty()) {
-        return settings_of_pass(base, chosen, chosen.method ? base.method : first_method);
+        return settings_of_pass(base, chosen, first_method());
     }
     // Paths tell the bias of the others as well, but for what they cannot find.
-    if (path_is_true && is_worth("path")) {
-        return of_method("path");
+    const MethodInfo* unbiased = aim.methods.unbiased();
+    if (path_is_true && unbiased && is_worth(*unbiased)) {
+        return of_method(unbiased->name);
     }
     const Prospect& best = pilots.prospects().front();
-    const bool is_refined =
-        pilots.count(best.settings.method) > 1 || best.settings.method == "path";
+    const bool is_refined = pilots.count(best.settings.method) > 1 ||
+                            aim.methods.at(best.settings.method).abilities.unbiased;
     const std::uint32_t times = chosen.samples || is_refined ? 1 : times_more_samples(best);
     RenderSettings more = best.settings;
     if (times > 1) {
         more.samples *= times;
         return more;
     }
-    if (!chosen.method && is_worth("footprints")) {
-        return of_method("footprints");
+    for (const MethodInfo& method : aim.methods) {
+        if (!chosen.method && method.trial == TrialOrder::later && is_worth(method)) {
+            return of_method(method.name);
+        }
     }
     const bool photons_rule = best.model.fixed + best.model.density < 2 * best.model.estimated;
     if (!is_refined && photons_rule && !chosen.photons && has_time(share_of_refinement)) {
@@ -85,8 +87,16 @@ RenderSettings Exploration::of_method(const std::string& method) const {
     return other;
 }
 
-bool Exploration::is_worth(const std::string& method) const {
-    return pilots.count(method) == 0 && has_time(share_of_pilots);
+std::string Exploration::first_method() const {
+    const auto first =
+        std::find_if(aim.methods.begin(), aim.methods.end(),
+                     [](const MethodInfo& method) { return method.trial == TrialOrder::first; });
+    return chosen.method || first == aim.methods.end() ? base.method : first->name;
+}
+
+bool Exploration::is_worth(const MethodInfo& method) const {
+    return method.abilities.resumable && pilots.count(method.name) == 0 &&
+           has_time(share_of_pilots);
 }
 
 double Exploration::most_seconds() const {

@@ -28,7 +28,8 @@ struct Exploration {
 
 private:
     RenderSettings of_method(const std::string& method) const;
-    bool is_worth(const std::string& method) const;
+    std::string first_method() const;
+    bool is_worth(const MethodInfo& method) const;
     bool has_time(double share) const;
 };
 

@@ -102,17 +102,19 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
     if (pilot.passes < 2) {
         return {.fixed = std::numeric_limits<double>::infinity()};
     }
+    const ErrorLaw& law = pilot.method->law;
     const double wide = variance_of(pilot.wide.whole, guess);
-    if (pilot.settings.method == "path") {
+    if (pilot.method->abilities.unbiased) {
         return {.fixed = 0.5 * (wide + variance_of(pilot.narrow.whole, guess)),
                 .density = 0,
-                .bias = {0, 0}};
+                .bias = {0, 0},
+                .law = law};
     }
     const double estimated = variance_of(pilot.wide.estimated, guess);
     const double growth = variance_of(pilot.narrow.estimated, guess) - estimated;
-    ErrorModel model = fit_noise(wide, wide + growth, narrow_passes);
+    ErrorModel model = fit_noise(wide, wide + growth, narrow_passes, law);
     // The bias at a narrower width is a share of that at a wide one, and so is their difference.
-    const double narrow_share = bias_share(narrow_passes), lost = 1 - std::sqrt(narrow_share);
+    const double narrow_share = bias_share(law, narrow_passes), lost = 1 - std::sqrt(narrow_share);
     std::vector<Estimate> estimates;
     const auto add = [&](const Pair& a, const Pair& b, double scale) {
         for (const Estimate& estimate : squared_difference(a, b, guess)) {
@@ -135,8 +137,8 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
 
 Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth,
                  const Image& guess) {
-    return posterior(usual_bias * model.estimated * bias_share(passes, model.wide), spread_of_bias,
-                     squared_difference(estimated, truth, guess));
+    return posterior(usual_bias * model.estimated * bias_share(model.law, passes, model.wide),
+                     spread_of_bias, squared_difference(estimated, truth, guess));
 }
 
 } // namespace argand

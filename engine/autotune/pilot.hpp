@@ -26,7 +26,8 @@ inline constexpr std::uint64_t wide_passes = pilot_passes / 2;
 /// of them are at the widths of estimation for one pass, half at those for `narrow_passes`; all are
 /// alike if the method has no such widths.
 struct Pilot {
-    RenderSettings settings; ///< of one pass
+    const MethodInfo* method; ///< of the settings
+    RenderSettings settings;  ///< of one pass
     std::uint64_t passes =
         0; ///< fewer than all: it took too long; 2: no narrow ones; 1: one picture is all there is
     PilotPictures wide, narrow;
@@ -41,8 +42,9 @@ using IsEnough = std::function<bool(const Pilot& so_far)>;
 /// Decides on a pilot's passes, and takes their pictures.
 class PilotCourse {
 public:
-    PilotCourse(const RenderSettings& settings, IsEnough is_enough)
-        : is_enough_(std::move(is_enough)), pilot_{.settings = settings}, start_(Clock::now()) {}
+    PilotCourse(const MethodInfo& method, const RenderSettings& settings, IsEnough is_enough)
+        : is_enough_(std::move(is_enough)), pilot_{.method = &method, .settings = settings},
+          start_(Clock::now()) {}
 
     /// Nothing once the pilot is whole, or enough.
     std::optional<PassPlan> operator()(const PictureSoFar& so_far);

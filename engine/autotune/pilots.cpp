@@ -13,7 +13,7 @@ namespace {
 // To the error, up to which narrow passes of the pilot would be too much of the work.
 constexpr double few_passes = 24;
 
-bool is_path(const Pilot& pilot) { return pilot.settings.method == "path"; }
+bool is_path(const Pilot& pilot) { return pilot.method->abilities.unbiased; }
 
 bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
     return pilot.passes > 1 && aim.error &&
@@ -24,7 +24,7 @@ bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
 
 RenderResult Pilots::run(const RenderSettings& settings, double seconds, const GoOn& go_on) {
     std::optional<PilotCourse> pilot; // until it is complete
-    pilot.emplace(settings, [&](const Pilot& so_far) {
+    pilot.emplace(aim_.methods.at(settings.method), settings, [&](const Pilot& so_far) {
         return so_far.seconds > seconds || takes_few_passes(so_far, aim_);
     });
     OnPass next;
@@ -63,7 +63,7 @@ bool Pilots::improve_truth(double seconds) {
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
-    PilotCourse course(more, [](const Pilot&) { return false; });
+    PilotCourse course(*path->method, more, [](const Pilot&) { return false; });
     if (render_(more, std::ref(course)).statistics.interrupted) {
         return false;
     }

@@ -9,8 +9,9 @@ namespace argand {
 /// What a user asks for instead of a method and numbers of photons and samples: at least one of the
 /// two.
 struct Aim {
-    std::optional<double> error;   ///< relMSE
-    std::optional<double> seconds; ///< of rendering, pilots included
+    std::optional<double> error;             ///< relMSE
+    std::optional<double> seconds;           ///< of rendering, pilots included
+    MethodTable methods = builtin_methods(); ///< to choose from
 };
 
 /// What is expected of one way to render the picture.

@@ -32,6 +32,12 @@ struct ErrorLaw {
     double bias_fall = 0;
 };
 
+/// The law of all methods whose bandwidths shrink as n^(-1/6) (photon/radius.hpp), and areas as
+/// n^(-1/3). The noise of density estimation grows with one over the area. Squared bias falls as
+/// n^(-2/3) on smooth surfaces, where it goes with the area, and as n^(-1/6) along edges, in bands
+/// as wide as the bandwidth: together about as n^(-1/3), as measured (docs/results/targets.md).
+inline constexpr ErrorLaw photon_mapping_law{.noise_growth = 1.0 / 3, .bias_fall = 1.0 / 3};
+
 /// The place of a method in a search for the fastest one to an error (autotune/exploration.hpp).
 /// Unbiased methods are tried anyway: they tell the bias of the others.
 enum class TrialOrder : std::uint8_t { never, first, later };

@@ -12,11 +12,4 @@ namespace argand {
 std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
                                             std::unique_ptr<DensityEstimator> estimator);
 
-/// Bandwidths of all photon-mapping methods shrink as n^(-1/6) with the number of passes n
-/// (photon/radius.hpp), so areas shrink as n^(-1/3). The noise of density estimation grows with one
-/// over the area. Squared bias falls as n^(-2/3) on smooth surfaces, where it goes with the area,
-/// and as n^(-1/6) along edges, in bands as wide as the bandwidth; together about as n^(-1/3), as
-/// measured (docs/results/targets.md).
-inline constexpr ErrorLaw photon_mapping_law{.noise_growth = 1.0 / 3, .bias_fall = 1.0 / 3};
-
 } // namespace argand

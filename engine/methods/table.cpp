@@ -42,6 +42,12 @@ const MethodInfo& MethodTable::at(std::string_view name) const {
         fmt::format("choosing method '{}': choose from {}", name, fmt::join(names(), ", ")));
 }
 
+const MethodInfo* MethodTable::unbiased() const {
+    const MethodInfo* found = std::find_if(
+        begin(), end(), [](const MethodInfo& method) { return method.abilities.unbiased; });
+    return found == end() ? nullptr : found;
+}
+
 std::vector<std::string> MethodTable::names() const {
     std::vector<std::string> names;
     for (const MethodInfo& method : *this) {

@@ -25,6 +25,8 @@ public:
     /// Throws UsageError, which lists the names, if no method has this one.
     const MethodInfo& at(std::string_view name) const;
     std::vector<std::string> names() const;
+    /// The first unbiased method, which makes references. Null if there is none.
+    const MethodInfo* unbiased() const;
 
     /// Every option that some method lists, once, in the order in which the methods list them.
     std::vector<const Option*> options() const;

@@ -17,8 +17,19 @@ constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, fron
 constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
                                                0xd55e00, 0x56b4e9, 0xf0e442};
 
-std::uint32_t color_of(const std::string& method) {
-    const std::vector<std::string> methods = method_names();
+/// Argand's own methods, which keep their colours, then any others of the results.
+std::vector<std::string> methods_of(const Results& results) {
+    std::vector<std::string> methods = method_names();
+    for (const Measurement& m : results.measurements) {
+        if (std::find(methods.begin(), methods.end(), m.method) == methods.end()) {
+            methods.push_back(m.method);
+        }
+    }
+    return methods;
+}
+
+std::uint32_t color_of(const Results& results, const std::string& method) {
+    const std::vector<std::string> methods = methods_of(results);
     const auto place = std::find(methods.begin(), methods.end(), method) - methods.begin();
     return palette[static_cast<std::size_t>(place) % palette.size()];
 }
@@ -141,7 +152,7 @@ void add_bars(Plot& plot, const Results& results, const Frame& frame) {
         const double error = counted_error(results, m);
         const Place high = frame.at(m.wall_seconds, error + deviation);
         const Place low = frame.at(m.wall_seconds, std::max(error - deviation, frame.y.low));
-        const std::uint32_t color = color_of(m.method);
+        const std::uint32_t color = color_of(results, m.method);
         plot.lines.push_back({low, high, color, 1});
         for (const Place& end : {low, high}) {
             plot.lines.push_back({{end.x - cap, end.y}, {end.x + cap, end.y}, color, 1});
@@ -152,10 +163,10 @@ void add_bars(Plot& plot, const Results& results, const Frame& frame) {
 void add_legend(Plot& plot, const Results& results) {
     double y = top + 10;
     const double x = plot.width - right + 24;
-    for (const std::string& method : method_names()) {
+    for (const std::string& method : methods_of(results)) {
         if (std::any_of(results.measurements.begin(), results.measurements.end(),
                         [&](const Measurement& m) { return m.method == method; })) {
-            plot.points.push_back({{x, y}, color_of(method), true, method});
+            plot.points.push_back({{x, y}, color_of(results, method), true, method});
             plot.labels.push_back({{x + 14, y}, PlotLabel::Align::left, method, black});
             y += 24;
         }
@@ -246,7 +257,7 @@ Plot lay_out(const Results& results) {
         const Measurement& m = results.measurements[i];
         if (can_be_drawn(m)) {
             plot.points.push_back(
-                {frame.at(m.wall_seconds, counted_error(results, m)), color_of(m.method),
+                {frame.at(m.wall_seconds, counted_error(results, m)), color_of(results, m.method),
                  std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
         }
     }

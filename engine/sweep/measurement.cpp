@@ -1,7 +1,6 @@
 #include "sweep/measurement.hpp"
 
 #include "image/metrics.hpp"
-#include "sweep/parameters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,11 +66,11 @@ Measurement measure(const Setting& setting, const Trials& trials, const Referenc
         similarities.push_back(ssim(trial.picture, mean_reference));
         pictures.push_back(trial.picture);
     }
-    Measurement m{.key = parameter_key(setting.render),
+    Measurement m{.key = setting.key,
                   .method = setting.render.method,
                   .knob = setting.knob,
                   .value = setting.value,
-                  .options = command_options(setting.render),
+                  .options = setting.options,
                   .seeds = pictures.size(),
                   .wall_seconds = median(walls),
                   .peak_bytes = trials.peak_bytes,

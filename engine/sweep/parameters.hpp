@@ -8,17 +8,19 @@
 
 namespace argand {
 
-/// An option of `argand render` and its value; flags are "on" or "off".
+/// An option of `argand render` and its value; flags are "on" or "off", "auto" is a value that the
+/// method chooses.
 using Parameter = std::pair<std::string, std::string>;
 
-/// All that decides the picture of a method but its seed, its size and its camera; "auto" is what
-/// the scene decides.
-std::vector<Parameter> parameters(const RenderSettings& settings);
+/// The method and all its options: what decides the picture besides its seed, size and camera.
+std::vector<Parameter> parameters(const RenderSettings& settings,
+                                  MethodTable methods = builtin_methods());
 
-/// The same as one text, by which a setting is known.
-std::string parameter_key(const RenderSettings& settings);
+/// The parameters as one text, which identifies the settings.
+std::string parameter_key(const RenderSettings& settings, MethodTable methods = builtin_methods());
 
-/// The options of `argand render` that ask for these settings: what is not the default.
-std::string command_options(const RenderSettings& settings);
+/// The options of `argand render` that ask for these settings, without those at their defaults.
+std::string command_options(const RenderSettings& settings,
+                            MethodTable methods = builtin_methods());
 
 } // namespace argand

@@ -6,6 +6,7 @@
 #include "image/files.hpp"
 #include "image/mean.hpp"
 #include "image/metrics.hpp"
+#include "methods/method.hpp"
 
 #include <algorithm>
 #include <array>
@@ -58,11 +59,16 @@ double least_error_of(const Reference& reference) {
 }
 
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
-                                          std::span<const Image> pilots, double seconds) {
+                                          std::span<const Image> pilots, double seconds,
+                                          MethodTable methods) {
+    const MethodInfo* unbiased = methods.unbiased();
+    if (!unbiased) {
+        fail("rendering a reference: no method is unbiased; give a picture with --reference");
+    }
     const Clock::time_point start = Clock::now();
     Reference reference;
     RenderSettings settings = base;
-    settings.method = "path";
+    settings.method = unbiased->name;
     double samples = first_samples, done = 0;
     for (std::uint32_t round = 0;; ++round) {
         settings.samples = static_cast<std::uint32_t>(samples);

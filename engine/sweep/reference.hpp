@@ -38,11 +38,12 @@ double least_error_of(const Reference& reference);
 /// measured.
 inline constexpr double reference_share = 0.1;
 
-/// Renders a pair by the method `path`, with more and more samples until its own error is
+/// Renders a pair by the first unbiased method, with more and more samples until its own error is
 /// `reference_share` of the least relMSE of `pilots`, the best pictures that are going to be
 /// measured, or `seconds` are over. Nothing if it was interrupted.
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
-                                          std::span<const Image> pilots, double seconds);
+                                          std::span<const Image> pilots, double seconds,
+                                          MethodTable methods = builtin_methods());
 
 /// Reads a reference from picture files: one, or a pair of independent noise. Error if it is not of
 /// the size, or the sizes differ.

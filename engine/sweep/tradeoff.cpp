@@ -7,6 +7,7 @@
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "image/exr.hpp"
+#include "methods/method.hpp"
 #include "sweep/parameters.hpp"
 
 #include <algorithm>
@@ -54,14 +55,16 @@ void save(const fs::path& folder, const Results& results) {
 }
 
 /// Trials that tell of the host's want of memory as of the device's.
-RenderTrials without_bad_alloc(const RenderTrials& render) {
-    return [&render](const RenderSettings& settings, std::span<const std::uint32_t> seeds) {
-        try {
-            return render(settings, seeds);
-        } catch (const std::bad_alloc&) {
-            fail("rendering with {}: the machine is out of memory", command_options(settings));
-        }
-    };
+RenderTrials without_bad_alloc(const RenderTrials& render, MethodTable methods) {
+    return
+        [&render, methods](const RenderSettings& settings, std::span<const std::uint32_t> seeds) {
+            try {
+                return render(settings, seeds);
+            } catch (const std::bad_alloc&) {
+                fail("rendering with {}: the machine is out of memory",
+                     command_options(settings, methods));
+            }
+        };
 }
 
 /// Whether a render was finished.
@@ -82,12 +85,17 @@ Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Tr
     }
 }
 
+bool learns_widths(const MethodInfo& method) {
+    return std::any_of(method.options.begin(), method.options.end(),
+                       [](const Option& option) { return option.sweep.around != nullptr; });
+}
+
 /// What each method chooses for the base by itself, if it can be rendered; false if it was
 /// interrupted.
 bool learn_widths(const TradeoffRequest& request, const RenderTrials& render,
                   LearntWidths& learnt) {
     for (const std::string& method : request.methods) {
-        if (method == "path" || learnt.contains(method)) {
+        if (!learns_widths(request.table.at(method)) || learnt.contains(method)) {
             continue;
         }
         RenderSettings settings = request.base;
@@ -137,7 +145,8 @@ std::optional<Reference> make_reference(const TradeoffRequest& request,
                                         const std::vector<Setting>& settings,
                                         const RenderTrials& render) {
     const std::optional<std::vector<Image>> pilots = render_pilots(settings, render);
-    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds)
+    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds,
+                                     request.table)
                   : std::nullopt;
 }
 
@@ -156,7 +165,7 @@ bool measure_setting(const TradeoffRequest& request, const Setting& setting,
     try {
         trials = render(setting.render, seeds);
     } catch (const Error& error) {
-        results.failures.push_back({command_options(setting.render), error.what()});
+        results.failures.push_back({setting.options, error.what()});
         return true;
     }
     if (!trials) {
@@ -214,9 +223,8 @@ std::vector<Setting> not_measured(const std::vector<Setting>& settings, const Re
         known.insert(measurement.key);
     }
     std::vector<Setting> open;
-    std::copy_if(
-        settings.begin(), settings.end(), std::back_inserter(open),
-        [&](const Setting& setting) { return !known.contains(parameter_key(setting.render)); });
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(open),
+                 [&](const Setting& setting) { return !known.contains(setting.key); });
     return open;
 }
 
@@ -226,7 +234,7 @@ fs::path reference_file(const fs::path& folder) { return folder / "reference.exr
 
 Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
                          const RenderTrials& trials, const OnStep& on_step) {
-    const RenderTrials render = without_bad_alloc(trials);
+    const RenderTrials render = without_bad_alloc(trials, request.table);
     const nlohmann::ordered_json run = run_of(request);
     const std::optional<Results> before = results_before(request, run);
     std::optional<Reference> reference;
@@ -246,7 +254,7 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
         return results;
     }
     const std::vector<Setting> settings =
-        sweep(scene, request.base, request.methods, results.learnt, request.extent);
+        sweep(scene, request.base, request.methods, results.learnt, request.extent, request.table);
     if (!reference) {
         reference = make_reference(request, settings, render);
     }

@@ -18,6 +18,7 @@ struct TradeoffRequest {
     std::vector<std::filesystem::path> reference_files; ///< one or two; none: it is rendered
     double reference_seconds = 60;                      ///< for rendering it, about
     std::filesystem::path folder;                       ///< made if it is not there
+    MethodTable table = builtin_methods();              ///< has all of `methods`
 };
 
 /// Told what is being done, and the share of that which is done.

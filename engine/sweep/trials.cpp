@@ -23,10 +23,11 @@ RenderSettings warm_up(RenderSettings settings) {
 }
 
 std::optional<Trial> render_once(Device& device, const Scene& scene, const RenderSettings& settings,
-                                 const std::function<bool()>& go_on) {
+                                 const std::function<bool()>& go_on, MethodTable methods) {
     device.reset_stage_times();
     const Clock::time_point start = Clock::now();
-    RenderResult result = render(device, scene, settings, [&](double) { return go_on(); });
+    RenderResult result = render(
+        device, scene, settings, [&](double) { return go_on(); }, nullptr, methods);
     Trial trial;
     trial.wall_seconds = seconds_since(start);
     if (result.statistics.interrupted || !go_on()) {
@@ -46,17 +47,17 @@ std::optional<Trial> render_once(Device& device, const Scene& scene, const Rende
 } // namespace
 
 RenderTrials trials_on_device(const OpenDevice& open, const Scene& scene,
-                              const std::function<bool()>& go_on) {
+                              const std::function<bool()>& go_on, MethodTable methods) {
     return [=, &scene](RenderSettings settings,
                        std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
         const std::unique_ptr<Device> device = open();
-        if (!render_once(*device, scene, warm_up(settings), go_on)) {
+        if (!render_once(*device, scene, warm_up(settings), go_on, methods)) {
             return std::nullopt;
         }
         Trials trials;
         for (const std::uint32_t seed : seeds) {
             settings.seed = seed;
-            std::optional<Trial> trial = render_once(*device, scene, settings, go_on);
+            std::optional<Trial> trial = render_once(*device, scene, settings, go_on, methods);
             if (!trial) {
                 return std::nullopt;
             }

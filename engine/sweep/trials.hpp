@@ -36,6 +36,7 @@ using OpenDevice = std::function<std::unique_ptr<Device>()>;
 /// for another. A small render that is not measured comes first, in which kernels are compiled.
 /// `go_on` is asked between steps.
 RenderTrials trials_on_device(const OpenDevice& open, const Scene& scene,
-                              const std::function<bool()>& go_on);
+                              const std::function<bool()>& go_on,
+                              MethodTable methods = builtin_methods());
 
 } // namespace argand

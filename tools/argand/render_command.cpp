@@ -135,7 +135,9 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
     // How long pilots take shows only as they run.
     progress.emplace("trying methods", options.quiet);
     bool picked_one = false;
-    const Aim aim{.error = options.target_error, .seconds = options.settings.budget};
+    const Aim aim{.error = options.target_error,
+                  .seconds = options.settings.budget,
+                  .methods = options.methods};
     const Chosen chosen{.method = is_given(command, "--method"),
                         .samples = is_given(command, "--spp"),
                         .photons = is_given(command, "--photons")};

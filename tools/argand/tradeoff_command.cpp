@@ -90,7 +90,7 @@ void run(TradeoffOptions& options) {
                    {"driver", device.driver}};
     const RenderTrials render =
         trials_on_device([&] { return open_backend(options.backend, options.device, true); }, scene,
-                         [] { return !interrupted(); });
+                         [] { return !interrupted(); }, options.table);
     std::optional<Progress> progress;
     std::string shown;
     const Results results =
@@ -124,6 +124,7 @@ void add_tradeoff_command(CLI::App& app, MethodTable methods) {
     auto options = std::make_shared<TradeoffOptions>(TradeoffOptions{.table = methods});
     TradeoffRequest& request = options->request;
     request.methods = methods.names();
+    request.table = methods;
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("-o,--output", options->folder,
                         "Folder for tradeoff.html, .png, .csv and .json, the reference and all "
