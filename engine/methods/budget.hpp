@@ -9,18 +9,16 @@
 
 namespace argand {
 
-/// How often to repeat passes: as many as there are, or as often as fits in a time.
+/// Decides how many passes a render has: a fixed number, or as many as fit in a time.
 class Budget {
 public:
-    /// seconds: from now on; none: every pass once.
+    /// seconds: the time, from now on; none: every pass once.
     explicit Budget(std::optional<double> seconds) : seconds_(seconds) {}
 
-    /// Told where the first pass begins, after what is done once: that says nothing of how long
-    /// passes take.
+    /// Call where the first pass begins. Work before it tells nothing of how long passes take.
     void start_pass() { begun_ = elapsed(); }
 
-    /// Does what is done once in the middle of the first pass, and leaves it out of the pass's
-    /// time.
+    /// Runs work that only the first pass has, and leaves it out of the time of that pass.
     template <typename Work> auto once(const Work& work) {
         const double before = elapsed();
         auto result = work();
@@ -28,8 +26,8 @@ public:
         return result;
     }
 
-    /// Told after each pass, where the next one begins. Whether another is to be made; there is
-    /// time for it, if it takes as long as the last one.
+    /// Call after each pass, where the next one begins. Returns whether there is another one: with
+    /// a time, whether it fits if it takes as long as the last one.
     bool another(std::uint64_t done, std::uint64_t passes) {
         if (!seconds_) {
             return done < passes;
@@ -41,7 +39,7 @@ public:
         return now + last <= *seconds_;
     }
 
-    /// Passes that there will be, as far as can be told when so many are done.
+    /// The expected number of passes of the whole render, after `done` of them.
     double expected(std::uint64_t done, std::uint64_t passes) const {
         if (!seconds_ || done == 0) {
             return static_cast<double>(passes);
@@ -50,7 +48,7 @@ public:
         return std::round(static_cast<double>(done) + std::max(*seconds_ - elapsed(), 0.0) / each);
     }
 
-    /// Share of the work that is done, `part` of the current pass.
+    /// The share of the work that is done, after `done` passes and `part` of the current one.
     double share(std::uint64_t done, double part, std::uint64_t passes) const {
         return seconds_ ? std::min(elapsed() / *seconds_, 1.0)
                         : (static_cast<double>(done) + part) / static_cast<double>(passes);
@@ -64,8 +62,8 @@ private:
     double begun_ = 0, in_passes_ = 0;
 };
 
-/// Whether samples after so many passes still have numbers of 32 bits, beyond which they would be
-/// the same again.
+/// Whether the samples of the pass after `passes` others have numbers within 32 bits. Beyond that,
+/// samples would repeat.
 inline bool has_sample_numbers(std::uint64_t passes, std::uint32_t samples) {
     return (passes + 1) * samples <= 0xffffffffu;
 }

@@ -41,7 +41,7 @@ std::unique_ptr<Device> open_after_fault(const std::string& backend, const std::
     }
     const std::string other =
         fault.backend != "vulkan" && why_missing("vulkan").empty() ? "vulkan" : "cpu";
-    fmt::print(stderr, "argand: note: {}; going on with backend {}\n", fault.what(), other);
+    fmt::print(stderr, "argand: note: {}; continuing with backend {}\n", fault.what(), other);
     return open_device("", other);
 }
 

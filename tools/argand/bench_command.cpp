@@ -114,19 +114,20 @@ void run(const BenchOptions& options) {
 } // namespace
 
 void add_bench_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "Measure how fast the parts are on a device");
+    CLI::App* command = app.add_subcommand("bench", "Measure the speed of the parts on a device");
     auto options = std::make_shared<BenchOptions>();
     command->add_option("name", options->names, fmt::format("Any of {} (default: all)", names()));
     add_backend_options(*command, options->backend, options->device);
     Fd09Settings& fd09 = options->fd09;
     CLI::Option* paper =
         command
-            ->add_option("--paper", options->paper,
-                         "Measure instead what a paper did: fd09, Fabianowski and Dingliana 2009")
+            ->add_option(
+                "--paper", options->paper,
+                "Repeat the measurements of a paper instead: fd09, Fabianowski and Dingliana 2009")
             ->check(CLI::IsMember({"fd09"}));
     command
         ->add_option("--scene", fd09.scenes,
-                     "With --paper: glTF files (default: of the project's own)")
+                     "With --paper: glTF files (default: scenes of this project)")
         ->needs(paper)
         ->check(CLI::ExistingFile);
     command
@@ -134,18 +135,21 @@ void add_bench_command(CLI::App& app) {
                      fmt::format("With --paper: {} (default: all)", fmt::join(fd09_parts(), ", ")))
         ->needs(paper)
         ->check(CLI::IsMember(fd09_parts()));
-    command->add_option("--size", fd09.size, "With --paper: pixels a side where speed is measured")
+    command
+        ->add_option("--size", fd09.size,
+                     "With --paper: pixels per side of pictures that measure speed")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
     command
         ->add_option("--error-size", fd09.error_size,
-                     "With --paper: pixels a side where error is measured")
+                     "With --paper: pixels per side of pictures that measure error")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
     command
-        ->add_option("--budget", fd09.budgets, "With --paper: seconds in which errors are compared")
+        ->add_option("--budget", fd09.budgets,
+                     "With --paper: times at which errors are compared, in seconds")
         ->needs(paper)
         ->capture_default_str()
         ->check(number_between(1e-3, 1e5));
@@ -156,22 +160,21 @@ void add_bench_command(CLI::App& app) {
         ->check(integer_between(1, 4'000'000));
     command
         ->add_option("--reference-samples", fd09.reference_samples,
-                     "With --paper: samples a pixel of each of two references")
+                     "With --paper: samples per pixel of each of the two references")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 1 << 20));
     command
         ->add_option("--runs", fd09.runs,
-                     "With --paper: interleaved runs, of which the median counts")
+                     "With --paper: number of interleaved runs; the median counts")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 101));
     command->add_flag("--json", options->json, "Print JSON, one object per measurement");
-    command->footer("Rates are items per second: median of several runs, GPU time. The bound is "
-                    "what the rate would be if\n"
-                    "only memory traffic counted, at the copy rate measured in the same run; the "
-                    "peer does the same on\n"
-                    "the host.\n\nExample:\n  argand bench parallel --json\n"
+    command->footer("Rates are items per second of device time, the median of several runs. The "
+                    "bound is the rate that memory\n"
+                    "traffic alone would allow at the copy rate of the same run. The peer does the "
+                    "same work on the host.\n\nExample:\n  argand bench parallel --json\n"
                     "  argand bench --paper fd09 --part table1 --scene assets/ring.glb");
     command->callback([options] { run(*options); });
 }

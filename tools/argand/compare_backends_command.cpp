@@ -64,8 +64,8 @@ nlohmann::ordered_json to_json(const std::vector<StageComparison>& stages, Passe
 }
 
 void fail_different(const BackendOptions& options) {
-    fail("comparing {} with {} on '{}': they differ by more than the tolerance; `same` tells in "
-         "which stages",
+    fail("comparing {} with {} on '{}': they differ by more than the tolerance; the verdicts name "
+         "the stages",
          options.a, options.b, options.scene);
 }
 
@@ -104,7 +104,7 @@ void compare_live(const BackendOptions& options, const Scene& scene) {
 void compare_golden(const BackendOptions& options, const Scene& scene) {
     const Golden golden = read_golden(options.golden);
     const std::unique_ptr<Device> device = open_device(options.device_a, options.a);
-    // The recorded device is the first, from whose results each stage starts.
+    // Each stage starts from the results of the recorded device.
     nlohmann::ordered_json report = {{"scene", options.scene},   {"a", golden.device},
                                      {"b", device->info().name}, {"golden", options.golden},
                                      {"driver", golden.driver},  {"revision", golden.revision}};
@@ -154,8 +154,7 @@ void record(const BackendOptions& options, const Scene& scene) {
 void run(BackendOptions& options) {
     check_methods(options.methods, options.table);
     if ((options.b == "golden") != !options.golden.empty()) {
-        throw UsageError(
-            "comparing with a golden capture: --b golden and --golden FILE belong together");
+        throw UsageError("comparing with a golden capture: give both --b golden and --golden FILE");
     }
     const PictureSize size = parse_picture_size(options.size);
     options.settings.width = size.width;
@@ -189,13 +188,14 @@ void add_compare_backends_command(CLI::App& app, MethodTable methods) {
     command->add_option("--device-a", options->device_a,
                         "Device of --a by index or part of its name (see `argand devices`)");
     CLI::Option* device_b = command->add_option("--device-b", options->device_b, "Device of --b");
-    CLI::Option* golden =
-        command->add_option("--golden", options->golden,
-                            "With --b golden: the capture, which holds size, samples and photons");
-    CLI::Option* record =
-        command->add_option("--record", options->record,
-                            "Write a capture of what --a does to this file, and compare nothing");
-    command->add_option("--revision", options->revision, "With --record: what it is recorded from")
+    CLI::Option* golden = command->add_option(
+        "--golden", options->golden,
+        "With --b golden: file of the capture, which also holds size, samples and photons");
+    CLI::Option* record = command->add_option(
+        "--record", options->record, "Record the work of --a in this file instead of comparing");
+    command
+        ->add_option("--revision", options->revision,
+                     "With --record: name of the revision that the capture is of")
         ->capture_default_str();
     command
         ->add_option("--methods", options->methods,
@@ -218,12 +218,10 @@ void add_compare_backends_command(CLI::App& app, MethodTable methods) {
         golden->excludes(held);
     }
     command->footer(
-        "Isolated: every stage of B starts from what A had before it; integers must be equal to "
-        "the bit, and of floats one "
-        "item in 10,000 may differ by more than 1e-5. End to end: B goes on with its own results, "
-        "and of the items one in "
-        "100 may have diverged, as paths do that one rounding sends another way. Exit status 1 if "
-        "they differ by more.\n\n"
+        "Isolated: every stage of B starts from the data that A had before it. Integers must be "
+        "equal to the bit; of the floats, one item in 10,000 may differ by more than 1e-5. End to "
+        "end: B continues with its own results, and one item in 100 may diverge, because one "
+        "rounding can send a path another way. The exit status is 1 if more differ.\n\n"
         "Example:\n  argand compare-backends assets/cornell_glass.glb --a vulkan --b cpu\n"
         "  argand compare-backends assets/cornell_glass.glb --a cuda --record glass.golden --size "
         "8x8 --spp 1 --photons 200");

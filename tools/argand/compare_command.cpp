@@ -33,8 +33,8 @@ const Image& layer_of(const std::vector<Layer>& layers, const std::string& path,
     return *image;
 }
 
-/// relMSE against the two halves that the reference of a sweep (`argand tradeoff`) has as layers,
-/// whose noise then does not count; null if it is no such reference.
+/// relMSE against the reference of a sweep (`argand tradeoff`), which has two independent halves as
+/// layers, so that its noise does not count as error. Null if `reference` has no halves.
 Json rel_mse_of_pair(const Image& a, const std::vector<Layer>& reference) {
     const Image* first = find_layer(reference, "a");
     const Image* second = find_layer(reference, "b");

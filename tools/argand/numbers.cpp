@@ -7,7 +7,7 @@ namespace argand {
 
 namespace {
 
-// CLI11's own ranges let NaN pass, and what is no number at all is reported without its range.
+// CLI11's own ranges accept NaN, and report text that is no number without the range.
 template <class T> CLI::Validator between(T low, T high, const char* what) {
     const std::string range = fmt::format("from {} to {}", low, high);
     return CLI::Validator(
@@ -16,7 +16,7 @@ template <class T> CLI::Validator between(T low, T high, const char* what) {
             const char* begin =
                 text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
             const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-            // Not `value < low`: NaN is to fail.
+            // Written so that NaN fails.
             if (error == std::errc() && end == text.data() + text.size() && value >= low &&
                 value <= high) {
                 return "";

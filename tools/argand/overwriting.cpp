@@ -8,7 +8,7 @@ namespace argand {
 
 namespace {
 
-/// The path with no link, `.` or `..` left in the part of it that exists.
+/// The path without links, `.` and `..` in the part of it that exists.
 std::filesystem::path resolved(const std::string& path) {
     std::error_code unreadable;
     const std::filesystem::path absolute = std::filesystem::absolute(path, unreadable);

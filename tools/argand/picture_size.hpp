@@ -8,7 +8,7 @@ struct PictureSize {
     int width, height;
 };
 
-/// Reads "WIDTHxHEIGHT"; throws UsageError if it is anything else.
+/// Parses "WIDTHxHEIGHT", each from 1 to 32,768. Throws UsageError on anything else.
 PictureSize parse_picture_size(const std::string& size);
 
 } // namespace argand
