@@ -34,8 +34,8 @@ protected:
         return names;
     }
 
-    /// Under the API's validation: a message of it would make the tool fail. `arguments` as a shell
-    /// reads them, redirections included; `environment`: NAME=VALUE ...
+    /// Runs the tool with the API's validation on, so that any message of it is a failure.
+    /// `arguments` are read by a shell, redirections included; `environment`: NAME=VALUE ...
     Outcome argand(const std::string& arguments, const std::string& environment = "") const {
         const ScratchDirectory streams;
         const std::string command =
@@ -47,7 +47,7 @@ protected:
                 read_text(streams / "error")};
     }
 
-    /// Expects this exit code, one line that holds `text`, nothing on the standard output and no
+    /// Expects this exit code, an error of one line that contains `text`, no standard output and no
     /// new file.
     void expect_failure(const std::string& arguments, int exit_code, const std::string& text,
                         const std::string& environment = "") const {

@@ -1,4 +1,4 @@
-// Whatever is wrong, the tool says so in one line, leaves nothing half-written and does not crash.
+// On any wrong input the tool prints one line, leaves no half-written file and does not crash.
 #include "argand_run.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ TEST_F(BadInput, ScenesThatCannotBeRead) {
 }
 
 TEST_F(BadInput, SceneWithoutArea) {
-    // Three vertices in one point.
+    // Three vertices at the same point.
     write_text(file("flat.gltf"),
                R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -148,13 +148,13 @@ TEST_F(BadInput, NoDriverAndNoLoader) {
         EXPECT_THAT(argand(arguments, no_driver).error,
                     ::testing::Not(::testing::HasSubstr("code")));
     }
-    // A file of the loader's name that is none, in the way of the true one.
+    // Empty files with the loader's name hide the real loader.
     const ScratchDirectory libraries;
     write_text(libraries / "libvulkan.so.1", "");
     write_text(libraries / "libvulkan.so", "");
     const std::string no_loader = "LD_LIBRARY_PATH='" + libraries.path().string() + "'";
     expect_failure(scene + "--backend vulkan", failure, "no Vulkan loader", no_loader);
-    // Without a backend by name, what needs no Vulkan goes on without, and says so.
+    // If the user names no backend, the tool falls back to the cpu and prints a note.
     for (const std::string& environment : {no_driver, no_loader}) {
         EXPECT_THAT(argand("devices", environment).out, ::testing::HasSubstr("backend cpu"));
         const Outcome run = argand(scene + "--spp 1 -o a.png", environment);
@@ -168,7 +168,7 @@ TEST_F(BadInput, BackendsThatAreNotThere) {
     expect_failure(scene + "--backend metal", usage, "'metal': this build has vulkan");
     expect_failure(scene, usage, "'metal': this build has vulkan", "ARGAND_BACKEND=metal");
     expect_failure(scene + "--backend cpu --device llvmpipe", failure, "of backend cpu");
-    // A device that the environment names is not meant for a backend that the user names.
+    // A device named by the environment does not apply to a backend named by the user.
     EXPECT_EQ(argand(scene + "--backend cpu -q -o b.png", "ARGAND_DEVICE=llvmpipe").exit_code, 0);
     const std::string compare = "compare-backends '" + asset("cornell_point.glb") + "' ";
     expect_failure(compare + "--b golden", usage, "--golden");

@@ -1,4 +1,4 @@
-// What the commands print and write when all is well.
+// The output of the commands when all goes well.
 #include "argand_run.hpp"
 #include "image/files.hpp"
 
@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 class Commands : public ArgandTest {
 protected:
-    /// A render of a few pixels that is expected to work.
+    /// Renders a few pixels and expects success.
     Outcome render(const std::string& options,
                    const std::string& scene = "cornell_glass.glb") const {
         const Outcome run =
@@ -144,7 +144,7 @@ TEST_F(Commands, BudgetThatAPassExceedsIsNoted) {
 }
 
 TEST_F(Commands, TargetErrorIsMetAndReported) {
-    // Without kernels to compile.
+    // The host has no kernels to compile.
     const std::string scene =
         "render '" + asset("cornell_point.glb") + "' --size 48x48 --backend cpu ";
     const Outcome run = argand(scene + "--target-error 0.01 --seed 3 -o a.exr --json report.json");
@@ -278,7 +278,7 @@ TEST_F(Commands, DeviceByNameAndByIndex) {
 }
 
 TEST_F(Commands, BenchPrintsARowForEachMeasurement) {
-    // Buffers of 1 MiB leave the small sizes only; without time stamps the clock serves.
+    // Buffers of 1 MiB allow only the small sizes. Without time stamps the wall clock is used.
     for (const char* disable : {"", " ARGAND_DISABLE=timestamps"}) {
         const Outcome run = argand("bench parallel --json",
                                    std::string("ARGAND_LIMIT=storage_range=1MiB") + disable);

@@ -1,4 +1,4 @@
-// What the tool writes where, and that it says so when it cannot.
+// Where the tool writes, and its errors when it cannot.
 #include "argand_run.hpp"
 
 #include <filesystem>
@@ -54,7 +54,7 @@ TEST_F(Outputs, AFullStandardOutputIsNamed) {
 }
 
 TEST_F(Outputs, ValidationIsHeard) {
-    // Best practices are beyond what Argand asks validation for, and it follows not all of them.
+    // Argand does not enable best-practice validation, and does not follow all of its advice.
     const Outcome run = argand("render '" + asset("cornell_point.glb") +
                                    "' --size 4x4 --spp 1 --photons 0 -q -o a.png",
                                "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");

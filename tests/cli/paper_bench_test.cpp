@@ -1,4 +1,4 @@
-// argand bench --paper fd09, on small pictures.
+// `argand bench --paper fd09` on small pictures.
 #include "argand_run.hpp"
 
 namespace argand::testing {

@@ -20,7 +20,7 @@ TEST_F(Tradeoff, MeasuresAndGoesOn) {
     EXPECT_THAT(first.out, HasSubstr("sweep/tradeoff.html"));
     const std::string csv = read_text(file("sweep/tradeoff.csv"));
     EXPECT_THAT(csv, HasSubstr("path,spp,32,"));
-    // Times would differ if anything were measured again.
+    // The times would differ if anything were measured again.
     const Outcome second = argand(command);
     EXPECT_EQ(second.out, first.out);
     EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
@@ -31,13 +31,13 @@ TEST_F(Tradeoff, MeasuresAndGoesOn) {
     std::filesystem::remove(file("sweep/reference.exr"));
     EXPECT_EQ(argand(command).exit_code, 0);
     EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
-    // What another build of the program measured is not gone on with.
+    // A sweep that another build of the program began is not resumed.
     nlohmann::ordered_json kept =
         nlohmann::ordered_json::parse(read_text(file("sweep/tradeoff.json")));
     kept.at("run").at("build") = "another";
     write_text(file("sweep/tradeoff.json"), kept.dump());
     expect_failure(command, 1, "another build (another, now ");
-    // The reference's halves are what `compare` takes its noise out with.
+    // `compare` uses the two halves of the reference to remove its noise.
     const Outcome compared =
         argand("compare sweep/pictures/path-spp-2.exr sweep/reference.exr --json");
     ASSERT_EQ(compared.exit_code, 0) << compared.error;

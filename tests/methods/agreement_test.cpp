@@ -1,4 +1,4 @@
-// The photon mapper against the path tracer: whole pictures and layers.
+// The photon mapper agrees with the path tracer, on whole images and on layers.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -31,7 +31,7 @@ protected:
         return render(scene, settings);
     }
 
-    /// Mean radiance of a layer is the same within `tolerance`.
+    /// Expects the same mean radiance of a layer from both methods, within `tolerance`.
     void expect_same_mean(const Scene& scene, int size, std::uint32_t samples,
                           const std::string& name, double tolerance) {
         const glm::dvec3 expected =
@@ -54,15 +54,15 @@ TEST_F(Agreement, MeanRadianceOfEachLayer) {
 
 TEST_F(Agreement, ShadingNormals) {
     // A coarse sphere with interpolated normals: light that photons scatter from it must be
-    // weighted by their ratio.
+    // weighted by the ratio of cosines to the two normals.
     Scene scene = room_scene();
     add_sphere(scene, {0.4f, -0.4f, 0.2f}, 0.5f, 4, true, 2);
     expect_same_mean(scene, 16, 512, "indirect", 0.05);
 }
 
 TEST_F(Agreement, SlowCameraInsideGlass) {
-    // A Lambertian block in the glass in which the camera is too: what it reflects comes to it
-    // through glass.
+    // The camera and a Lambertian block are in the same glass: light from the block reaches the
+    // camera through glass only.
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(0.5f)));
     add_sphere(scene, glm::vec3(0), 0.8f, 12, false, add_material(scene, glass(1.5f, true)));
     add_box(scene, {-0.2f, -0.2f, -0.5f}, {0.2f, 0.2f, -0.3f},
@@ -100,7 +100,7 @@ TEST_F(Agreement, SlowErrorFallsWithPhotonsAtDefaultSettings) {
 }
 
 TEST_F(Agreement, SlowCornellBoxes) {
-    // The path tracer is noisy where light comes over glass or a mirror.
+    // The path tracer is noisy where light arrives by way of glass or a mirror.
     const std::pair<const char*, std::uint32_t> scenes[] = {{"cornell_point.glb", 256},
                                                             {"cornell_area.glb", 256},
                                                             {"cornell_mirror.glb", 512},
@@ -110,7 +110,7 @@ TEST_F(Agreement, SlowCornellBoxes) {
         const Reference truth = reference(scene, 128, samples);
         const RenderResult found = photons(scene, 128, 200'000);
         EXPECT_LT(error(found, truth), 0.02) << name;
-        // Of which the noise of such a reference, by which it is divided, is a tenth.
+        // A tenth of this is noise of the reference.
         EXPECT_LT(error(found, truth, "indirect"), 0.025) << name;
     }
 }

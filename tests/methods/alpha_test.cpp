@@ -1,5 +1,4 @@
-// Surfaces of which alpha leaves only a share: what is behind them is followed, by eye paths and by
-// photons.
+// Surfaces with partial coverage (alpha): eye paths and photons continue through the rest of them.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -30,7 +29,7 @@ TEST_P(Alpha, MixesTheSurfaceWithWhatIsBehind) {
         scene.lights = {directional_light({0, 0, -1}, glm::vec3(4 * pi))};
         const glm::vec3 from(3 * std::tan(glm::radians(degrees)), 0, 3);
         const glm::dvec3 l = radiance(scene, settings(8, 512, 1000), from, {0, 0, 0}, "direct");
-        // The emitter also lights the veils' far sides: none of it is seen from here.
+        // The emitter also lights the far sides of the veils, which the camera does not see.
         EXPECT_NEAR(l.r, 0.25 * 0.5 * 4, 0.01) << degrees;
         EXPECT_NEAR(l.g, 0.25 * 0.2 * 4 + 0.75 * 0.75 * 1, 0.02) << degrees;
         EXPECT_NEAR(l.b, 0.75 * 0.75 * 2, 0.04) << degrees;
@@ -45,13 +44,13 @@ TEST_P(Alpha, SunBehindItIsACaustic) {
     scene.lights = {directional_light({0, -1, 0}, glm::vec3(1))};
     scene.cameras = {parallel_rays({0, 0.6f, 4}, {0, 0, 0}, 0.1f)};
     const RenderResult result = render(scene, settings(8, 16, 200'000));
-    // The path tracer's shadow rays are blocked, and it cannot find the sun; photons pass.
+    // Veils block the path tracer's shadow rays, and its paths cannot hit the sun. Photons pass.
     const double expected = GetParam() == "path" ? 0 : 0.75 * 0.75 * 0.5 / pi;
     EXPECT_NEAR(mean(layer(result, "caustic")).g, expected, 0.03 * 0.5 / pi);
     EXPECT_EQ(mean(layer(result, "direct")).g, 0);
 }
 
-// A lamp with an area, which paths can find behind a veil as photons do: each layer on its own.
+// An area light, which both paths and photons find behind a veil. Each layer is compared by itself.
 TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
     add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
@@ -63,7 +62,7 @@ TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     add_quad(scene, {-0.6f, -0.9f, -0.2f}, {0.8f, 0, 0}, {0, 0.8f, -0.2f},
              add_material(scene, with_alpha(mirror({0.9f, 0.8f, 0.7f}), 0.5f)));
     scene.cameras = {look_at({0.3f, -0.1f, 0.95f}, {0, -0.4f, -1}, 70)};
-    // The path tracer is noisy where it has to find the lamp.
+    // The path tracer is noisy where a path must hit the lamp.
     RenderSettings reference = settings_of("path", 16, 4096);
     reference.seed = 7;
     const RenderResult expected = render(scene, reference);

@@ -18,7 +18,7 @@ TEST(Budget, WhatIsDoneOnceIsNoPartOfAPass) {
         return 7;
     });
     EXPECT_EQ(learnt, 7);
-    // 0.4 s are left.
+    // 0.4 s remain.
     EXPECT_TRUE(budget.another(1, 1));
     EXPECT_GT(budget.expected(1, 1), 2);
 }

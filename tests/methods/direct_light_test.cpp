@@ -1,5 +1,4 @@
-// Light that comes straight from a light to a Lambertian surface, against the integral done by
-// hand.
+// Direct light on a Lambertian surface, against the integral computed by hand.
 #include "rendering.hpp"
 
 #include "scene/light_power.hpp"
@@ -11,7 +10,7 @@ constexpr double albedo = 0.5;
 
 class DirectLight : public EveryMethod {
 protected:
-    /// Radiance of the floor's point (x, 0, z), which is seen from above at an angle.
+    /// Radiance of the floor at (x, 0, z), seen obliquely from above.
     double floor_radiance(const Scene& scene, float x, float z, std::uint32_t samples = 16) {
         RenderSettings settings = settings_of(GetParam(), 4, samples);
         settings.photons = 1000;
@@ -70,11 +69,11 @@ TEST_P(DirectLight, LightsAddUp) {
         scene.lights.push_back(point_light({0, i, 0}, glm::vec3(i * i * i)));
         expected += albedo / pi * i;
     }
-    // One light is chosen for each sample: in proportion to power, not to what arrives.
+    // Each sample chooses one light in proportion to its power, not to the light that arrives.
     EXPECT_RELATIVE(floor_radiance(scene, 0, 0, 4096), expected, 0.02);
 }
 
-/// Irradiance at the floor's point (x, 0, 0) from a square that faces down, by the midpoint rule.
+/// Irradiance of the floor at (x, 0, 0) from a square that faces down, by the midpoint rule.
 double irradiance(double x, double half, double height, double radiance) {
     constexpr int n = 400;
     double sum = 0;
@@ -113,7 +112,7 @@ TEST_P(DirectLight, EmittersShineFromTheirFrontOrFromBothSides) {
         EXPECT_EQ(radiance(scene, settings, {0.1f, 1, 0}, {0, 0, 0}), glm::dvec3(1, 2, 3));
         EXPECT_EQ(radiance(scene, settings, {0.1f, -1, 0}, {0, 0, 0}),
                   double_sided ? glm::dvec3(1, 2, 3) : glm::dvec3(0));
-        // What it throws on a wall above and on one below.
+        // Its light on a wall above and on one below.
         const std::uint32_t wall = add_material(scene, lambertian(glm::vec3(albedo)));
         add_floor(scene, 4, 1, wall);
         add_floor(scene, 4, -1, wall);

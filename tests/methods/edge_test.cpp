@@ -1,4 +1,4 @@
-// The ends of what can be asked for.
+// Settings at the ends of their ranges.
 #include "rendering.hpp"
 
 #include "base/error.hpp"
@@ -59,7 +59,7 @@ TEST_P(Edge, OddSizes) {
 }
 
 TEST_P(Edge, PicturesOfMoreThanOneBatch) {
-    // 240 × 240 × 3 paths are more than are traced together; so are 200,000 samples of one pixel.
+    // 240 × 240 × 3 paths take more than one batch, and so do 200,000 samples of one pixel.
     RenderSettings large = settings(240, 3);
     large.bounces = 0;
     const Scene scene = room_scene();
@@ -122,7 +122,7 @@ TEST_P(Edge, EmptySkyIsSeenWhereNothingIs) {
 TEST_P(Edge, ScaleOfTheSceneDoesNotMatter) {
     for (const char* name : {"cornell_glass.glb", "courtyard.glb"}) {
         const Scene scene = load_asset(name);
-        // By powers of two nothing is rounded: all but the offsets of rays is the same.
+        // Powers of two cause no rounding: only the offsets of rays differ.
         const glm::dvec3 expected = mean(layer(render(scene, settings(32, 16)), ""));
         for (const float factor : {1.0f / 1024, 1024.0f, 1e-3f, 1e3f}) {
             const glm::dvec3 actual =
@@ -133,7 +133,7 @@ TEST_P(Edge, ScaleOfTheSceneDoesNotMatter) {
 }
 
 TEST_P(Edge, CoincidentTrianglesWithoutEnd) {
-    // More than a ray may visit in one dispatch.
+    // More nodes than a ray may visit in one dispatch.
     Scene scene;
     const std::uint32_t material = add_material(scene, lambertian(glm::vec3(0.5f)));
     for (int i = 0; i < 50'000; ++i) {
@@ -159,8 +159,7 @@ TEST_P(Edge, InterruptKeepsWhatIsFinished) {
     EXPECT_TRUE(result.statistics.interrupted);
     EXPECT_GT(result.statistics.samples, 0u);
     EXPECT_LT(result.statistics.samples, 4096u);
-    // Every sample sees a wall that emits 1, so that a picture which counts other samples than it
-    // holds is not 1.
+    // Every sample sees a wall that emits 1, so an image that counts its samples wrongly is not 1.
     for (const glm::vec3& pixel : layer(result, "").pixels) {
         EXPECT_EQ(pixel, glm::vec3(1));
     }
@@ -180,18 +179,18 @@ TEST_P(Edge, BudgetIsFilledWithPasses) {
     EXPECT_GT(result.statistics.passes, 1u);
     EXPECT_EQ(result.statistics.samples, 2 * result.statistics.passes);
     EXPECT_FALSE(result.statistics.interrupted);
-    // Passes differ in length where others use the machine.
+    // The length of passes varies when other programs use the machine.
     EXPECT_LT(seconds, 4);
     for (const glm::vec3& pixel : layer(result, "").pixels) {
         ASSERT_NEAR(pixel.g, 1, 1e-6);
     }
-    // Less than a pass takes: there is one.
+    // Less time than a pass takes still gives one pass.
     budgeted.budget = 1e-6;
     EXPECT_EQ(render(scene, budgeted).statistics.passes, 1u);
 }
 
 TEST_P(Edge, InterruptLeavesNoPixelOut) {
-    // More pixels than are traced together.
+    // More pixels than fit in one batch.
     const Scene scene = box_scene(emitter(glm::vec3(1)));
     const RenderResult result =
         argand::render(device(), scene, settings(512, 16), [](double) { return false; });
@@ -203,7 +202,7 @@ TEST_P(Edge, InterruptLeavesNoPixelOut) {
 }
 
 TEST_P(Edge, ManySamplesOfTheSameRadianceAddUp) {
-    // Plain sums in single precision would be 1 % off.
+    // Plain sums in single precision would be off by 1 %.
     const Scene scene = box_scene(emitter(glm::vec3(0.1f)));
     EXPECT_RELATIVE(mean(layer(render(scene, settings(1, 1'000'000)), "")).g, 0.1, 1e-6);
 }
@@ -249,7 +248,7 @@ TEST_F(PhotonEdge, PassesAreIndependentEstimatesOfTheSame) {
     settings.radius = 0.1;
     const glm::dvec3 whole = mean(layer(render(scene, settings), "indirect"));
     Device& limited = open({"limited", "", "storage_range=1MiB"});
-    // A remainder of a few photons must not count as much as a full pass.
+    // A pass of the few remaining photons must not count as much as a full one.
     for (const std::uint64_t photons : {100'000ull, 100'001ull, 87'377ull}) {
         settings.photons = photons;
         const RenderResult result = testing::render(limited, scene, settings);
@@ -278,8 +277,8 @@ TEST_F(PhotonEdge, EveryPassHasASampleSoThatMemoryDoesNotGrowWithPhotons) {
 }
 
 TEST_F(PhotonEdge, SlowPassesGrowSmallerWhereEveryPhotonIsStoredOften) {
-    // Walls that reflect almost everything: a photon is stored far more often than room is made
-    // for.
+    // Walls that reflect almost everything store each photon far more often than the buffers
+    // provide for.
     Scene scene = load_asset("closed_box.gltf");
     for (Material& material : scene.materials) {
         material.base_color = glm::vec3(0.97f);

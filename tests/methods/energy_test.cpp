@@ -1,5 +1,4 @@
-// Scenes in which light is the same everywhere: what is reflected, summed over all bounces, is
-// known.
+// Scenes with uniform light, where the sum over all bounces is known.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -30,7 +29,7 @@ TEST_P(Energy, FurnaceWithInterreflection) {
     add_floor(scene, 1, 0, white);
     add_quad(scene, {-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, white);
     scene.sky = glm::vec3(1, 2, 0.5f);
-    // The floor, where half a metre of it lies between the picture and its edges.
+    // The view shows the floor, half a metre away from its edges.
     scene.cameras = {parallel_rays({0, 4, 4}, {0, 0, 0}, 0.3f)};
     const RenderResult result = render(scene, settings(512));
     const glm::dvec3 all = mean(layer(result, ""));
@@ -46,7 +45,7 @@ TEST_P(Energy, ClosedBoxIsAGeometricSeries) {
     const glm::dvec3 emitted(0.25, 0.1, 1);
     const Scene scene = box_scene(emitter(emitted, reflected));
     const RenderResult result = render(scene, settings(256));
-    // The picture shows the middle of a wall, away from its edges, where the estimate has a bias.
+    // The view shows the middle of a wall, away from its edges, where the estimate is biased.
     const glm::dvec3 all = mean(layer(result, ""));
     const glm::dvec3 direct = mean(layer(result, "direct"));
     for (int channel = 0; channel < 3; ++channel) {
@@ -60,7 +59,7 @@ TEST_P(Energy, ClosedBoxIsAGeometricSeries) {
 TEST_P(Energy, ClosedBoxOfTheScenesFile) {
     Scene scene = load_asset("closed_box.gltf");
     const RenderResult result = render(scene, settings(128));
-    // Towards a corner: density estimation loses light there, the path tracer none.
+    // The view shows a corner, where density estimation loses light and path tracing does not.
     EXPECT_NEAR(mean(layer(result, "")).g, 0.5, GetParam() == "path" ? 0.005 : 0.05);
 }
 

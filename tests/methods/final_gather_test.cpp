@@ -1,4 +1,4 @@
-// Final gather against the path tracer: every path is counted once, and in its layer.
+// Final gather agrees with the path tracer: it counts every path once, in the right layer.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -16,7 +16,7 @@ Scene lit_room() {
     return scene;
 }
 
-/// Most of the room's far wall is of this material instead.
+/// The same room, with this material on most of the far wall.
 Scene room_with_wall_of(const Material& material) {
     Scene scene = lit_room();
     add_quad(scene, {-0.8f, -0.8f, -0.95f}, {1.6f, 0, 0}, {0, 1.6f, 0},
@@ -38,7 +38,7 @@ Scene glass_room() {
     return scene;
 }
 
-/// The light has no extent: what the gloss reflects of it both methods find.
+/// A delta light, whose glossy reflection both methods find.
 Scene glossy_room() {
     Scene scene = room_scene();
     scene.name = "room with gloss";
@@ -48,8 +48,8 @@ Scene glossy_room() {
     return scene;
 }
 
-/// Rougher than what is followed, and yet so narrow that a point sampled on the light is seldom in
-/// its lobe.
+/// A lobe too rough to be followed, but so narrow that points sampled on the light seldom lie in
+/// it.
 Material narrow_gloss() {
     Material metal = mirror(glm::vec3(0.9f));
     metal.roughness = 0.3f;
@@ -62,8 +62,7 @@ Scene room_with_narrow_gloss() {
     return scene;
 }
 
-/// Diffuse and glossy, and half of it is not there: a path that arrives is scattered by one lobe or
-/// follows another.
+/// Diffuse and glossy with a coverage of one half: a path scatters from one lobe or passes through.
 Scene room_with_half_a_plastic_wall() {
     Material plastic = lambertian(glm::vec3(0.5f));
     plastic.specular = 1;
@@ -74,7 +73,7 @@ Scene room_with_half_a_plastic_wall() {
     return scene;
 }
 
-/// Two walls on a floor under the sky, one of them of this material.
+/// A floor under the sky with two walls, one of this material.
 Scene yard(const Material& material) {
     Scene scene = floor_scene(lambertian(glm::vec3(wall_albedo)), 1);
     scene.name = "yard";
@@ -87,8 +86,8 @@ Scene yard(const Material& material) {
 
 class FinalGather : public RenderTest {
 protected:
-    /// Mean radiance of each layer is that of the path tracer within `tolerance` of the whole
-    /// picture's.
+    /// Expects the path tracer's mean radiance in each layer, within `tolerance` times the mean of
+    /// the whole image.
     void expect_as_path(const Scene& scene, const std::string& method = "photons",
                         double tolerance = 0.01, std::uint32_t bounces = RenderSettings().bounces) {
         RenderSettings settings = settings_of("path", 16, 768);
@@ -167,8 +166,7 @@ TEST_F(FinalGather, FirstBounceNeedsNoPhotons) {
 }
 
 TEST_F(FinalGather, BlotchesOfFewPhotonsVanish) {
-    // So few photons that the map alone shows them one by one; a gather sees them all from
-    // everywhere.
+    // So few photons that the map alone shows each as a blotch. A final gather averages them.
     const Scene scene = room_scene();
     const Image reference = layer(render(scene, settings_of("path", 16, 1024)), "indirect");
     RenderSettings settings = settings_of("footprints", 16, 128);

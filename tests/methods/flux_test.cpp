@@ -1,4 +1,4 @@
-// What becomes of the photons' flux, counted in fixed point.
+// The balance of the photons' flux, summed in fixed point.
 #include "rendering.hpp"
 
 #include "photon/photon_map.hpp"
@@ -160,8 +160,8 @@ TEST_F(Flux, PowerIsSharedAmongLights) {
 }
 
 TEST_F(Flux, PhotonsOfPointSkyAndSunArriveWhereTheyShould) {
-    // The share of a point light's photons that falls on a square of known solid angle: a cube's
-    // face has 4 pi / 6.
+    // The share of a point light's photons that hits a square of known solid angle: a cube's face
+    // has 4 pi / 6.
     Scene scene;
     add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0},
              add_material(scene, lambertian(glm::vec3(0))));
@@ -173,19 +173,19 @@ TEST_F(Flux, PhotonsOfPointSkyAndSunArriveWhereTheyShould) {
         EXPECT_NEAR(traced.absorbed().g / traced.emitted().g, expected, 5 * sigma);
     };
     share(1.0 / 6);
-    // Of the bounding sphere's disc (radius sqrt 2), the square of area 4.
+    // The square (area 4) over the bounding sphere's disc (radius sqrt 2).
     scene.lights = {directional_light({0, 0, -1}, glm::vec3(1))};
     share(4 / (2 * double(pi)));
-    // The sky's irradiance, pi, on both sides of the square, of 4 pi² r².
+    // The sky's irradiance pi on both sides of the square, over 4 pi² r².
     scene.lights.clear();
     scene.sky = glm::vec3(1);
     share(2 * 4 * double(pi) / (4 * double(pi) * double(pi) * 2));
 }
 
 TEST_F(Flux, StoredAtADepthIsWhatArrivesAtThatDepth) {
-    // All surfaces are flat and Lambertian, so that every arrival is stored, unweighted. The same
-    // photons take the same ways whatever the limit: what a larger limit adds is stored at the last
-    // depth, where photons are cut.
+    // All surfaces are flat and Lambertian, so every arrival is stored without a weight. Paths do
+    // not depend on the limit of bounces: a larger limit only adds photons at the last depth,
+    // where paths are truncated.
     const Scene scene = room_scene();
     glm::dvec3 stored_before(0);
     for (std::uint32_t depth = 1; depth <= 4; ++depth) {
@@ -205,7 +205,7 @@ TEST_F(Flux, StoredFluxIsAGeometricSeriesInAClosedBox) {
     for (std::uint32_t depth = 1; depth <= 5; ++depth) {
         const Traced traced = trace(scene, depth);
         const double arriving = std::pow(albedo, depth);
-        // Roulette leaves a photon alive or not.
+        // Roulette ends a photon or keeps it.
         const double sigma =
             std::sqrt(arriving * (1 - arriving) / static_cast<double>(traced.count));
         EXPECT_NEAR(traced.cut().g / traced.emitted().g, arriving, 5 * sigma) << depth;
@@ -213,13 +213,13 @@ TEST_F(Flux, StoredFluxIsAGeometricSeriesInAClosedBox) {
 }
 
 TEST_F(Flux, MirrorsAndGlassStoreNothingAndLoseNothing) {
-    // A closed box of mirrors: all the flux arrives at every depth, none of it is stored.
+    // In a closed box of mirrors all flux arrives at every depth, and none is stored.
     Scene scene = box_scene(mirror());
     scene.lights = {point_light({0.1f, 0.3f, -0.2f}, glm::vec3(1))};
     const Traced mirrors = trace(scene, 10);
     EXPECT_TRUE(mirrors.photons.empty());
     expect_near(mirrors.cut(), mirrors.emitted(), 1e-5);
-    // Glass in a black room: what it scatters arrives at the walls.
+    // Glass in a black room: all light that it scatters reaches the walls.
     Scene room = box_scene(lambertian(glm::vec3(0)));
     add_sphere(room, {0.3f, 0, 0}, 0.5f, 8, false, add_material(room, glass(1.5f, true)));
     room.lights = {point_light({-0.5f, 0, 0}, glm::vec3(1))};
@@ -228,7 +228,7 @@ TEST_F(Flux, MirrorsAndGlassStoreNothingAndLoseNothing) {
 }
 
 TEST_F(Flux, PhotonsKnowWhetherTheyCameByMirrorsAlone) {
-    // Light on a mirror that hangs in a room: some photons are of the caustic, others not.
+    // A mirror in a room: some photons belong to its caustic, others do not.
     Scene scene = room_scene();
     const auto caustics = [&] {
         const Traced traced = trace(scene, 1);

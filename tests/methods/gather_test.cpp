@@ -1,4 +1,4 @@
-// Density estimation over photons made by hand, against the sum in double precision.
+// Density estimation over given photons, against the sum in double precision.
 #include "rendering.hpp"
 
 #include "photon/map_queries.hpp"
@@ -107,7 +107,7 @@ TEST_F(GatherPhotons, PartsOfTheMap) {
                 queries.push_back({{photons.back().x, 0, photons.back().z}});
             }
             const auto whole = gather(photons, queries, 0.3f, gather_budget);
-            // Few steps at a time: put aside and gone on with.
+            // Few iterations per dispatch: queries are interrupted and resumed.
             const auto indirect = gather(photons, queries, 0.3f, 5, true, 0, map_indirect);
             const auto caustic = gather(photons, queries, 0.3f, 5, true, 0, map_caustic);
             for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -179,7 +179,7 @@ TEST_F(GatherPhotons, MillionInOnePointIsTheExactSum) {
     }
     EXPECT_GT(sums[1].caustic.g, 0);
     EXPECT_EQ(sums[2].indirect, glm::dvec3(0));
-    // In one dispatch there is no end to it: that is said, and nothing is added.
+    // One dispatch cannot finish the query: it is counted as unfinished, and adds nothing.
     const Gathered hurried = gather(photons, {queries[0]}, 0.1f, gather_budget, false)[0];
     EXPECT_FALSE(finished_);
     EXPECT_EQ(hurried.indirect, glm::dvec3(0));
@@ -198,8 +198,8 @@ TEST_F(GatherPhotons, RadiusAsLargeAsTheSceneIsTheExactSum) {
 }
 
 TEST_F(GatherPhotons, EdgesOfSurfacesLoseNothing) {
-    // Photons spread evenly: the estimate is the same in the middle, at an edge and in a corner,
-    // where half and three quarters of the disc lie off the surface.
+    // Evenly spread photons give the same estimate in the middle, at an edge and in a corner, where
+    // half and three quarters of the disc lie off the surface.
     constexpr int side = 200;
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < side * side; ++i) {

@@ -1,5 +1,5 @@
-// Density estimation over the k nearest photons: which they are, and the sum over them, against
-// nanoflann and double precision.
+// Density estimation over the k nearest photons: the photons found, against nanoflann, and the sum
+// over them, against double precision.
 #include "rendering.hpp"
 
 #include "photon/map_queries.hpp"
@@ -18,7 +18,7 @@ namespace {
 constexpr float albedo = 0.5f;
 constexpr std::uint32_t ks[] = {1, 2, 3, 150, 499, 500};
 
-/// A photon's squared distance, by its bits, and its place in the map.
+/// The bits of a photon's squared distance, and its index in the map.
 struct Neighbour {
     std::uint32_t bits, index;
     auto operator<=>(const Neighbour&) const = default;
@@ -47,9 +47,9 @@ struct Points {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
                                                  Points, 3, std::uint32_t>;
 
-/// nanoflann's result set: the k first by distance in the query's flat ball and place, of photons
-/// on its surface. That distance is no less than the Euclidean one, by which nanoflann leaves out
-/// what is too far.
+/// A result set for nanoflann: the first k photons on the query's surface, ordered by distance in
+/// its flattened ball, then by index. That distance is never less than the Euclidean one, by which
+/// nanoflann prunes.
 class OnSurface {
 public:
     OnSurface(const std::vector<PhotonRecord>& photons, const Query& query, std::size_t k,
@@ -157,8 +157,8 @@ protected:
         return answers;
     }
 
-    /// The k-th neighbour is nanoflann's, to the bit of its distance, and so are all before it; the
-    /// estimate is the kernel's sum over them.
+    /// Expects nanoflann's k neighbours, the distance of the k-th equal to the bit, and an estimate
+    /// equal to the kernel's sum over them.
     void expect_nearest(const Answers& answers, const std::vector<Query>& queries, std::uint32_t k,
                         float radius) {
         const Points points{answers.photons};
@@ -261,7 +261,7 @@ TEST_F(GatherNearest, OneAndTwoInOnePoint) {
             SCOPED_TRACE(std::to_string(n) + ", " + std::to_string(k));
             const Answers answers = gather(device(), photons, queries, k, 0.1f);
             expect_nearest(answers, queries, k, 0.1f);
-            // A disc needs an extent: that of k photons in the query's own point has none.
+            // A disc needs a radius: k photons at the query's own point have none.
             for (const Answer& answer : answers.of) {
                 EXPECT_TRUE(std::isfinite(answer.sums.indirect.g));
             }
@@ -275,7 +275,7 @@ TEST_F(GatherNearest, SlowMillionInOnePoint) {
         photons.push_back(photon({0.25f, 0, -0.5f}, i % 5 == 0));
     }
     photons.push_back(photon({0.2f, 0, -0.5f}));
-    // In the point, and beside it, where all but one are equally far.
+    // At the point, and beside it, where all but one are equally far.
     const std::vector<Query> queries{{{0.25f, 0, -0.5f}}, {{0.2f, 0, -0.5f}}, {{-0.9f, 0, 0.9f}}};
     for (const std::uint32_t k : {1u, 2u, 500u, 2'000'000u}) {
         SCOPED_TRACE(k);
@@ -283,7 +283,7 @@ TEST_F(GatherNearest, SlowMillionInOnePoint) {
         expect_nearest(answers, queries, k, 0.1f);
         EXPECT_TRUE(std::isfinite(answers.of[0].sums.indirect.g));
     }
-    // In one dispatch there is no end to it: that is said, and nothing is added.
+    // One dispatch cannot finish the query: it is counted as unfinished, and adds nothing.
     const Answers hurried =
         gather(device(), photons, {queries[0]}, 500, 0.1f, gather_budget, false);
     EXPECT_FALSE(hurried.finished);
@@ -291,8 +291,8 @@ TEST_F(GatherNearest, SlowMillionInOnePoint) {
 }
 
 TEST_F(GatherNearest, DenseAndSparseTogether) {
-    // From photon to photon and over twelve orders of magnitude in distance: every depth of the
-    // histograms.
+    // Distances from photon to photon span twelve orders of magnitude: all depths of the
+    // histograms are used.
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 20'000; ++i) {
         const float r = std::pow(10.0f, uniform(-12, 0));
@@ -328,8 +328,7 @@ TEST_F(GatherNearest, InterruptedQueriesAndVariantsGiveTheSameBits) {
 }
 
 TEST_F(GatherNearest, EvenlySpreadPhotonsGiveTheirDensity) {
-    // In the mean whatever k is, and at edges and in corners, where it is the area samples that do
-    // it.
+    // The mean is right for any k, and at edges and in corners too, thanks to the area samples.
     const std::size_t count = 40'000;
     std::vector<PhotonRecord> photons = floor_photons(count);
     for (PhotonRecord& p : photons) {

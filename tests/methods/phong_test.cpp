@@ -1,4 +1,4 @@
-// Surfaces of modified Phong, by every method.
+// Modified Phong surfaces, rendered by every method.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -26,7 +26,7 @@ TEST_P(PhongSurface, ReflectsASunAsTheFormulaSays) {
             const double lobe = (double(exponent) + 2) / (2 * double(pi)) *
                                 std::pow(std::cos(glm::radians(double(off))), double(exponent));
             const double e = 2 * std::sqrt(0.5);
-            // Over the picture's 1e-4 the lobe changes a little.
+            // The lobe varies a little across the image's 1e-4.
             EXPECT_NEAR(l.r, e * (0.25 / pi + 0.5 * lobe), 2e-3 * (1 + lobe))
                 << exponent << ", " << off;
             EXPECT_NEAR(l.g, e * (0.5 / pi + 0.25 * lobe), 2e-3 * (1 + lobe))
@@ -36,7 +36,7 @@ TEST_P(PhongSurface, ReflectsASunAsTheFormulaSays) {
     }
 }
 
-// One lobe that is estimated and one that is followed.
+// An estimated lobe and a followed one.
 TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
     add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
@@ -46,7 +46,7 @@ TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     add_quad(scene, {-0.9f, -0.7f, -0.6f}, {0, 1, 0}, {1, 0, -0.3f},
              add_material(scene, phong(glm::vec3(0.1f), glm::vec3(0.8f), 2000)));
     scene.cameras = {look_at({0.3f, -0.1f, 0.95f}, {0, -0.4f, -1}, 70)};
-    // The path tracer is noisy where it has to find the lamp.
+    // The path tracer is noisy where a path must hit the lamp.
     RenderSettings reference = settings_of("path", 16, 4096);
     reference.seed = 7;
     const RenderResult expected = render(scene, reference);

@@ -62,7 +62,7 @@ inline bool same_bits(const RenderResult& a, const RenderResult& b) {
 #define EXPECT_RELATIVE(actual, expected, tolerance)                                               \
     EXPECT_NEAR(actual, expected, (tolerance)*std::abs(expected))
 
-/// Mean radiance of each layer and channel is the same within a share of it.
+/// Expects the same mean radiance of each layer and channel, within a share of it.
 inline void expect_same_layers(const RenderResult& found, const RenderResult& expected,
                                double tolerance) {
     for (const char* name : {"direct", "indirect", "caustic"}) {
@@ -74,7 +74,7 @@ inline void expect_same_layers(const RenderResult& found, const RenderResult& ex
     }
 }
 
-/// Renders on one device, opened once for each test.
+/// Renders on a device that each test opens once.
 class RenderTest : public DeviceTest {
 protected:
     Device& device() {
@@ -101,7 +101,7 @@ private:
     Device* device_ = nullptr;
 };
 
-/// The same for every method.
+/// Tests that run with every method.
 class EveryMethod : public RenderTest, public ::testing::WithParamInterface<std::string> {};
 
 inline bool is_quick(const std::string& method) {
@@ -114,7 +114,7 @@ inline std::vector<std::string> methods_that(bool quick) {
     return names;
 }
 
-// One method with a photon map and the one without are for quick tests, all others for slow ones.
+// Quick tests run one method with a photon map and the one without; slow tests run all others.
 #define INSTANTIATE_METHODS(suite)                                                                 \
     INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(methods_that(true)),              \
                              [](const auto& method) { return method.param; });                     \

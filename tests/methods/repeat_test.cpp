@@ -1,5 +1,5 @@
-// The same bits from run to run, whatever the device does in parallel and whatever fast paths it
-// has.
+// Images are equal to the bit from run to run, whatever the order of parallel work and whatever
+// fast paths the device has.
 #include "rendering.hpp"
 #include "support/scratch_directory.hpp"
 
@@ -37,8 +37,8 @@ TEST_P(Repeat, FallbacksGiveTheSameBits) {
 }
 
 TEST_P(Repeat, BatchesGiveTheSameBits) {
-    // What a path finds does not depend on what it is traced together with, unless they share
-    // answers. (Photons' passes are another matter: they are independent estimates.)
+    // The result of a path does not depend on the paths in its batch, unless they share answers.
+    // (Passes of photons are different: they are independent estimates.)
     RenderSettings batched = settings();
     batched.query_cell = 0;
     batched.width = 97;
@@ -52,7 +52,7 @@ TEST_P(Repeat, BatchesGiveTheSameBits) {
 }
 
 TEST_P(Repeat, ThreadsGiveTheSameBits) {
-    // The number of lavapipe's threads is fixed when a process starts to use it.
+    // A process fixes the number of lavapipe's threads when it first uses lavapipe.
     const ScratchDirectory directory;
     const std::string photons = std::string(GetParam()) == "path" ? "" : " --photons 20000";
     std::string pictures[2];

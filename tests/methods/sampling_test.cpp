@@ -1,10 +1,10 @@
-// Quasi-random photons against random ones.
+// Quasi-random photons have less noise than random ones.
 #include "rendering.hpp"
 
 namespace argand::testing {
 namespace {
 
-/// Of some renderings that differ in their seed.
+/// Spread of renders that differ only in their seeds.
 struct Spread {
     double mean = 0;     ///< of the indirect layer
     double variance = 0; ///< of a pixel of it, over the mean's square

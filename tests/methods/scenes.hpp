@@ -19,7 +19,7 @@ inline Material lambertian(glm::vec3 albedo) {
     return m;
 }
 
-/// A Lambertian that emits from its front as well.
+/// A Lambertian surface that also emits from its front.
 inline Material emitter(glm::vec3 radiance, glm::vec3 albedo = glm::vec3(0)) {
     Material m = lambertian(albedo);
     m.emission = radiance;
@@ -34,7 +34,7 @@ inline Material mirror(glm::vec3 color = glm::vec3(1)) {
     return m;
 }
 
-/// A smooth dielectric: the border of a solid, or a thin wall.
+/// A smooth dielectric: the boundary of a solid, or a thin wall.
 inline Material glass(float ior, bool solid) {
     Material m;
     m.metallic = 0;
@@ -60,8 +60,7 @@ inline void add_triangle(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c,
     scene.triangle_material.push_back(material);
 }
 
-/// The parallelogram corner + s·across + t·up, s and t in [0, 1]; its front is where across × up
-/// points.
+/// The parallelogram corner + s·across + t·up with s and t in [0, 1]. Its front faces across × up.
 inline void add_quad(Scene& scene, glm::vec3 corner, glm::vec3 across, glm::vec3 up,
                      std::uint32_t material) {
     add_triangle(scene, corner, corner + across, corner + across + up, material);
@@ -73,7 +72,7 @@ inline void add_floor(Scene& scene, float half, float height, std::uint32_t mate
     add_quad(scene, {-half, height, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, material);
 }
 
-/// A box; `inwards`: its faces' fronts are inside.
+/// A box; `inwards`: the fronts of its faces are inside.
 inline void add_box(Scene& scene, glm::vec3 low, glm::vec3 high, std::uint32_t material,
                     bool inwards) {
     const glm::vec3 size = high - low;
@@ -88,7 +87,7 @@ inline void add_box(Scene& scene, glm::vec3 low, glm::vec3 high, std::uint32_t m
     }
 }
 
-/// A sphere of `rings` × 2·`rings` facets, its front outside; `smooth`: with interpolated normals.
+/// A sphere of `rings` × 2·`rings` facets whose fronts are outside; `smooth`: interpolated normals.
 inline void add_sphere(Scene& scene, glm::vec3 center, float radius, int rings, bool smooth,
                        std::uint32_t material) {
     const auto unit = [rings](int ring, int segment) {
@@ -136,7 +135,7 @@ inline Camera look_at(glm::vec3 from, glm::vec3 to, float vertical_degrees = 45)
     return camera;
 }
 
-/// Parallel rays that fill a square of this half height.
+/// A camera with parallel rays that fill a square of this half height.
 inline Camera parallel_rays(glm::vec3 from, glm::vec3 to, float half_height) {
     Camera camera = look_at(from, to);
     camera.kind = CameraKind::orthographic;
@@ -186,8 +185,8 @@ inline Scene box_scene(const Material& walls) {
     return scene;
 }
 
-/// A room of Lambertian walls, all different, with a point light and an unlit block: much indirect
-/// light in little work.
+/// A room of different Lambertian walls with a point light and an unlit block: much indirect light
+/// for little work.
 inline Scene room_scene() {
     Scene scene;
     scene.name = "room";
@@ -205,7 +204,7 @@ inline Scene room_scene() {
     return scene;
 }
 
-/// The same scene, `factor` times as large, with lights that make the same picture of it.
+/// The scene scaled by `factor`, with its lights adjusted so that the image stays the same.
 inline Scene scaled(Scene scene, float factor) {
     for (glm::vec3& p : scene.positions) {
         p *= factor;

@@ -1,4 +1,4 @@
-// Nearby eye paths share the photon map's answers.
+// Nearby eye paths share answers of the photon map.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -24,16 +24,16 @@ TEST_F(Sharing, SlowIsAsNearToWhatTheMapHolds) {
         const Scene scene = load_asset(name);
         for (const char* method : {"photons", "footprints"}) {
             SCOPED_TRACE(std::string(name) + ", " + method);
-            // All ask in cells of their own. (Without cells every other sample does.)
+            // Every path has a cell of its own. (Without cells, every other sample queries.)
             const RenderResult truth = with_cells(scene, method, 1e-6, 64);
             const RenderResult own = with_cells(scene, method, 1e-6);
             const RenderResult shared = with_cells(scene, method, RenderSettings().query_cell);
             EXPECT_TRUE(same_bits(layer(own, "direct"), layer(shared, "direct")));
             EXPECT_FALSE(same_bits(layer(own, "indirect"), layer(shared, "indirect")));
-            // Density estimation is off by ten times as much.
+            // The error of density estimation is ten times as large.
             EXPECT_LT(error(shared, truth), error(own, truth) + 0.004);
             EXPECT_LT(error(shared, truth, ""), error(own, truth, "") + 0.001);
-            // Sharp caustics shared would be off by 1.
+            // Shared answers in sharp caustics would be off by 1.
             EXPECT_LE(error(shared, truth, "caustic"), error(own, truth, "caustic") + 0.1);
             for (const char* of : {"indirect", "caustic"}) {
                 EXPECT_RELATIVE(mean(layer(shared, of)).g, mean(layer(truth, of)).g, 0.02) << of;

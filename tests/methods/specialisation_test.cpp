@@ -1,4 +1,4 @@
-// Only what a scene requires is compiled, run and allocated, and that changes no bit.
+// Argand compiles, runs and allocates only what a scene requires, which changes no bit of an image.
 #include "rendering.hpp"
 #include "shared/geometry_records.h"
 #include "support/recording_device.hpp"
@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Not;
 
-/// Literals by which code is known in a kernel.
+/// Literals that reveal a piece of code in a kernel.
 const std::map<std::string, std::vector<float>> marks = {
     {"eye_vertex",
      {0.04f,        // transmission: bsdf.h, lobe_probabilities
@@ -32,7 +32,7 @@ RenderSettings small(const std::string& method, bool everything = false) {
     return settings;
 }
 
-/// Walls that only scatter diffusely, and one light.
+/// Diffuse walls and one light.
 Scene diffuse_box() { return room_scene(); }
 
 Scene with_glass_sphere(Scene scene) {
@@ -40,7 +40,7 @@ Scene with_glass_sphere(Scene scene) {
     return scene;
 }
 
-/// Something of everything.
+/// A scene that requires every feature.
 Scene mixed_scene() {
     Scene scene = with_glass_sphere(diffuse_box());
     scene.name = "mixed";
@@ -63,7 +63,7 @@ Scene mixed_scene() {
     return scene;
 }
 
-/// By the kernel's name.
+/// Indexed by kernel name.
 using Variants = std::map<std::string, RecordingDevice::Variant>;
 
 class Specialisation : public EveryMethod {
@@ -87,7 +87,7 @@ protected:
         return recording;
     }
 
-    /// Of each kernel that a render dispatches, by its name, one.
+    /// One variant of each kernel that a render dispatches, by name.
     Variants variants(const Scene& scene, bool everything) {
         return by_name(*recorded(scene, everything));
     }
@@ -105,7 +105,7 @@ SpecialisedCode code_of(const RecordingDevice::Variant& variant) {
     return specialised(*variant.first, variant.second);
 }
 
-/// The variant with another value of one constant.
+/// The variant with one constant changed.
 RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const std::string& name,
                                        std::uint32_t value) {
     for (std::size_t i = 0; i < variant.second.size(); ++i) {
@@ -189,7 +189,7 @@ TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
             EXPECT_EQ(code.instructions, bare.instructions) << "light is emitted as before";
             continue;
         }
-        // Refraction is among what has been added, and rough reflection is not.
+        // The added materials include refraction, but no rough reflection.
         EXPECT_GT(code.instructions, bare.instructions + 100) << kernel;
         Plan plan = make_plan(with_glass_sphere(diffuse_box()), {});
         ASSERT_TRUE(plan.required.contains(Feature::refraction));
@@ -201,14 +201,14 @@ TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
             << kernel;
     }
     EXPECT_EQ(seen, GetParam() == "path" ? 1u : marks.size());
-    // The same passes, and none of the buffers that it does not need.
+    // The same passes, without the buffers that the scene does not need.
     EXPECT_EQ(with->stages(), without->stages());
     for (const char* name : {"normals", "light choices"}) {
         EXPECT_EQ(with->bytes_of(name), 0u) << name;
     }
 }
 
-// GGX has no literal of its own: it is known by what it adds.
+// GGX has no literal of its own: the size of the kernel reveals it.
 TEST_P(Specialisation, RoughMetalAddsCode) {
     Scene metal = diffuse_box();
     metal.materials.front().metallic = 1;
@@ -238,7 +238,7 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
     EXPECT_EQ(without->runs_of("photon_emit") > 0, map);
     EXPECT_EQ(without->stages().contains("gather photons"), map);
 
-    // Mirrors alone have nothing to send a shadow ray from.
+    // A scene of mirrors has no surface that casts shadow rays.
     Scene mirrors = box_scene(mirror(glm::vec3(0.5f)));
     mirrors.lights.push_back(point_light({0, 0.5f, 0}, glm::vec3(1)));
     const auto dark = recorded(mirrors, false);
@@ -250,7 +250,7 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
 
 INSTANTIATE_METHODS(Specialisation);
 
-// Without any one of them some kernel is smaller, and none larger.
+// Leaving out any one feature makes some kernel smaller and none larger.
 TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
     RecordingDevice recording(device());
     testing::render(recording, diffuse_box(), small("footprints", true));

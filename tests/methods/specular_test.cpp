@@ -1,4 +1,4 @@
-// Mirrors, thin walls and the borders of glass, followed from the eye by both methods.
+// Mirrors, thin walls and glass boundaries, which both methods follow from the eye.
 #include "rendering.hpp"
 
 namespace argand::testing {
@@ -6,8 +6,8 @@ namespace {
 
 constexpr float ior = 1.5f;
 
-/// Share of unpolarised light that a smooth border reflects (Fresnel); 1 where all is reflected. n:
-/// index of the far side over that of the near side.
+/// Share of unpolarised light that a smooth boundary reflects (Fresnel); 1 for total reflection.
+/// n: refractive index of the far side over that of the near side.
 double fresnel(double cosine, double n) {
     const double sine = std::sqrt(1 - cosine * cosine) / n;
     if (sine >= 1) {
@@ -39,7 +39,7 @@ TEST_P(Specular, SlabOfGlassLetsThroughWhatFresnelSays) {
                  add_material(scene, emitter({1, 2, 3})));
         const double cosine = std::cos(glm::radians(degrees));
         const double r = fresnel(cosine, ior);
-        // One way through, and all the ways that are reflected inside an even number of times.
+        // The straight path, and all paths with an even number of reflections inside.
         const double expected = (1 - r) / (1 + r);
         const glm::vec3 from(3 * std::tan(glm::radians(degrees)), 0, 3);
         const glm::dvec3 l = seen(scene, from, {0, 0, 0});
@@ -52,7 +52,7 @@ TEST_P(Specular, InsideGlassRadianceIsScaledByTheIndexSquared) {
     Scene scene;
     add_box(scene, {-50, -50, -1}, {50, 50, 1}, add_material(scene, glass(ior, true)), false);
     scene.sky = glm::vec3(2);
-    // From both sides comes the same light: whatever is not let in from one is from the other.
+    // Equal light comes from both sides: each side supplies what the other does not transmit.
     for (const float degrees : {0.0f, 20.0f, 38.0f}) {
         const glm::vec3 to(0.5f * std::tan(glm::radians(degrees)), 0, 0.5f);
         EXPECT_RELATIVE(seen(scene, {0, 0, 0}, to).g, 2.0 * ior * ior, 0.02) << degrees;
@@ -122,7 +122,7 @@ TEST_P(Specular, LitFloorInAMirrorIsDirectLight) {
 }
 
 TEST_P(Specular, SunReflectedOntoTheFloorIsACaustic) {
-    // A mirror at 45° throws the sun's horizontal light straight down.
+    // A mirror at 45° reflects the sun's horizontal light straight down.
     Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 3);
     add_quad(scene, {-1, 1, -1}, {0, 2, 2}, {2, 0, 0}, add_material(scene, mirror()));
     scene.lights = {directional_light({0, 0, -1}, glm::vec3(1))};
@@ -130,7 +130,7 @@ TEST_P(Specular, SunReflectedOntoTheFloorIsACaustic) {
     RenderSettings settings = settings_of(GetParam(), 8, 16);
     settings.photons = 200'000;
     const RenderResult result = render(scene, settings);
-    // The path tracer cannot find the sun in a mirror; photons do.
+    // The path tracer cannot find the sun in a mirror; photons can.
     const double expected = GetParam() == "path" ? 0 : 0.5 / pi;
     EXPECT_NEAR(mean(layer(result, "caustic")).g, expected, 0.03 * 0.5 / pi);
     EXPECT_EQ(mean(layer(result, "direct")).g, 0);
