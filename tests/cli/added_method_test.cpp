@@ -87,7 +87,7 @@ TEST_F(AddedMethod, IsInTheHelp) {
     EXPECT_THAT(help.out, HasSubstr("echo, photons, path"));
     EXPECT_THAT(help.out, HasSubstr("a method of this test (none)"));
     EXPECT_THAT(help.out, HasSubstr("Method echo"));
-    EXPECT_THAT(help.out, HasSubstr("--echoes UINT:from 1 to 100 [3]"));
+    EXPECT_THAT(help.out, HasSubstr("--echoes UINT:from 1 to 100=3"));
     EXPECT_THAT(help.out, Not(HasSubstr("--flatness")));
     EXPECT_THAT(run("compare-backends --help").out, HasSubstr("echo,photons,path"));
     EXPECT_THAT(run("tradeoff --help").out, HasSubstr("echo,photons,path"));
