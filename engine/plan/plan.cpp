@@ -101,14 +101,23 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, float follow_r
     return estimated;
 }
 
+Feature feature_of(LightKind kind) {
+    switch (kind) {
+    case LightKind::point:
+        return Feature::point_light;
+    case LightKind::spot:
+        return Feature::spot_light;
+    case LightKind::directional:
+        break;
+    }
+    return Feature::directional_light;
+}
+
 void add_lights(Requirements& requirements, const Scene& scene) {
     std::size_t lights = scene.lights.size();
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
-        requirements.add(light.kind == LightKind::point  ? Feature::point_light
-                         : light.kind == LightKind::spot ? Feature::spot_light
-                                                         : Feature::directional_light,
-                         named("light", light.name, i));
+        requirements.add(feature_of(light.kind), named("light", light.name, i));
     }
     const bool sky = scene.sky && glm::any(glm::greaterThan(*scene.sky, glm::vec3(0)));
     requirements.add(Feature::sky, "the sky", sky);
