@@ -190,6 +190,29 @@ TEST(Documents, TheDesignNamesEveryFolderOfTheEngineAndNoOther) {
     EXPECT_EQ(named, present);
 }
 
+TEST(Documents, EveryMethodIsInTheTableAndDescribed) {
+    static const std::regex entry(R"(\n +METHOD\((\w+)\))");
+    static const std::regex definition(R"(\nMethodInfo (\w+)_method\(\) \{)");
+    const std::string table = read_text(root / "engine/methods/table.cpp");
+    std::set<std::string> entries;
+    for (const std::smatch& match : matches(table, entry)) {
+        entries.insert(match[1]);
+    }
+    std::set<std::string> defined;
+    for (const fs::directory_entry& file : fs::directory_iterator(root / "engine/methods")) {
+        const std::string text = read_text(file.path());
+        for (const std::smatch& match : matches(text, definition)) {
+            defined.insert(match[1]);
+        }
+    }
+    EXPECT_TRUE(entries.contains("path"));
+    EXPECT_EQ(entries, defined);
+    const std::string page = read_text(root / "docs/photon-map.md");
+    for (const std::string& method : entries) {
+        EXPECT_NE(page.find("\n| `" + method + "`"), std::string::npos) << method;
+    }
+}
+
 TEST(Documents, TheIndexOfResultsNamesEveryPage) {
     const std::string index = read_text(root / "docs/results/README.md");
     for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs/results")) {
