@@ -183,9 +183,9 @@ void PairedDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arg
 void PairedDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
                                      const Buffer& counts, std::uint32_t count_index) {
     const auto on = [&](Device& device, Buffer PairedBuffer::*side) {
-        return [&kernel, &device, side, arguments = side_of(arguments, side),
-                count = paired(counts).*side,
-                count_index] { device.dispatch_indirect(kernel, arguments, count, count_index); };
+        return
+            [&kernel, &device, arguments = side_of(arguments, side), count = paired(counts).*side,
+             count_index] { device.dispatch_indirect(kernel, arguments, count, count_index); };
     };
     run(stage_name(kernel), on(a_, &PairedBuffer::a), on(b_, &PairedBuffer::b),
         written_bindings(kernel, arguments));

@@ -126,7 +126,8 @@ void dispatch_indirect(Device& device, const Kernel& kernel, const Buffer& count
 
 /// Allocates a buffer for the elements and uploads them. The buffer has room for at least one
 /// element so that it can be bound.
-template <class T> Buffer upload(Device& device, std::string name, std::span<const T> data) {
+template <class T> // NOLINTNEXTLINE(performance-unnecessary-value-param): moved below
+Buffer upload(Device& device, std::string name, std::span<const T> data) {
     Buffer buffer =
         device.allocate(std::move(name), std::max<std::size_t>(data.size_bytes(), sizeof(T)));
     if (!data.empty()) {

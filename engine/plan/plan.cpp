@@ -131,7 +131,7 @@ void add_lights(Requirements& requirements, const Scene& scene) {
 /// Name of the first light, or "".
 std::string first_light(const Requirements& requirements) {
     for (const Bit& light : light_bits) {
-        if (const std::string by = requirements.by(light.feature); !by.empty()) {
+        if (std::string by = requirements.by(light.feature); !by.empty()) {
             return by;
         }
     }

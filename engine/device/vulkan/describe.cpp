@@ -14,6 +14,7 @@ std::vector<std::string> device_extensions(VkPhysicalDevice physical) {
     check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, properties.data()),
           "listing device extensions");
     std::vector<std::string> names;
+    names.reserve(count);
     for (const VkExtensionProperties& extension : properties) {
         names.emplace_back(extension.extensionName);
     }

@@ -33,7 +33,7 @@ private:
     struct Slots {
         std::uint32_t count = 0;
         std::uint32_t texels = 0;
-        auto operator<=>(const Slots&) const = default;
+        auto operator<=>(const Slots&) const = default; // NOLINT(modernize-use-nullptr)
     };
 
     VkDescriptorSetLayout set_layout(Slots slots);
