@@ -1,5 +1,5 @@
-// CPU devices give each core one contiguous half of a dispatch: taking pixels alternately from the
-// two halves of the picture, in blocks, keeps both busy to the end.
+// CPU devices give each core one contiguous half of a dispatch. Taking blocks of pixels alternately
+// from both halves of the image keeps both cores busy to the end.
 FN uint interleave(uint i, uint count) {
     const uint block = 64u;
     uint blocks = count / block;

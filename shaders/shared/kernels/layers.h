@@ -1,4 +1,4 @@
-// Adding to the layers of a path; needs a buffer `layers`.
+// Adds radiance to a layer of a path. Needs a buffer `layers`.
 FN void add_to_layer(uint slot, uint layer, vec3 radiance) {
     if (layer == layer_direct) {
         layers[slot].direct_r += radiance.x;

@@ -1,4 +1,4 @@
-// A material as the kernel needs it, which is specialised to what the scene's materials have.
+// Loads a material for a kernel that is specialised to the features of the scene's materials.
 FN MaterialRecord load_material(uint index) {
     MaterialRecord m = materials[index];
     m.absent = ~material_features;

@@ -4,7 +4,7 @@ FN uvec2 code(uint i) {
     return wide ? uvec2(codes[2u * i], codes[2u * i + 1u]) : uvec2(0u, codes[i]);
 }
 
-// How far each of the sorted codes is from the next one.
+// Distance of each sorted code from the next one.
 FN void main() {
     uint i = THREAD_INDEX;
     uint count = ELEMENT_COUNT;

@@ -1,5 +1,5 @@
-// The corners of a triangle, all in one point if one of them is not finite: nothing meets such a
-// triangle, whatever a device's min and max make of what is not a number.
+// Corners of a triangle. If one is not finite, all are the same point: no ray hits such a triangle,
+// whatever a device's min and max return for NaN.
 struct Corners {
     vec3 a, b, c;
 };

@@ -1,6 +1,6 @@
 #include "shared/kernels/count.h"
 
-// The 30-bit Morton code of each box's centre in the bounds of all.
+// Computes the 30-bit Morton code of each box's centre within the bounds of all boxes.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= ELEMENT_COUNT) {

@@ -1,16 +1,15 @@
 #include "shared/kernels/accel/forest.h"
 
-// ranks: inclusive sums of what wide_roots wrote.
+// ranks: inclusive sums of the flags written by wide_roots.
 FN bool is_wide(uint node) { return ranks[node] != (node > 0u ? ranks[node - 1u] : 0u); }
 
-// The least power of two that `cells` cells of it reach over the extent, as a biased exponent.
+// Biased exponent of the least power of two such that `cells` cells of that size cover the extent.
 FN uint cell_exponent(real extent) {
     uint bits = float_bits(max(extent, real(0.0)) / real(255.0));
     return clamp((bits + 0x7fffffu) >> 23u, 1u, 254u);
 }
 
-// Writes the four-wide tree's nodes, with their children's boxes rounded outwards to the grid's
-// cells.
+// Writes the nodes of the four-wide tree, with their children's boxes rounded outwards to the grid.
 FN void main() {
     uint node = THREAD_INDEX;
     if (node + 1u >= params.count.number || !is_wide(node)) {
@@ -20,7 +19,7 @@ FN void main() {
     uint children[4];
     uint parts[4];
     children[0] = tree[4u * node].w;
-    children[1] = tree[2u * children[0] + 1u].w; // what follows a left child is its sibling
+    children[1] = tree[2u * children[0] + 1u].w; // a left child escapes to its sibling
     parts[0] = left_part(split, 1u);
     parts[1] = 4u - parts[0];
     uint count = 2u;

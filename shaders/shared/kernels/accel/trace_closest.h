@@ -1,4 +1,4 @@
-// The nearest triangle that each ray meets.
+// Finds the closest triangle that each ray hits.
 FN void load_result(uint ray, OUT(HitRecord) hit) {
     uvec4 record = hits[ray];
     hit = HitRecord(record.x, bits_float(record.y), bits_float(record.z), bits_float(record.w));

@@ -1,6 +1,6 @@
 #include "shared/kernels/accel/finite_triangle.h"
 
-// The bounding box of each triangle.
+// Computes the bounding box of each triangle.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count.number) {

@@ -1,14 +1,14 @@
 #include "shared/kernels/accel/forest.h"
 
-// Whether each inner node of the binary tree becomes one of the four-wide tree. That depends on how
-// many nodes its parent allows it, on all ancestors thus; but after a few of them hardly ever on
-// what the next one is allowed.
+// Decides which inner nodes of the binary tree become nodes of the four-wide tree. That depends on
+// how many nodes the parent allows, and so on all ancestors; but after a few of them the next one
+// hardly ever matters.
 FN void main() {
     uint node = THREAD_INDEX;
     if (node + 1u >= params.count.number) {
         return;
     }
-    // What the node is allowed if the ancestor that the loop is at is allowed 1, 2 or 3.
+    // How many nodes this node is allowed if the current ancestor is allowed 1, 2 or 3.
     uvec3 allowed = uvec3(1u, 2u, 3u);
     uint ancestor = parents[node];
     while (ancestor != lbvh_end && !(allowed.x == allowed.y && allowed.y == allowed.z)) {

@@ -1,5 +1,5 @@
-// Where photons spread as far as their neighbours do, part of them falls off the surface's edge; so
-// the same share must be missing of the area that the samples near there add up to.
+// Mean radius of the photons nearby. Where photons spread as far as their neighbours do, part of
+// them falls off the surface's edge; area samples with the same radius miss the same share.
 FN real radius_nearby(uint i) {
     uint first = i - min(i, area_neighbours);
     uint last = min(i + area_neighbours, counters[counter_stored] - 1u);
@@ -8,19 +8,19 @@ FN real radius_nearby(uint i) {
     for (uint j = first; j <= last; ++j) {
         if ((photons[j].normal & (area_sample_bit | photon_caustic_bit)) == 0u) {
             uvec4 packed = footprints[j];
-            // Of dual axes, the inverse of that of the axes; they are at right angles to the
-            // normal, and not parallel.
+            // The area spanned by the dual axes is the inverse of that of the axes, because the
+            // axes are perpendicular to the normal and not parallel.
             sum += real(1.0) / max(parallelogram_side(unpack_dual(packed.x, packed.y),
                                                       unpack_dual(packed.z, packed.w)),
                                    real(1e-30));
             count += real(1.0);
         }
     }
-    // With no photon near, none misses anything there.
+    // Without photons nearby, no photon is missing.
     return count > real(0.0) ? sum / count : params.scale.radius_max;
 }
 
-// The footprints of area samples, in the order of the map.
+// Computes the footprints of area samples, in the order of the map.
 FN void main() {
     uint k = THREAD_INDEX;
     if (k >= counters[counter_area_places]) {

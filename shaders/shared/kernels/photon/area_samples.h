@@ -1,14 +1,14 @@
 #include "shared/kernels/scene.h"
 
-// Points spread evenly over all surfaces: one at every step along the triangles' summed areas, and
-// within a triangle by a sequence of its own.
+// Distributes points evenly over all surfaces: one at every step along the triangles' summed areas,
+// and within a triangle by a sequence of its own.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || counters[counter_stored_slots] + i >= params.capacity) {
         return;
     }
     uint target = i * params.step;
-    // The last triangle that begins at or before the target.
+    // The last triangle that starts at or before the target.
     uint low = 0u;
     uint high = params.triangle_count;
     while (high - low > 1u) {

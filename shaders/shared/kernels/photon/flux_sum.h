@@ -1,6 +1,6 @@
 CONSTANT uint ledgers_per_thread = 64u;
 
-// 64-bit sums of two words; integers, so that their order does not matter. The addend is signed.
+// Adds a signed value to a 64-bit sum in two words. Integer sums do not depend on the order.
 FN void add(uint index, uint value) {
     if (value == 0u) {
         return;

@@ -1,5 +1,5 @@
-// Between two bounces: the slots that the last one used are taken, and its survivors are the next
-// one's photons.
+// Between two bounces: reserves the slots that the last bounce used, and makes its survivors the
+// photons of the next.
 FN void main() {
     if (params.stored != 0u) {
         counters[counter_stored_slots] =

@@ -1,4 +1,4 @@
-// Half extents of a photon's ellipsoid, as gathering reads it.
+// Half extents of a photon's ellipsoid, computed from the packed record that gathering reads.
 FN vec3 extent(uint i) {
     uvec4 packed = footprints[i];
     vec3 normal = unpack_photon_normal(photons[i].normal);
@@ -8,7 +8,7 @@ FN vec3 extent(uint i) {
     return footprint_extent(footprint_of_duals(duals, normal, params.flatness));
 }
 
-// The box of each leaf, and how far it is from the next one.
+// Computes the box of each leaf, and its distance from the next leaf.
 FN void main() {
     uint leaf = THREAD_INDEX;
     if (leaf >= counters[counter_leaves]) {
@@ -20,7 +20,7 @@ FN void main() {
     vec3 high = vec3(-real(3.0e38));
     for (uint i = first; i <= last; ++i) {
         vec3 p = vec3(photons[i].x, photons[i].y, photons[i].z);
-        // A little more, for what rounding and packing left out.
+        // Slightly enlarged, for rounding and packing.
         vec3 half_size = around_footprints ? extent(i) * real(1.001) : vec3(real(0.0));
         low = min(low, p - half_size);
         high = max(high, p + half_size);

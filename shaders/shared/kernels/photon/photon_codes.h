@@ -1,5 +1,5 @@
-// Along the space-filling curve, caustic photons behind the others. Empty slots get the largest
-// code and end up behind all.
+// Codes order photons along a space-filling curve, with caustic photons behind all others. Empty
+// slots get the largest code and go to the end.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored_slots]) {

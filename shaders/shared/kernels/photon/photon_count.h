@@ -1,8 +1,8 @@
-// No photon's high word is so large.
+// No photon's code has this high word.
 FN bool is_empty(uint i) { return codes[wide ? 2u * i + 1u : i] == no_photon; }
 
-// The sorted codes end in those of empty slots; whoever stands at the border knows the number of
-// photons.
+// The sorted codes end with those of empty slots. The invocation at the first of them knows the
+// number of photons.
 FN void main() {
     uint i = THREAD_INDEX;
     uint slots = counters[counter_stored_slots];

@@ -1,6 +1,6 @@
-// Footprints in the order of the map, as dual axes, and their areas in shares of the scene's. Area
-// samples, whose footprints are their neighbours', are listed for area_footprints: few among many,
-// they would keep all lanes waiting.
+// Packs footprints as dual axes, in the order of the map, and sums their areas relative to the
+// scene's. Area samples, whose footprints come from their neighbours, are listed for
+// area_footprints: few among many, they would stall all lanes.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored]) {

@@ -1,6 +1,7 @@
-// The largest subtree of at most leaf_size photons around each photon, of which the first one is
-// the head: these are the leaves that are left where splits below the threshold are undone
-// (Fabianowski and Dingliana 2009, §6.2), and their number is known before the tree is built.
+// Finds the largest subtree of at most leaf_size photons around each photon; the first photon of a
+// subtree is its head. These subtrees are the leaves that remain when splits below the threshold
+// are undone (Fabianowski and Dingliana 2009, §6.2), so their number is known before the tree is
+// built.
 FN void main() {
     uint i = THREAD_INDEX;
     uint stored = counters[counter_stored];
@@ -13,11 +14,12 @@ FN void main() {
         uint before = first > 0u ? distances[first - 1u] : no_neighbour;
         uint after = distances[last];
         uint split = min(before, after);
-        // Caustic photons and others are parted at the root, and never in one leaf.
+        // The root separates caustic photons from others; no leaf contains both.
         if (split >= kind_distance) {
             break;
         }
-        // The parent reaches as far as neighbours are no farther apart than its two children.
+        // The parent extends as far as the distances between neighbours do not exceed that between
+        // its children.
         uint parent_first = first;
         uint parent_last = last;
         while (parent_last - parent_first < params.leaf_size && distances[parent_last] <= split) {

@@ -1,4 +1,4 @@
-// Photons in the order of their codes.
+// Copies photons into the order of their codes.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i < counters[counter_stored]) {
