@@ -5,7 +5,7 @@
 
 namespace argand {
 
-/// relMSE of a picture of n passes. Widths of estimation shrink as n^(-1/6) (plan/radius.hpp),
+/// relMSE of a picture of n passes. Widths of estimation shrink as n^(-1/6) (photon/radius.hpp),
 /// areas as n^(-1/3), and noise of density estimation grows with one over the area. Squared bias
 /// falls as n^(-2/3) where it goes with the area, on smooth surfaces, and as n^(-1/6) along edges,
 /// in bands as wide as the widths. Together about n^(-1/3), as measured (docs/results/targets.md):

@@ -1,7 +1,7 @@
 #include "methods/bandwidth.hpp"
 
-#include "plan/radius.hpp"
-#include "plan/smoothing.hpp"
+#include "photon/radius.hpp"
+#include "photon/smoothing.hpp"
 #include "shared/footprint.h"
 #include "shared/morton.h"
 #include "shared/photon.h"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "accel/device_scene.hpp"
 #include "methods/render.hpp"
 #include "photon/gather.hpp"
 #include "shared/path_records.h"
+#include "world/device_scene.hpp"
 
 namespace argand {
 

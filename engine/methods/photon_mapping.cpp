@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "methods/bandwidth.hpp"
 #include "photon/photon_map.hpp"
-#include "plan/radius.hpp"
+#include "photon/radius.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "accel/device_scene.hpp"
 #include "accel/lbvh.hpp"
 #include "shared/differential.h"
 #include "shared/footprint_records.h"
 #include "shared/photon_records.h"
+#include "world/device_scene.hpp"
 
 #include <array>
 #include <optional>

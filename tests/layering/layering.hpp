@@ -26,6 +26,7 @@ inline const std::vector<std::vector<std::string>> levels = {
     {"image", "scene", "device"},
     {"plan", "parallel"},
     {"accel"},
+    {"world"},
     {"photon", "imagespace"},
     {"methods"},
     {"autotune", "sweep", "compare"},

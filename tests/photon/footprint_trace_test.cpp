@@ -1,8 +1,8 @@
 // Footprints of photons that the device has traced: how they cover surfaces, and what is estimated
 // from them.
 #include "photon/map_queries.hpp"
-#include "plan/radius.hpp"
-#include "plan/smoothing.hpp"
+#include "photon/radius.hpp"
+#include "photon/smoothing.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
 

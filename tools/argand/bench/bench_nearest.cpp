@@ -2,7 +2,7 @@
 
 #include "nanoflann_peer.hpp"
 #include "photon/nearest.hpp"
-#include "plan/radius.hpp"
+#include "photon/radius.hpp"
 #include "shared/bsdf.h"
 #include "shared/path_records.h"
 #include "shared/photon.h"

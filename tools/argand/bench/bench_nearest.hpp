@@ -1,8 +1,8 @@
 #pragma once
 
-#include "accel/device_scene.hpp"
 #include "bench.hpp"
 #include "photon/photon_map.hpp"
+#include "world/device_scene.hpp"
 
 namespace argand {
 

@@ -2,7 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
-#include "plan/radius.hpp"
+#include "photon/radius.hpp"
 
 #include <algorithm>
 #include <ctime>

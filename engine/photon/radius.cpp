@@ -1,4 +1,4 @@
-#include "plan/radius.hpp"
+#include "photon/radius.hpp"
 
 #include "shared/morton.h"
 

@@ -1,5 +1,5 @@
 // The size of footprints that is learnt from the photons around the picture's queries.
-#include "plan/smoothing.hpp"
+#include "photon/smoothing.hpp"
 
 #include "shared/footprint.h"
 #include "shared/photon.h"

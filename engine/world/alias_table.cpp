@@ -1,4 +1,4 @@
-#include "accel/device_scene.hpp"
+#include "world/device_scene.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "plan/smoothing.hpp"
+#include "photon/smoothing.hpp"
 
 #include "shared/footprint.h"
 #include "shared/photon.h"

@@ -1,4 +1,4 @@
-#include "accel/device_scene.hpp"
+#include "world/device_scene.hpp"
 
 #include "scene/material_record.hpp"
 #include "shared/lights.h"
