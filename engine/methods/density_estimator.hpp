@@ -31,9 +31,9 @@ public:
     /// map may be queried by itself.
     virtual QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const = 0;
 
-    /// Answers the queries of `asking` from the map.
-    virtual void gather(RenderContext& context, const PhotonMap& map, const Bandwidth& bandwidth,
-                        const GatherTarget& target, const Count& asking) const = 0;
+    /// The estimator of one pass, which answers queries of the map. It refers to the context.
+    virtual std::unique_ptr<PhotonEstimator>
+    make(const RenderContext& context, const PhotonMap& map, const Bandwidth& bandwidth) const = 0;
 };
 
 } // namespace argand

@@ -1,232 +1,228 @@
 #include "methods/eye_paths.hpp"
 
 #include "kernels/camera_rays.hpp"
-#include "kernels/estimate_add.hpp"
 #include "kernels/eye_vertex.hpp"
 #include "kernels/film_add.hpp"
-#include "kernels/query_cells.hpp"
-#include "kernels/query_owners.hpp"
 #include "kernels/shadow_add.hpp"
 #include "parallel/compact.hpp"
 #include "shared/geometry_records.h"
-#include "shared/photon_records.h"
-#include "shared/query_record.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace argand {
 
 namespace {
 
-// Paths traced together: enough to fill a device, few enough that a dispatch stays below what a
-// desktop's watchdog allows.
+// Paths traced together: enough to fill a device, few enough that a dispatch ends before a
+// desktop's watchdog does.
 constexpr std::uint64_t slots_on_cpu = 1u << 17;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
-// Asking for light from photons costs more than all the rest. Where answers are not shared, every
-// other sample asks.
+// Queries of the photon map cost more than everything else. Where paths share no estimates, only
+// every other sample has queries.
 constexpr std::uint32_t samples_per_query = 2;
-// Samples of a pixel that are traced together for the sake of sharing answers.
+// Samples of a pixel that are traced together so that they share estimates.
 constexpr std::uint64_t samples_that_share = 8;
-// The film adds a pixel's samples in one loop: well below the 65,535 iterations after which
-// lavapipe ends loops.
+// The film adds a pixel's samples in one loop: well below 65,535 iterations, at which lavapipe ends
+// loops silently.
 constexpr std::uint64_t most_samples_at_once = 1u << 14;
-// Of the paths that ask the photon map, among EyeWorkspace::counts.
-constexpr std::uint32_t asking_count = 2;
-// Vertices recorded before the host asks whether any path is left.
+// Vertices recorded before the host looks whether any path is left.
 constexpr int vertices_between_checks = 4;
 
-QueryShareParams share_params(const EyeWorkspace& w, std::uint32_t asks, double cell,
-                              bool pixel_sized) {
-    QueryShareParams p{.pixel = 3e38f};
-    p.asks = asks;
-    p.cell = cell > 0 ? std::max(static_cast<float>(cell), 1e-30f) : 0;
-    if (pixel_sized) {
-        const double across =
-            glm::length(glm::dvec3(w.view.across_x, w.view.across_y, w.view.across_z));
-        p.pixel = static_cast<float>(across * w.view.origin_share);
-        p.pixel_slope = static_cast<float>(across * (1 - w.view.origin_share));
-        p.eye_x = w.view.origin_x;
-        p.eye_y = w.view.origin_y;
-        p.eye_z = w.view.origin_z;
-    }
-    p.mask = static_cast<std::uint32_t>(w.cells.size() / 4 - 1);
-    return p;
+void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const EyeBatch& batch) {
+    const StageScope stage(device, "camera rays");
+    const std::uint32_t slots = batch.pixels * batch.samples;
+    dispatch(device,
+             kernels::camera_rays{.camera = camera,
+                                  .rays = w.rays,
+                                  .paths = w.paths,
+                                  .layers = w.layers,
+                                  .active_slots = w.active,
+                                  .batch = batch},
+             slots);
+    device.upload(w.counts, 0, std::as_bytes(std::span(&slots, 1)));
 }
 
-/// Has the queries of the active paths answered that ask for `asks`, one for all that share a cell,
-/// and adds to the paths' layers.
-void ask(Device& device, EyeWorkspace& w, const Count& active, std::uint32_t asks,
-         std::uint32_t part, double cell, bool pixel_sized, const Gather& gather) {
-    const QueryShareParams params = share_params(w, asks, cell, pixel_sized);
+/// Shades the vertices that the active paths have reached: leaves shadow rays, queries, and the
+/// rays on which the paths continue.
+void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeBatch& batch,
+           bool photon_map) {
+    const StageScope stage(device, "shade");
+    const Plan& plan = scene.plan;
+    dispatch_indirect(
+        device,
+        kernels::eye_vertex{.scene = scene.scene,
+                            .positions = scene.positions,
+                            .normals = scene.normals,
+                            .triangles = scene.triangles,
+                            .materials = scene.materials,
+                            .lights = scene.lights,
+                            .light_choices = scene.light_choices,
+                            .hits = w.hits,
+                            .active_slots = w.active,
+                            .counts = w.counts,
+                            .rays = w.rays,
+                            .paths = w.paths,
+                            .layers = w.layers,
+                            .shadow_rays = w.shadow_rays,
+                            .shadows = w.shadows,
+                            .queries = w.queries.points,
+                            .alive = w.alive,
+                            .asks = w.queries.asks,
+                            .batch = batch,
+                            .constants = {.photon_map = photon_map,
+                                          .final_gather = w.queries.final_gather,
+                                          .followed_paths = plan.needs(Feature::followed_paths),
+                                          .direct_light = plan.needs(Feature::direct_light),
+                                          .smooth_normals = plan.needs(Feature::smooth_normals),
+                                          .several_lights = plan.needs(Feature::several_lights),
+                                          .light_kinds = plan.light_kinds(),
+                                          .material_features = plan.material_features()}},
+        w.counts);
+}
+
+void add_direct_light(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                      const Count& active) {
     {
-        const StageScope stage(device, "share queries");
-        if (cell > 0) {
-            device.fill(w.cells, no_query);
-            device.fill(w.owners, no_query);
-        }
-        dispatch_indirect(device,
-                          kernels::query_cells{.active_slots = w.active,
-                                               .counts = w.counts,
-                                               .asks = w.asks,
-                                               .queries = w.queries,
-                                               .table = w.cells,
-                                               .owners = w.owners,
-                                               .sources = w.sources,
-                                               .params = params},
-                          w.counts);
-        dispatch_indirect(device,
-                          kernels::query_owners{.active_slots = w.active,
-                                                .counts = w.counts,
-                                                .owners = w.owners,
-                                                .asks = w.asks,
-                                                .sources = w.sources,
-                                                .chosen = w.chosen,
-                                                .params = params},
-                          w.counts);
+        const StageScope stage(device, "trace shadow rays");
+        trace_any(device, scene.bvh, w.traversal, w.shadow_rays, w.active, w.occluded, active);
     }
-    {
-        const StageScope stage(device, "compact");
-        compact(device, w.chosen, w.active, w.asking, w.counts, asking_count, active);
-    }
-    gather(Count(w.counts, asking_count, active.bound), part);
-    const StageScope stage(device, "share queries");
+    const StageScope stage(device, "shade");
     dispatch_indirect(device,
-                      kernels::estimate_add{.active_slots = w.active,
-                                            .counts = w.counts,
-                                            .sources = w.sources,
-                                            .queries = w.queries,
-                                            .estimates = w.estimates,
-                                            .layers = w.layers},
+                      kernels::shadow_add{.active_slots = w.active,
+                                          .counts = w.counts,
+                                          .occluded = w.occluded,
+                                          .shadows = w.shadows,
+                                          .layers = w.layers},
                       w.counts);
+}
+
+/// Makes the paths that continue the active ones.
+void advance(Device& device, EyeWorkspace& w, const Count& active) {
+    const StageScope stage(device, "compact");
+    compact(device, w.alive, w.active, w.next_active, w.counts, 1, active);
+    device.copy(BufferView(w.counts, 4, 4), BufferView(w.counts, 0, 4));
+    std::swap(w.active, w.next_active);
 }
 
 /// Traces the paths of a batch to their end.
 void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera,
-                 const EyeBatch& batch, const Gather& gather) {
-    const Plan& plan = scene.plan;
+                 const EyeBatch& batch, const PhotonLookup* lookup) {
     const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
     device.fill(w.traversal.unfinished, 0);
-    {
-        const StageScope stage(device, "camera rays");
-        dispatch(device,
-                 kernels::camera_rays{.camera = camera,
-                                      .rays = w.rays,
-                                      .paths = w.paths,
-                                      .layers = w.layers,
-                                      .active_slots = w.active,
-                                      .batch = batch},
-                 slots);
-        const auto count = static_cast<std::uint32_t>(slots);
-        device.upload(w.counts, 0, std::as_bytes(std::span(&count, 1)));
-    }
+    start_paths(device, w, camera, batch);
     for (int vertex = 1;; ++vertex) {
         const Count active(w.counts, 0, slots);
         {
             const StageScope stage(device, "trace eye rays");
             trace_closest(device, scene.bvh, w.traversal, w.rays, w.active, w.hits, active);
         }
-        {
-            const StageScope stage(device, "shade");
-            dispatch_indirect(
-                device,
-                kernels::eye_vertex{
-                    .scene = scene.scene,
-                    .positions = scene.positions,
-                    .normals = scene.normals,
-                    .triangles = scene.triangles,
-                    .materials = scene.materials,
-                    .lights = scene.lights,
-                    .light_choices = scene.light_choices,
-                    .hits = w.hits,
-                    .active_slots = w.active,
-                    .counts = w.counts,
-                    .rays = w.rays,
-                    .paths = w.paths,
-                    .layers = w.layers,
-                    .shadow_rays = w.shadow_rays,
-                    .shadows = w.shadows,
-                    .queries = w.queries,
-                    .alive = w.alive,
-                    .asks = w.asks,
-                    .batch = batch,
-                    .constants = {.photon_map = gather != nullptr,
-                                  .final_gather = w.final_gather,
-                                  .followed_paths = plan.needs(Feature::followed_paths),
-                                  .direct_light = plan.needs(Feature::direct_light),
-                                  .smooth_normals = plan.needs(Feature::smooth_normals),
-                                  .several_lights = plan.needs(Feature::several_lights),
-                                  .light_kinds = plan.light_kinds(),
-                                  .material_features = plan.material_features()}},
-                w.counts);
+        shade(device, scene, w, batch, lookup != nullptr);
+        if (scene.plan.needs(Feature::direct_light)) {
+            add_direct_light(device, scene, w, active);
         }
-        if (plan.needs(Feature::direct_light)) {
-            {
-                const StageScope stage(device, "trace shadow rays");
-                trace_any(device, scene.bvh, w.traversal, w.shadow_rays, w.active, w.occluded,
-                          active);
-            }
-            const StageScope stage(device, "shade");
-            dispatch_indirect(device,
-                              kernels::shadow_add{.active_slots = w.active,
-                                                  .counts = w.counts,
-                                                  .occluded = w.occluded,
-                                                  .shadows = w.shadows,
-                                                  .layers = w.layers},
-                              w.counts);
+        if (lookup != nullptr) {
+            answer_queries(device, scene.plan, w.queries,
+                           {.slots = w.active,
+                            .counts = w.counts,
+                            .most = slots,
+                            .layers = w.layers,
+                            .traversal = w.traversal},
+                           *lookup);
         }
-        if (gather) {
-            const QuerySharing& sharing = w.sharing;
-            const double caustic_cell =
-                sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0;
-            const bool apart = sharing.caustics_apart && !w.final_gather;
-            ask(device, w, active, asks_map, apart ? map_indirect : map_whole, sharing.cell,
-                sharing.pixel_sized, gather);
-            if (apart) {
-                ask(device, w, active, asks_map, map_caustic, caustic_cell, true, gather);
-            } else if (w.final_gather && plan.needs(Feature::caustics)) {
-                const std::uint32_t part = sharing.caustics_apart ? map_caustic : map_whole;
-                ask(device, w, active, asks_caustics, part, caustic_cell, true, gather);
-            }
-        }
-        {
-            const StageScope stage(device, "compact");
-            compact(device, w.alive, w.active, w.next_active, w.counts, 1, active);
-            device.copy(BufferView(w.counts, 4, 4), BufferView(w.counts, 0, 4));
-            std::swap(w.active, w.next_active);
-        }
+        advance(device, w, active);
         device.submit();
-        if (vertex % vertices_between_checks == 0 || (gather && vertex == 1)) {
-            if (download<std::uint32_t>(device, w.counts, 1)[0] == 0) {
-                break;
-            }
+        const bool looks =
+            vertex % vertices_between_checks == 0 || (lookup != nullptr && vertex == 1);
+        if (looks && download<std::uint32_t>(device, w.counts, 1)[0] == 0) {
+            break;
         }
     }
 }
 
-/// One batch. The film is left alone if a ray or query ran out of iterations: the caller then
-/// repeats it with care.
+/// Traces one batch. The film stays as it was if a ray or query ran out of iterations: the caller
+/// then repeats the batch with `careful` set.
 void trace_batch(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeBatch& batch,
-                 const Gather& gather) {
-    trace_paths(device, scene, w, w.camera, batch, gather);
+                 const PhotonLookup* lookup) {
+    trace_paths(device, scene, w, w.camera, batch, lookup);
     const StageScope stage(device, "film");
     dispatch(device,
              kernels::film_add{.layers = w.layers,
                                .unfinished = w.traversal.unfinished,
-                               .film = w.film[batch.first_pixel / w.film_pixels],
+                               .film = w.film.parts[batch.first_pixel / w.film.pixels_per_part],
                                .batch = batch},
              batch.pixels);
 }
+
+/// How a pass is divided into batches.
+struct Batching {
+    std::uint64_t samples, pixels; ///< of a batch, at most
+};
+
+Batching batching(const EyeWorkspace& w, const EyePass& pass, bool photon_map) {
+    const std::uint64_t least = photon_map ? std::min(samples_that_share, w.slots) : 1;
+    Batching b{};
+    b.samples = std::min({std::max(w.slots / w.film.pixels(), least), std::uint64_t(pass.samples),
+                          most_samples_at_once});
+    b.pixels = std::min(w.film.pixels(), w.slots / b.samples);
+    return b;
+}
+
+/// The batch that begins at a sample of the pass and at a pixel. It ends with its part of the film.
+EyeBatch make_batch(const EyeWorkspace& w, const EyePass& pass, const Batching& most,
+                    std::uint64_t sample, std::uint64_t pixel) {
+    const std::uint64_t film_end = (pixel / w.film.pixels_per_part + 1) * w.film.pixels_per_part;
+    EyeBatch batch{};
+    batch.seed = pass.seed;
+    batch.first_pixel = static_cast<std::uint32_t>(pixel);
+    batch.pixels = static_cast<std::uint32_t>(
+        std::min({most.pixels, w.film.pixels() - pixel, film_end - pixel}));
+    batch.first_film_pixel = static_cast<std::uint32_t>(film_end - w.film.pixels_per_part);
+    batch.first_sample = pass.first_sample + static_cast<std::uint32_t>(sample);
+    batch.samples =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(most.samples, pass.samples - sample));
+    batch.width = static_cast<std::uint32_t>(w.film.width);
+    batch.height = static_cast<std::uint32_t>(w.film.height);
+    batch.bounces = pass.bounces;
+    batch.shares_queries = w.queries.sharing.cell > 0 ? 1 : 0;
+    // A final gather's noise is that of the scattered directions, so all samples have queries.
+    batch.query_step = w.queries.final_gather ? 1 : samples_per_query;
+    const std::uint32_t asking = (batch.samples + batch.query_step - 1) / batch.query_step;
+    batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(asking);
+    return batch;
+}
+
+/// Collects query points instead of estimating radiance at them.
+class QueryCollector final : public PhotonEstimator {
+public:
+    QueryCollector(Device& device, std::size_t slots) : device_(device), slots_(slots) {}
+
+    void estimate(const PhotonMap&, const PhotonQueries& queries) override {
+        const auto count =
+            download<std::uint32_t>(device_, queries.count.buffer, 1, queries.count.index)[0];
+        const auto records = download<QueryRecord>(device_, queries.points, slots_);
+        for (const std::uint32_t slot : download<std::uint32_t>(device_, queries.slots, count)) {
+            const QueryRecord& record = records[slot];
+            if ((record.flags & query_caustics) == 0) {
+                points.emplace_back(record.x, record.y, record.z);
+            }
+        }
+    }
+
+    std::vector<glm::vec3> points;
+
+private:
+    Device& device_;
+    std::size_t slots_;
+};
 
 } // namespace
 
 EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
                                 const CameraRecord& camera) {
-    const std::uint64_t pixels =
-        std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
     EyeWorkspace w;
+    w.film = make_film(device, settings.width, settings.height);
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
-                       pixels * settings.samples);
+                       w.film.pixels() * settings.samples);
     w.slots = std::min(w.slots, device.info().limits.storage_range /
                                     sizeof(GatherRecord)); // the largest per slot
     const auto per_slot = [&](const char* name, std::uint64_t bytes) {
@@ -236,10 +232,7 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     const auto per_slot_if = [&](bool needed, const char* name, std::uint64_t bytes) {
         return device.allocate(name, (needed ? w.slots : 1) * bytes);
     };
-    const bool queries = plan.needs(Feature::photon_map);
     const bool direct = plan.needs(Feature::direct_light);
-    w.final_gather = plan.needs(Feature::final_gather);
-    w.view = camera;
     w.camera = upload<CameraRecord>(device, "camera", std::span(&camera, 1));
     w.rays = per_slot("eye rays", sizeof(RayRecord));
     w.hits = per_slot("eye hits", sizeof(HitRecord));
@@ -251,82 +244,31 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     w.shadow_rays = per_slot_if(direct, "shadow rays", sizeof(RayRecord));
     w.shadows = per_slot_if(direct, "shadow contributions", sizeof(ShadowRecord));
     w.occluded = per_slot_if(direct, "shadow ray flags", 4);
-    w.queries = per_slot_if(queries, "photon map queries", sizeof(QueryRecord));
-    w.asks = per_slot_if(queries, "eye path flags", 4);
-    if (queries) {
-        w.chosen = per_slot("eye path flags", 4);
-        w.asking = per_slot("asking eye paths", 4);
-        w.estimates = per_slot("photon map answers", sizeof(EstimateRecord));
-        w.partial = per_slot("unfinished query sums", sizeof(GatherRecord));
-        w.sources = per_slot("photon map answers' slots", 4);
-        const std::uint64_t entries = std::bit_ceil(w.slots + 1);
-        w.cells = device.allocate("cells of queries", entries * 4);
-        w.owners = device.allocate("owners of cells", entries * 4);
-    }
     w.counts = device.allocate("eye path counts", 16);
+    w.queries = make_eye_queries(device, plan, w.slots, camera);
     w.traversal = make_traversal(device, w.slots);
-    w.film_pixels = device.info().limits.storage_range / sizeof(FilmRecord);
-    for (std::uint64_t first = 0; first < pixels; first += w.film_pixels) {
-        w.film.push_back(
-            device.allocate("film", std::min(w.film_pixels, pixels - first) * sizeof(FilmRecord)));
-        device.fill(w.film.back(), 0);
-    }
     return w;
 }
 
-GatherTarget query_target(const EyeWorkspace& w, std::uint32_t part) {
-    return {.slots = w.asking,
-            .counts = w.counts,
-            .queries = w.queries,
-            .estimates = w.estimates,
-            .partial = w.partial,
-            .part = part,
-            .final_gather = w.final_gather};
-}
-
-bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w,
-                     const RenderSettings& settings, std::uint32_t first_sample,
-                     std::uint32_t samples, const Gather& gather, const OnProgress& progress) {
-    const std::uint64_t pixels =
-        std::uint64_t(settings.width) * static_cast<std::uint64_t>(settings.height);
-    const std::uint64_t least_at_once = gather ? std::min(samples_that_share, w.slots) : 1;
-    const std::uint64_t samples_at_once = std::min(
-        {std::max(w.slots / pixels, least_at_once), std::uint64_t(samples), most_samples_at_once});
-    const std::uint64_t pixels_at_once = std::min(pixels, w.slots / samples_at_once);
-    const double batches = static_cast<double>(pixels) * samples;
+bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyePass& pass,
+                     const PhotonLookup* lookup, const OnProgress& progress) {
+    const Batching most = batching(w, pass, lookup != nullptr);
+    const double work = static_cast<double>(w.film.pixels()) * pass.samples;
     double done = 0;
     bool interrupted = false;
-    for (std::uint64_t s = 0; s < samples; s += samples_at_once) {
-        std::uint64_t p = 0;
-        while (p < pixels) {
-            EyeBatch batch{};
-            batch.seed = settings.seed;
-            batch.first_pixel = static_cast<std::uint32_t>(p);
-            const std::uint64_t film_end = (p / w.film_pixels + 1) * w.film_pixels;
-            batch.pixels =
-                static_cast<std::uint32_t>(std::min({pixels_at_once, pixels - p, film_end - p}));
-            batch.first_film_pixel = static_cast<std::uint32_t>(film_end - w.film_pixels);
-            p += batch.pixels;
-            batch.first_sample = first_sample + static_cast<std::uint32_t>(s);
-            batch.samples =
-                static_cast<std::uint32_t>(std::min<std::uint64_t>(samples_at_once, samples - s));
-            batch.width = static_cast<std::uint32_t>(settings.width);
-            batch.height = static_cast<std::uint32_t>(settings.height);
-            batch.bounces = settings.bounces;
-            batch.shares_queries = gather && w.sharing.cell > 0 ? 1 : 0;
-            // A final gather's noise is that of the scattered directions: all of them ask.
-            batch.query_step = w.final_gather ? 1 : samples_per_query;
-            const std::uint32_t asking = (batch.samples + batch.query_step - 1) / batch.query_step;
-            batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(asking);
-            trace_batch(device, scene, w, batch, gather);
+    for (std::uint64_t sample = 0; sample < pass.samples; sample += most.samples) {
+        for (std::uint64_t pixel = 0; pixel < w.film.pixels();) {
+            const EyeBatch batch = make_batch(w, pass, most, sample, pixel);
+            pixel += batch.pixels;
+            trace_batch(device, scene, w, batch, lookup);
             if (!w.traversal.careful &&
                 download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
                 w.traversal.careful = true;
-                trace_batch(device, scene, w, batch, gather);
+                trace_batch(device, scene, w, batch, lookup);
             }
             done += static_cast<double>(batch.pixels) * batch.samples;
-            // Not in the middle: all pixels hold the same samples.
-            interrupted = !progress(done / batches) || interrupted;
+            // Goes on to the last pixel, so that all pixels hold the same samples.
+            interrupted = !progress(done / work) || interrupted;
         }
         if (interrupted) {
             return false;
@@ -352,51 +294,11 @@ std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, 
     const CameraRecord record =
         camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
     const Buffer small_picture = upload<CameraRecord>(device, "camera", std::span(&record, 1));
-    std::vector<glm::vec3> positions;
-    trace_paths(device, scene, w, small_picture, batch, [&](const Count& asking, std::uint32_t) {
-        const auto count = download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
-        const std::vector<QueryRecord> queries =
-            download<QueryRecord>(device, w.queries, batch.pixels);
-        for (const std::uint32_t slot : download<std::uint32_t>(device, w.asking, count)) {
-            if ((queries[slot].flags & query_caustics) == 0) {
-                positions.emplace_back(queries[slot].x, queries[slot].y, queries[slot].z);
-            }
-        }
-    });
-    return positions;
-}
-
-std::vector<Layer> resolve_film(Device& device, const EyeWorkspace& w,
-                                const RenderSettings& settings, RenderStatistics& statistics) {
-    const std::size_t pixels =
-        std::size_t(settings.width) * static_cast<std::size_t>(settings.height);
-    std::vector<FilmRecord> film;
-    film.reserve(pixels);
-    for (const Buffer& part : w.film) {
-        const std::size_t count = std::min<std::size_t>(w.film_pixels, pixels - film.size());
-        const std::vector<FilmRecord> records = download<FilmRecord>(device, part, count);
-        film.insert(film.end(), records.begin(), records.end());
-    }
-    std::vector<Layer> layers{{"", {}}, {"direct", {}}, {"indirect", {}}, {"caustic", {}}};
-    for (Layer& layer : layers) {
-        layer.image.width = settings.width;
-        layer.image.height = settings.height;
-        layer.image.pixels.resize(pixels);
-    }
-    statistics.non_finite = 0;
-    statistics.samples = pixels > 0 ? film[0].samples : 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const FilmRecord& f = film[i];
-        const std::uint32_t finite = f.samples - f.non_finite;
-        const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
-        layers[1].image.pixels[i] = glm::vec3(f.direct_r, f.direct_g, f.direct_b) * scale;
-        layers[2].image.pixels[i] = glm::vec3(f.indirect_r, f.indirect_g, f.indirect_b) * scale;
-        layers[3].image.pixels[i] = glm::vec3(f.caustic_r, f.caustic_g, f.caustic_b) * scale;
-        layers[0].image.pixels[i] =
-            layers[1].image.pixels[i] + layers[2].image.pixels[i] + layers[3].image.pixels[i];
-        statistics.non_finite += f.non_finite;
-    }
-    return layers;
+    QueryCollector collector(device, batch.pixels);
+    const PhotonMap no_map;
+    const PhotonLookup lookup{.map = no_map, .estimator = collector};
+    trace_paths(device, scene, w, small_picture, batch, &lookup);
+    return std::move(collector.points);
 }
 
 } // namespace argand

@@ -19,10 +19,9 @@ public:
                 .sharp_caustics = sharp};
     }
 
-    void gather(RenderContext& c, const PhotonMap& map, const Bandwidth& bandwidth,
-                const GatherTarget& target, const Count& asking) const override {
-        gather_photons(c.device, c.on_device, map, target, c.eye.traversal, bandwidth.radii,
-                       asking);
+    std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
+                                          const Bandwidth& bandwidth) const override {
+        return std::make_unique<RadiusEstimator>(c.device, c.on_device, bandwidth.radii);
     }
 };
 

@@ -23,10 +23,10 @@ public:
                 .sharp_caustics = bandwidth.radii.caustic < bandwidth.radii.indirect};
     }
 
-    void gather(RenderContext& c, const PhotonMap& map, const Bandwidth&,
-                const GatherTarget& target, const Count& asking) const override {
-        gather_footprints(c.device, c.on_device, map, target, c.eye.traversal,
-                          c.settings.footprints.uniform_kernel, asking);
+    std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
+                                          const Bandwidth&) const override {
+        return std::make_unique<FootprintEstimator>(c.device, c.on_device,
+                                                    c.settings.footprints.uniform_kernel);
     }
 };
 

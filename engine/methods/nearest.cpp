@@ -27,14 +27,15 @@ public:
         return {.cell = cell, .pixel_sized = bandwidth.caustics};
     }
 
-    void gather(RenderContext& c, const PhotonMap& map, const Bandwidth& bandwidth,
-                const GatherTarget& target, const Count& asking) const override {
-        gather_nearest(
-            c.device, c.on_device, map, target, c.eye.traversal,
-            {.neighbours = bandwidth.neighbours,
-             .radius = bandwidth.radii.indirect,
-             .samples_per_area = map.area_samples / std::max(c.on_device.surface_area, 1e-30)},
-            asking);
+    std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap& map,
+                                          const Bandwidth& bandwidth) const override {
+        const double samples_per_area =
+            map.area_samples / std::max(c.on_device.surface_area, 1e-30);
+        return std::make_unique<NearestEstimator>(
+            c.device, c.on_device,
+            NearestSettings{.neighbours = bandwidth.neighbours,
+                            .radius = bandwidth.radii.indirect,
+                            .samples_per_area = samples_per_area});
     }
 };
 

@@ -12,12 +12,12 @@ public:
     explicit PathTracing(RenderContext& context) : c_(context) {}
 
     bool pass(const Pass& pass, const OnPart& on_part) override {
-        RenderSettings settings = c_.settings;
-        settings.seed = pass.numbers.seed;
-        const auto first_sample =
-            static_cast<std::uint32_t>(pass.numbers.index * c_.settings.samples);
-        return trace_eye_paths(c_.device, c_.on_device, c_.eye, settings, first_sample,
-                               c_.settings.samples, nullptr, on_part);
+        const EyePass eye{.seed = pass.numbers.seed,
+                          .first_sample =
+                              static_cast<std::uint32_t>(pass.numbers.index * c_.settings.samples),
+                          .samples = c_.settings.samples,
+                          .bounces = c_.settings.bounces};
+        return trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, nullptr, on_part);
     }
 
     bool has_numbers(std::uint64_t index) const override {

@@ -179,17 +179,17 @@ bool PhotonMapping::pass(const Pass& pass, const OnPart& on_part) {
     stored_ = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
     first_.reset();
     const PhotonMap map = build_map(pass.numbers);
-    c_.eye.sharing = estimator_->sharing(
+    c_.eye.queries.sharing = estimator_->sharing(
         bandwidth_, c_.settings.query_cell * estimator_->typical_radius(bandwidth_),
         c_.settings.query_cell > 0 || c_.settings.final_gather);
-    const Gather gather = [&](const Count& asking, std::uint32_t part) {
-        estimator_->gather(c_, map, bandwidth_, query_target(c_.eye, part), asking);
-    };
-    RenderSettings settings = c_.settings;
-    settings.seed = pass.numbers.seed;
-    const auto first_sample = static_cast<std::uint32_t>(pass.numbers.index * split_.samples);
-    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, settings, first_sample,
-                                          split_.samples, gather, on_part);
+    const std::unique_ptr<PhotonEstimator> estimator = estimator_->make(c_, map, bandwidth_);
+    const PhotonLookup lookup{.map = map, .estimator = *estimator};
+    const EyePass eye{.seed = pass.numbers.seed,
+                      .first_sample =
+                          static_cast<std::uint32_t>(pass.numbers.index * split_.samples),
+                      .samples = split_.samples,
+                      .bounces = c_.settings.bounces};
+    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
     ++passes_done_;
     photons_emitted_ += emission_of(pass.numbers).count;
     photons_stored_ += stored_.photons;

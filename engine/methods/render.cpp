@@ -28,7 +28,7 @@ void run_passes(Method& method, const RenderContext& context, Budget& budget,
                 const Listeners& listeners, RenderStatistics& statistics) {
     const auto plan_next = [&] {
         const auto layers = [&] {
-            return resolve_film(context.device, context.eye, context.settings, statistics);
+            return resolve_film(context.device, context.eye.film, statistics);
         };
         return next_pass(listeners, budget, {statistics.passes, layers}, method.passes());
     };
@@ -67,7 +67,7 @@ RenderResult render(Device& device, const Scene& scene, const RenderSettings& se
     RenderResult result;
     run_passes(*method, context, budget, {progress, on_pass}, result.statistics);
     method->report(result.statistics);
-    result.layers = resolve_film(device, context.eye, settings, result.statistics);
+    result.layers = resolve_film(device, context.eye.film, result.statistics);
     return result;
 }
 

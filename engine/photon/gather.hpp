@@ -1,43 +1,52 @@
 #pragma once
 
-#include "photon/photon_map.hpp"
+#include "photon/estimator.hpp"
 
 namespace argand {
 
-/// Iterations of a query in one dispatch: well below the 65,535 after which lavapipe ends loops
-/// silently.
+/// Iterations of a query in one dispatch: well below 65,535, at which lavapipe ends loops silently.
 inline constexpr std::uint32_t gather_budget = 16384;
 
-/// What a gather reads and writes, per slot of an eye path.
-struct GatherTarget {
-    Buffer slots, counts; ///< slots that ask, and the buffer that holds their number
-    Buffer queries;       ///< QueryRecord per slot
-    Buffer estimates; ///< EstimateRecord: what is scattered towards the eye, without the throughput
-    Buffer partial; ///< GatherRecord: queries between two dispatches (gather_nearest does without)
-    std::uint32_t part = map_whole; ///< map_*: the photons that are looked for
-    bool final_gather = false; ///< queries limit the photons' scatterings (shared/query_record.h)
-};
-
-/// Radii of density estimation, in the scene's units; caustics are sharp, and have one of their
-/// own, at most the other.
+/// Radii of density estimation, in the scene's units. Caustics are sharp, and have a radius of
+/// their own, at most the other.
 struct GatherRadii {
     double indirect = 0;
     double caustic = 0;
 };
 
-/// Estimates for every query the radiance that estimated lobes scatter towards the eye: density
-/// estimation with the Epanechnikov kernel over the photons within the radii, which are the same
-/// for all queries (as in each pass of Hachisuka et al. 2008). Queries that take more iterations
-/// than one dispatch allows are counted in traversal.unfinished; if traversal.careful is set, gone
-/// on with until they are done.
-void gather_photons(Device& device, const DeviceScene& scene, const PhotonMap& map,
-                    const GatherTarget& target, Traversal& traversal, const GatherRadii& radii,
-                    const Count& asking, std::uint32_t budget = gather_budget);
+/// Density estimation with Epanechnikov's kernel over all photons within the radii, which are the
+/// same for all queries (as in each pass of Hachisuka et al. 2008).
+class RadiusEstimator final : public PhotonEstimator {
+public:
+    RadiusEstimator(Device& device, const DeviceScene& scene, const GatherRadii& radii,
+                    std::uint32_t budget = gather_budget)
+        : device_(device), scene_(scene), radii_(radii), budget_(budget) {}
 
-/// As gather_photons, over the footprints that reach each query (Fabianowski and Dingliana 2009,
-/// eq. 1): the map must have some. uniform_kernel: instead of Epanechnikov's.
-void gather_footprints(Device& device, const DeviceScene& scene, const PhotonMap& map,
-                       const GatherTarget& target, Traversal& traversal, bool uniform_kernel,
-                       const Count& asking, std::uint32_t budget = gather_budget);
+    void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
+
+private:
+    Device& device_;
+    const DeviceScene& scene_;
+    GatherRadii radii_;
+    std::uint32_t budget_;
+};
+
+/// Density estimation over the footprints that contain the query point (Fabianowski and Dingliana
+/// 2009, eq. 1). The map must have footprints.
+class FootprintEstimator final : public PhotonEstimator {
+public:
+    /// uniform_kernel: instead of Epanechnikov's.
+    FootprintEstimator(Device& device, const DeviceScene& scene, bool uniform_kernel = false,
+                       std::uint32_t budget = gather_budget)
+        : device_(device), scene_(scene), uniform_kernel_(uniform_kernel), budget_(budget) {}
+
+    void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
+
+private:
+    Device& device_;
+    const DeviceScene& scene_;
+    bool uniform_kernel_;
+    std::uint32_t budget_;
+};
 
 } // namespace argand

@@ -44,7 +44,6 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
     w.offsets = device.allocate("photon differentials, stored",
                                 w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
-    w.sorted = device.allocate("photons, sorted", capacity * sizeof(PhotonRecord));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
@@ -153,6 +152,154 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
            w.traversal.careful;
 }
 
+/// Memory that nobody else holds: `last`, or if its map is still in use or it is too small, new
+/// memory, which becomes `last`.
+Buffer unshared(Device& device, Buffer& last, const char* name, std::uint64_t bytes) {
+    if (last.size() < bytes || last.storage().use_count() > 1) {
+        last = Buffer(); // freed first, for it may be large
+        last = device.allocate(name, bytes);
+    }
+    return last;
+}
+
+/// Appends samples of the surfaces' area to the photons. Returns their number, 0 if there is too
+/// little room.
+std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                               const StoredPhotons& stored, const PhotonMapSettings& settings) {
+    // Drops the samples of a map that was built before.
+    const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
+    device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
+    // A ninth of the samples wanted is enough. A single one cannot be: the step between two samples
+    // has 32 bits.
+    const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
+    if (fitting <= 1 || 9 * fitting < settings.area_samples) {
+        return 0;
+    }
+    const auto samples = static_cast<std::uint32_t>(fitting);
+    const StageScope stage(device, "sample areas");
+    const auto step = static_cast<std::uint32_t>((1ull << 32) / samples);
+    dispatch(device,
+             kernels::area_samples{
+                 .scene = scene.scene,
+                 .positions = scene.positions,
+                 .normals = scene.normals,
+                 .triangles = scene.triangles,
+                 .materials = scene.materials,
+                 .lights = scene.lights,
+                 .light_choices = scene.light_choices,
+                 .area_sums = scene.area_sums,
+                 .counters = w.counters,
+                 .photons = w.photons,
+                 .params = {.seed = settings.seed,
+                            .count = samples,
+                            .step = step,
+                            .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
+                            .triangle_count = scene.record.triangle_count,
+                            .capacity = static_cast<std::uint32_t>(w.capacity)}},
+             samples);
+    const auto slots = static_cast<std::uint32_t>(stored.slots + samples);
+    device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&slots, 1)));
+    return samples;
+}
+
+/// Sorts the places of the records by code into w.order, and counts the records.
+void sort_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w, bool wide_codes) {
+    const Count slots(w.counters, counter_stored_slots, w.capacity);
+    dispatch_indirect(device,
+                      kernels::photon_codes{.scene = scene.scene,
+                                            .counters = w.counters,
+                                            .photons = w.photons,
+                                            .codes = w.codes,
+                                            .order = w.order,
+                                            .constants = {.wide = wide_codes}},
+                      w.counters, counter_stored_slots);
+    if (wide_codes) {
+        radix_sort_pairs64(device, w.codes, w.order, slots);
+    } else {
+        radix_sort_pairs(device, w.codes, w.order, slots);
+    }
+    dispatch_indirect(device,
+                      kernels::photon_count{.codes = w.codes,
+                                            .counters = w.counters,
+                                            .constants = {.wide = wide_codes}},
+                      w.counters, counter_stored_slots);
+}
+
+/// Computes the footprints of the map's records. Waits for the device.
+void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                     const FootprintScale& scale, PhotonMap& map) {
+    map.footprints =
+        unshared(device, w.last_footprints, "photon footprints", w.capacity * sizeof(glm::uvec4));
+    map.flatness = scale.flatness;
+    FootprintParams params{.scale = scale};
+    params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
+    constexpr double least_overlap = 4;
+    params.least_area_radius = static_cast<float>(std::sqrt(
+        least_overlap * scene.surface_area / (std::numbers::pi * std::max(map.area_samples, 1u))));
+    const std::uint32_t none = 0;
+    device.upload(w.counters, counter_area_places * 4, std::as_bytes(std::span(&none, 1)));
+    const Buffer area_places =
+        device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
+    // `heads` is free until the tree's leaves are marked.
+    dispatch_indirect(device,
+                      kernels::photon_footprints{.photons = w.photons,
+                                                 .order = w.order,
+                                                 .counters = w.counters,
+                                                 .offsets = w.offsets,
+                                                 .footprints = map.footprints,
+                                                 .shares = w.heads,
+                                                 .area_places = area_places,
+                                                 .params = params},
+                      w.counters, counter_stored);
+    dispatch_indirect(device,
+                      kernels::area_footprints{.photons = map.photons,
+                                               .area_places = area_places,
+                                               .counters = w.counters,
+                                               .footprints = map.footprints,
+                                               .params = params},
+                      w.counters, counter_area_places);
+    reduce_sum(device, w.heads, w.counters, counter_footprints,
+               Count(w.counters, counter_stored, w.capacity));
+    map.mean_footprints =
+        double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) / area_shares;
+}
+
+/// Builds the tree over the sorted records. Waits for the device.
+void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& map) {
+    const Count photons(w.counters, counter_stored, w.capacity);
+    const Buffer distances = code_distances(device, w.codes, photons, wide_codes);
+    // The order of the sort is not needed any more; its memory takes the leaves.
+    dispatch_indirect(device,
+                      kernels::photon_leaves{.distances = distances,
+                                             .counters = w.counters,
+                                             .leaves = w.order,
+                                             .heads = w.heads,
+                                             .params = {.leaf_size = map.leaf_size}},
+                      w.counters, counter_stored);
+    const Buffer compacted = device.scratch("photon map leaves", w.capacity * 4);
+    compact(device, w.heads, w.order, compacted, w.counters, counter_leaves, photons);
+    const std::uint64_t leaf_count =
+        download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
+    const std::uint64_t allocated = std::max<std::uint64_t>(leaf_count, 1);
+    const Buffer boxes = device.scratch("photon map boxes", allocated * sizeof(BoxRecord));
+    const Buffer leaf_distances = device.scratch("photon map leaf distances", allocated * 4);
+    dispatch(device,
+             kernels::photon_boxes{
+                 .photons = map.photons,
+                 .distances = distances,
+                 .leaves = compacted,
+                 .counters = w.counters,
+                 .boxes = boxes,
+                 .leaf_distances = leaf_distances,
+                 .footprints = map.footprints ? map.footprints : map.photons,
+                 .params = {.flatness = map.flatness},
+                 .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
+             leaf_count);
+    const Buffer leaves = device.allocate("photon map leaves", allocated * 4);
+    device.copy(BufferView(compacted, 0, allocated * 4), BufferView(leaves, 0, allocated * 4));
+    map.lbvh = build_lbvh_in_order(device, boxes, leaf_distances, leaves, Count(leaf_count));
+}
+
 } // namespace
 
 std::uint64_t max_stored_photons(const Device& device) {
@@ -246,137 +393,27 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     if (w.codes.size() < bytes_of_codes) {
         w.codes = device.allocate("photon codes", bytes_of_codes);
     }
-    // Of a map that was built before, its samples are left out.
-    const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
-    device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
-    // A ninth of what is asked for will do. The step between two samples has 32 bits, so one alone
-    // cannot be.
-    const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
-    if (fitting > 1 && 9 * fitting >= settings.area_samples) {
-        map.area_samples = static_cast<std::uint32_t>(fitting);
-        const StageScope stage(device, "sample areas");
-        const auto step = static_cast<std::uint32_t>((1ull << 32) / map.area_samples);
-        dispatch(
-            device,
-            kernels::area_samples{
-                .scene = scene.scene,
-                .positions = scene.positions,
-                .normals = scene.normals,
-                .triangles = scene.triangles,
-                .materials = scene.materials,
-                .lights = scene.lights,
-                .light_choices = scene.light_choices,
-                .area_sums = scene.area_sums,
-                .counters = w.counters,
-                .photons = w.photons,
-                .params = {.seed = settings.seed,
-                           .count = map.area_samples,
-                           .step = step,
-                           .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
-                           .triangle_count = scene.record.triangle_count,
-                           .capacity = static_cast<std::uint32_t>(w.capacity)}},
-            map.area_samples);
-        const auto slots = static_cast<std::uint32_t>(stored.slots + map.area_samples);
-        device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&slots, 1)));
-    }
-    const Count slots(w.counters, counter_stored_slots, w.capacity);
+    map.photons =
+        unshared(device, w.last_sorted, "photons, sorted", w.capacity * sizeof(PhotonRecord));
+    map.area_samples = add_area_samples(device, scene, w, stored, settings);
     {
         const StageScope stage(device, "sort photons");
-        dispatch_indirect(device,
-                          kernels::photon_codes{.scene = scene.scene,
-                                                .counters = w.counters,
-                                                .photons = w.photons,
-                                                .codes = w.codes,
-                                                .order = w.order,
-                                                .constants = {.wide = settings.wide_codes}},
-                          w.counters, counter_stored_slots);
-        if (settings.wide_codes) {
-            radix_sort_pairs64(device, w.codes, w.order, slots);
-        } else {
-            radix_sort_pairs(device, w.codes, w.order, slots);
-        }
-        dispatch_indirect(device,
-                          kernels::photon_count{.codes = w.codes,
-                                                .counters = w.counters,
-                                                .constants = {.wide = settings.wide_codes}},
-                          w.counters, counter_stored_slots);
+        sort_photons(device, scene, w, settings.wide_codes);
     }
     const StageScope stage(device, "build photon map");
     dispatch_indirect(
         device,
         kernels::photon_order{
-            .photons = w.photons, .order = w.order, .counters = w.counters, .sorted = w.sorted},
+            .photons = w.photons, .order = w.order, .counters = w.counters, .sorted = map.photons},
         w.counters, counter_stored);
-    map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
-    const Count photons(w.counters, counter_stored, w.capacity);
     if (settings.footprints) {
-        map.footprints = device.scratch("photon footprints", w.capacity * sizeof(glm::uvec4));
-        map.flatness = settings.footprints->flatness;
-        FootprintParams params{.scale = *settings.footprints};
-        params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
-        constexpr double least_overlap = 4;
-        params.least_area_radius =
-            static_cast<float>(std::sqrt(least_overlap * scene.surface_area /
-                                         (std::numbers::pi * std::max(map.area_samples, 1u))));
-        // `heads` is free until leaves are looked for.
-        const std::uint32_t none = 0;
-        device.upload(w.counters, counter_area_places * 4, std::as_bytes(std::span(&none, 1)));
-        const Buffer area_places = device.scratch("area samples' places",
-                                                  std::max<std::uint64_t>(map.area_samples, 1) * 4);
-        dispatch_indirect(device,
-                          kernels::photon_footprints{.photons = w.photons,
-                                                     .order = w.order,
-                                                     .counters = w.counters,
-                                                     .offsets = w.offsets,
-                                                     .footprints = map.footprints,
-                                                     .shares = w.heads,
-                                                     .area_places = area_places,
-                                                     .params = params},
-                          w.counters, counter_stored);
-        dispatch_indirect(device,
-                          kernels::area_footprints{.photons = w.sorted,
-                                                   .area_places = area_places,
-                                                   .counters = w.counters,
-                                                   .footprints = map.footprints,
-                                                   .params = params},
-                          w.counters, counter_area_places);
-        reduce_sum(device, w.heads, w.counters, counter_footprints, photons);
-        map.mean_footprints =
-            double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) /
-            area_shares;
+        make_footprints(device, scene, w, *settings.footprints, map);
     }
-    const Buffer distances = code_distances(device, w.codes, photons, settings.wide_codes);
-    // The order is not needed any more.
-    dispatch_indirect(device,
-                      kernels::photon_leaves{.distances = distances,
-                                             .counters = w.counters,
-                                             .leaves = w.order,
-                                             .heads = w.heads,
-                                             .params = {.leaf_size = map.leaf_size}},
-                      w.counters, counter_stored);
-    const Buffer leaves = device.scratch("photon map leaves", w.capacity * 4);
-    compact(device, w.heads, w.order, leaves, w.counters, counter_leaves, photons);
-    const std::uint64_t leaf_count =
-        download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
-    const Buffer boxes = device.scratch("photon map boxes",
-                                        std::max<std::uint64_t>(leaf_count, 1) * sizeof(BoxRecord));
-    const Buffer leaf_distances =
-        device.scratch("photon map leaf distances", std::max<std::uint64_t>(leaf_count, 1) * 4);
-    dispatch(device,
-             kernels::photon_boxes{
-                 .photons = w.sorted,
-                 .distances = distances,
-                 .leaves = leaves,
-                 .counters = w.counters,
-                 .boxes = boxes,
-                 .leaf_distances = leaf_distances,
-                 .footprints = map.footprints ? map.footprints : w.sorted,
-                 .params = {.flatness = map.flatness},
-                 .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
-             leaf_count);
-    map.counters = w.counters;
-    map.photons = w.sorted;
-    map.lbvh = build_lbvh_in_order(device, boxes, leaf_distances, leaves, Count(leaf_count));
+    map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
+    build_tree(device, w, settings.wide_codes, map);
+    map.counters = device.allocate("photon map counters", counter_count * 4);
+    device.copy(BufferView(w.counters, 0, counter_count * 4),
+                BufferView(map.counters, 0, counter_count * 4));
     return map;
 }
 

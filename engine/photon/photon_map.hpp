@@ -11,35 +11,36 @@
 
 namespace argand {
 
-/// Photons in the order of a space-filling curve, and a hierarchy over blocks of them.
+/// Photons in the order of a space-filling curve, and a hierarchy over blocks of them. A map owns
+/// its buffers: it stays as it is when the workspace traces other photons or builds another map.
 struct PhotonMap {
     Buffer counters;                ///< counter_* of shared/photon_records.h
-    Buffer photons;                 ///< PhotonRecord
+    Buffer photons;                 ///< PhotonRecord: photons and area samples
     Lbvh lbvh;                      ///< over the photons, in their order, some to a leaf
     std::uint32_t area_samples = 0; ///< among the photons
-    Buffer
-        footprints; ///< uvec4 per photon: dual axes (pack_dual of shared/footprint.h); empty: none
-    float flatness = 1;         ///< of the footprints
-    double mean_footprints = 0; ///< summed area of all footprints over that of the scene's surfaces
-    std::uint32_t leaf_size = 0; ///< photons in a leaf at most
+    Buffer footprints;              ///< uvec4 per photon: dual axes (pack_dual of
+                                    ///< shared/footprint.h); empty: none
+    float flatness = 1;             ///< of the footprints
+    double mean_footprints = 0;     ///< summed area of all footprints over that of the surfaces
+    std::uint32_t leaf_size = 0;    ///< photons in a leaf at most
 };
 
 /// Which photons a pass emits, and how far they go.
 struct PhotonPass {
     std::uint32_t seed = 0;
     std::uint64_t first = 0;   ///< number of the pass's first photon in the whole picture
-    std::uint64_t count = 0;   ///< photons emitted; each light's power is shared by those it emits
-    std::uint32_t bounces = 0; ///< the most scatterings of a photon that is stored
+    std::uint64_t count = 0;   ///< photons emitted; they share each light's power
+    std::uint32_t bounces = 0; ///< scatterings at most of a stored photon
 };
 
-/// What a pass has left behind.
+/// The photons that a pass has stored.
 struct StoredPhotons {
-    std::uint64_t slots = 0; ///< records in use, some of them empty
-    std::uint64_t photons = 0;
+    std::uint64_t slots = 0;   ///< records in use, some of them empty
+    std::uint64_t photons = 0; ///< records that hold a photon
     std::uint64_t emitted = 0;
 };
 
-/// Device memory for tracing photons; grows with need.
+/// Device memory for tracing photons and for building maps; grows with need.
 struct PhotonWorkspace {
     std::uint64_t slots = 0;                  ///< photons traced together
     std::uint64_t capacity = 0;               ///< photons stored
@@ -47,12 +48,14 @@ struct PhotonWorkspace {
     bool quasi_random = true;                 ///< Sobol' points instead of random numbers
     std::uint32_t reemission = REEMIT_COSINE; ///< REEMIT_* of shared/differential.h
     Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order,
-        sorted, heads;
+        heads;
     Buffer differentials; ///< DifferentialRecord per slot
     Buffer offsets;       ///< uvec4 per stored photon: its positional differentials, pack_dual of
                           ///< shared/footprint.h
     Buffer flux_sums;     ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
     Traversal traversal;
+    Buffer last_sorted, last_footprints; ///< of the map that was built last: the next map takes
+                                         ///< this memory if nobody holds that map any more
 };
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
@@ -61,30 +64,29 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
 /// The most photons that a map may hold on this device.
 std::uint64_t max_stored_photons(const Device& device);
 
-/// The most photons that one pass should emit, if they are stored as often as usual.
+/// The most photons that one pass should emit if they are stored as often as usual.
 std::uint64_t max_photons_per_pass(const Device& device);
 
-/// Emits photons from every light in proportion to power, traces them, and stores them where
-/// estimated lobes are, from the second hit on. Waits for the device. Adds flux to the workspace's
-/// sums in units of `flux_unit`. Returns nothing if the photons stored exceed the device's storage
+/// Emits photons from every light in proportion to its power, traces them, and stores them at
+/// estimated lobes from the second hit on. Waits for the device. Adds flux to the workspace's sums
+/// in units of `flux_unit`. Returns nothing if the stored photons exceed the device's storage
 /// range: emit fewer in a pass.
 std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene,
                                            PhotonWorkspace& workspace, const PhotonPass& pass,
                                            float flux_unit);
 
 struct PhotonMapSettings {
-    std::uint64_t area_samples = 0; ///< wanted; none if there is no room for them
+    std::uint64_t area_samples = 0; ///< wanted; the map has none if there is no room for them
     std::uint32_t seed = 0;         ///< of the area samples
-    std::uint32_t leaf_size =
-        0; ///< photons in a leaf at most, of 1 to most_photons_a_leaf; 0: what suits
-    bool wide_codes =
-        false; ///< Morton codes of 63 bits: for scenes much larger than what is seen of them
-    std::optional<FootprintScale>
-        footprints; ///< boxes are around footprints of this scale; none: around points
+    std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, up to most_photons_a_leaf; 0: 16
+    bool wide_codes = false;        ///< 63-bit Morton codes, for scenes much larger than the part
+                                    ///< of them that holds photons
+    std::optional<FootprintScale> footprints; ///< leaves' boxes bound footprints of this scale;
+                                              ///< none: they bound points
 };
 
-/// Builds the map over what trace_photons stored and samples of the surfaces' area, from which a
-/// query learns how much of its disc lies on surfaces. Waits for the device.
+/// Builds the map over the stored photons and over samples of the surfaces' area, which tell a
+/// query how much of its disc lies on surfaces. Waits for the device.
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
                            const StoredPhotons& stored, const PhotonMapSettings& settings = {});
 

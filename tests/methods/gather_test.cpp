@@ -37,11 +37,9 @@ protected:
         const PhotonMap map =
             build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
                              {.area_samples = area_samples});
-        return answers(device(), queries, careful, part, finished_,
-                       [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                           gather_photons(device(), scene, map, target, traversal, {radius, radius},
-                                          asking, budget);
-                       });
+        RadiusEstimator estimator(device(), scene, {radius, radius}, budget);
+        return answers(device(), estimator, map, queries, {.until_complete = careful, .part = part},
+                       finished_);
     }
 
     bool finished_ = true;

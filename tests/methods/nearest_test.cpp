@@ -136,18 +136,16 @@ protected:
         const PhotonMap map = build_photon_map(on, scene, workspace, store(on, workspace, photons),
                                                {.area_samples = area_samples});
         Answers answers;
+        NearestEstimator estimator(on, scene,
+                                   {.neighbours = k,
+                                    .radius = radius,
+                                    .samples_per_area = map.area_samples / scene.surface_area},
+                                   budget);
         const std::vector<Gathered> sums = testing::answers(
-            on, queries, careful, map_whole, answers.finished,
-            [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                gather_nearest(on, scene, map, target, traversal,
-                               {.neighbours = k,
-                                .radius = radius,
-                                .samples_per_area = map.area_samples / scene.surface_area},
-                               asking, budget);
-            });
+            on, estimator, map, queries, {.until_complete = careful}, answers.finished);
         std::vector<NearestRecord> states(queries.size());
         if (careful) {
-            states = download<NearestRecord>(on, on.scratch(nearest_states, 0), queries.size());
+            states = download<NearestRecord>(on, estimator.states(), queries.size());
         }
         for (std::size_t i = 0; i < queries.size(); ++i) {
             answers.of.push_back({sums[i], states[i]});

@@ -66,12 +66,9 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
                           .footprints = plain_scale()});
 
     Sums result;
-    result.sums =
-        answers(device, queries, settings.careful, map_whole, result.finished,
-                [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                    gather_footprints(device, scene, map, target, traversal,
-                                      settings.uniform_kernel, asking, settings.budget);
-                });
+    FootprintEstimator estimator(device, scene, settings.uniform_kernel, settings.budget);
+    result.sums = answers(device, estimator, map, queries, {.until_complete = settings.careful},
+                          result.finished);
     const std::size_t kept = stored + map.area_samples;
     result.photons = download<PhotonRecord>(device, map.photons, kept);
     result.footprints = download<glm::uvec4>(device, map.footprints, kept);

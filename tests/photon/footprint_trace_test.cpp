@@ -239,11 +239,9 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
         EXPECT_EQ(map.area_samples, area_samples);
         bool finished = false;
         double sum = 0;
+        FootprintEstimator estimator(device(), scene);
         const std::vector<Gathered> sums =
-            answers(device(), queries, true, map_whole, finished,
-                    [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                        gather_footprints(device(), scene, map, target, traversal, false, asking);
-                    });
+            answers(device(), estimator, map, queries, {.until_complete = true}, finished);
         for (const Gathered& g : sums) {
             sum += g.indirect.g;
         }

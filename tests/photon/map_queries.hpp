@@ -33,9 +33,15 @@ inline StoredPhotons store(Device& device, PhotonWorkspace& workspace,
     return {photons.size(), photons.size()};
 }
 
-/// Queries of what the scene's first material scatters.
-inline GatherTarget target_of(Device& device, const std::vector<Query>& queries,
-                              std::uint32_t part = map_whole) {
+/// How queries are answered.
+struct Answering {
+    bool until_complete = true;
+    std::uint32_t part = map_whole;
+};
+
+/// The queries on the device, at surfaces of the scene's first material.
+inline PhotonQueries upload_queries(Device& device, const std::vector<Query>& queries,
+                                    const Answering& how) {
     std::vector<std::uint32_t> slots;
     std::vector<QueryRecord> records;
     for (const Query& q : queries) {
@@ -45,28 +51,28 @@ inline GatherTarget target_of(Device& device, const std::vector<Query>& queries,
                            normal, LOBE_DIFFUSE, query_front});
     }
     const std::size_t n = queries.size();
-    return {.slots = upload(device, "slots", slots),
-            .counts = upload(device, "counts",
-                             std::vector<std::uint32_t>{static_cast<std::uint32_t>(n), 0, 0, 0}),
-            .queries = upload(device, "queries", records),
+    const Buffer number = upload(
+        device, "counts", std::vector<std::uint32_t>{static_cast<std::uint32_t>(n), 0, 0, 0});
+    return {.points = upload(device, "queries", records),
+            .slots = upload(device, "slots", slots),
+            .count = Count(number, 0, n),
             .estimates = upload(device, "estimates", std::vector<EstimateRecord>(n)),
-            .partial = device.allocate("partial", n * sizeof(GatherRecord)),
-            .part = part};
+            .suspended = device.allocate("suspended", n * sizeof(GatherRecord)),
+            .unfinished = upload(device, "unfinished", std::vector<std::uint32_t>{0}),
+            .until_complete = how.until_complete,
+            .part = how.part};
 }
 
-/// The answers, after `gather` has written them; finished: whether no query ran out of its budget.
-template <class Gather>
-std::vector<Gathered> answers(Device& device, const std::vector<Query>& queries, bool careful,
-                              std::uint32_t part, bool& finished, const Gather& gather) {
-    const std::size_t n = queries.size();
-    const GatherTarget target = target_of(device, queries, part);
-    Traversal traversal = make_traversal(device, n);
-    traversal.careful = careful;
-    device.fill(traversal.unfinished, 0);
-    gather(target, traversal, Count(target.counts, 0, n));
-    finished = download<std::uint32_t>(device, traversal.unfinished, 1)[0] == 0;
+/// The estimates; finished: whether no query ran out of its budget.
+inline std::vector<Gathered> answers(Device& device, PhotonEstimator& estimator,
+                                     const PhotonMap& map, const std::vector<Query>& queries,
+                                     const Answering& how, bool& finished) {
+    const PhotonQueries on_device = upload_queries(device, queries, how);
+    estimator.estimate(map, on_device);
+    finished = download<std::uint32_t>(device, on_device.unfinished, 1)[0] == 0;
     std::vector<Gathered> result;
-    for (const EstimateRecord& e : download<EstimateRecord>(device, target.estimates, n)) {
+    for (const EstimateRecord& e :
+         download<EstimateRecord>(device, on_device.estimates, queries.size())) {
         result.push_back(
             {{e.indirect_r, e.indirect_g, e.indirect_b}, {e.caustic_r, e.caustic_g, e.caustic_b}});
     }

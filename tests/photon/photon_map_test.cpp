@@ -1,11 +1,15 @@
 // The tree over stored photons: its leaves.
 #include "device_fixture.hpp"
+#include "photon/map_queries.hpp"
 #include "photon/photon_map.hpp"
 #include "shared/accel_records.h"
+#include "shared/footprint.h"
 #include "shared/photon.h"
 
 #include <algorithm>
 #include <bit>
+#include <map>
+#include <optional>
 #include <random>
 
 namespace argand {
@@ -63,7 +67,7 @@ TEST_P(PhotonMapTree, LeavesAreTheLargestSubtreesBelowTheThreshold) {
     for (const std::size_t count : {0u, 1u, 2u, 3u, 65u, 4001u, 100'003u}) {
         for (const std::uint32_t leaf_size : {1u, 2u, 16u, most_photons_a_leaf}) {
             const bool wide = leaf_size == 2 || leaf_size == 16;
-            SCOPED_TRACE(testing::Message() << count << " in leaves of " << leaf_size);
+            SCOPED_TRACE(::testing::Message() << count << " in leaves of " << leaf_size);
             std::vector<PhotonRecord> photons(count);
             std::size_t stored = 0;
             for (std::size_t i = 0; i < count; ++i) {
@@ -114,6 +118,78 @@ TEST_P(PhotonMapTree, LeavesAreTheLargestSubtreesBelowTheThreshold) {
                 ASSERT_EQ(node.high_x, high);
             }
         }
+    }
+}
+
+/// Everything that a map consists of on the device.
+std::vector<std::vector<std::uint32_t>> contents(Device& device, const PhotonMap& map) {
+    const auto counters = download<std::uint32_t>(device, map.counters, counter_count);
+    const std::uint32_t stored = counters[counter_stored];
+    const std::uint32_t leaves = counters[counter_leaves];
+    return {counters, download<std::uint32_t>(device, map.photons, stored * 8),
+            download<std::uint32_t>(device, map.footprints, stored * 4),
+            download<std::uint32_t>(device, map.lbvh.nodes, leaves * 16),
+            download<std::uint32_t>(device, map.lbvh.order, leaves)};
+}
+
+// A map owns its data: whatever happens to the workspace and to scratch memory later, it stays as
+// it is; and only maps in use take memory.
+TEST_P(PhotonMapTree, AMapStaysAsItIsWhenAnotherIsBuilt) {
+    Device& device = open_variant();
+    const DeviceScene scene = unit_ball(device);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> coordinate(-0.5f, 0.5f);
+    const auto photons = [&](std::size_t count) {
+        std::vector<PhotonRecord> some(count);
+        for (PhotonRecord& p : some) {
+            p = {coordinate(random), coordinate(random), coordinate(random)};
+            p.normal = pack_photon_normal({0, 1, 0}, coordinate(random) > 0.3f);
+        }
+        return some;
+    };
+    constexpr std::size_t count = 3000;
+    const uvec2 axis = pack_dual({0.01f, 0, 0});
+    const uvec2 other_axis = pack_dual({0, 0, 0.02f});
+    const std::vector<glm::uvec4> offsets(count, {axis.x, axis.y, other_axis.x, other_axis.y});
+    PhotonWorkspace workspace = make_photon_workspace(device, count, true);
+    PhotonMapSettings settings{.leaf_size = 8};
+    settings.footprints = make_footprint_scale(count, count, 1, 10, 1, 0.1f, 0.3f, 0.5f);
+    const auto build = [&](std::size_t some) {
+        return build_photon_map(device, scene, workspace,
+                                testing::store(device, workspace, photons(some), offsets),
+                                settings);
+    };
+    const auto sorted_bytes = [&] {
+        device.wait();
+        return device.memory_by_name().at("photons, sorted").current;
+    };
+    std::optional<PhotonMap> first = build(count);
+    const std::uint64_t bytes_of_one = sorted_bytes();
+    const auto before = contents(device, *first);
+    ASSERT_GT(before[4].size(), 300u);
+
+    settings.leaf_size = 3;
+    std::optional<PhotonMap> second = build(count - 100);
+    const auto of_second = contents(device, *second);
+    for (const auto& [name, memory] : std::map(device.memory_by_name())) {
+        if (name != "photons, sorted") {
+            device.fill(device.scratch(name, 16), 0x55555555u);
+        }
+    }
+    for (const Buffer& buffer : {workspace.photons, workspace.offsets, workspace.counters,
+                                 workspace.codes, workspace.order, workspace.heads}) {
+        device.fill(buffer, 0x55555555u);
+    }
+    EXPECT_EQ(contents(device, *first), before);
+    EXPECT_EQ(contents(device, *second), of_second);
+    EXPECT_NE(before, of_second);
+    EXPECT_EQ(sorted_bytes(), 2 * bytes_of_one);
+
+    first.reset();
+    second.reset();
+    for (int i = 0; i < 3; ++i) {
+        const PhotonMap map = build(count);
+        EXPECT_EQ(sorted_bytes(), bytes_of_one);
     }
 }
 

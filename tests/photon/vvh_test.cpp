@@ -206,11 +206,9 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     }
     const auto gather = [&](const PhotonMap& map) {
         bool finished = false;
+        FootprintEstimator estimator(device, scene);
         const std::vector<Gathered> sums =
-            answers(device, queries, false, map_whole, finished,
-                    [&](const GatherTarget& target, Traversal& traversal, const Count& asking) {
-                        gather_footprints(device, scene, map, target, traversal, false, asking);
-                    });
+            answers(device, estimator, map, queries, {.until_complete = false}, finished);
         EXPECT_TRUE(finished);
         return sums;
     };

@@ -32,14 +32,14 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
         }
     }
     const std::uint64_t n = asked.size();
-    const GatherTarget target{
-        .slots = upload(device, "bench slots", slots),
-        .counts = upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)}),
-        .queries = upload(device, "bench queries", records),
-        .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
-        .partial = Buffer()};
-    Traversal traversal = make_traversal(device, n);
-    device.fill(traversal.unfinished, 0);
+    const Buffer number =
+        upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)});
+    const PhotonQueries queries{.points = upload(device, "bench queries", records),
+                                .slots = upload(device, "bench slots", slots),
+                                .count = Count(number, 0, n),
+                                .estimates =
+                                    device.allocate("bench estimates", n * sizeof(EstimateRecord)),
+                                .unfinished = upload(device, "bench unfinished", std::vector{0u})};
     const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
     std::vector<BenchRow> rows;
     for (const std::uint32_t k : {50u, 150u, 500u}) {
@@ -47,13 +47,12 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
             2.5 * median_radius(photons,
                                 std::span(asked).subspan(0, std::min<std::size_t>(n, 2000)),
                                 center - scene.record.radius, center + scene.record.radius, k);
-        const double seconds = median_host_seconds(
-            [&] { device.wait(); },
-            [&] {
-                gather_nearest(device, scene, map, target, traversal,
-                               {.neighbours = k, .radius = radius}, Count(target.counts, 0, n));
-                device.wait();
-            });
+        NearestEstimator estimator(device, scene, {.neighbours = k, .radius = radius});
+        const double seconds = median_host_seconds([&] { device.wait(); },
+                                                   [&] {
+                                                       estimator.estimate(map, queries);
+                                                       device.wait();
+                                                   });
         const double peer = nanoflann_rate(points, asked, k);
         rows.push_back({fmt::format("{} nearest photons", k), n, seconds,
                         static_cast<double>(n) / seconds, "queries/s", 0,

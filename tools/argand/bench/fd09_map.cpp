@@ -48,12 +48,7 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
 PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size) {
     PhotonMapSettings settings = paper.settings;
     settings.leaf_size = leaf_size;
-    PhotonMap map = build_photon_map(device, paper.scene, paper.workspace, paper.stored, settings);
-    const Buffer counters = device.allocate("photon counters of a map", counter_count * 4);
-    device.copy(BufferView(map.counters, 0, counter_count * 4),
-                BufferView(counters, 0, counter_count * 4));
-    map.counters = counters;
-    return map;
+    return build_photon_map(device, paper.scene, paper.workspace, paper.stored, settings);
 }
 
 double seconds_of(Device& device, const std::function<void()>& work) {

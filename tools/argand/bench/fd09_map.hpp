@@ -17,14 +17,17 @@ struct PaperMap {
     StoredPhotons stored;
     PhotonMapSettings settings;
     EyeWorkspace eye;
+
+    EyePass eye_pass(std::uint32_t samples) const {
+        return {.seed = render.seed, .samples = samples, .bounces = render.bounces};
+    }
 };
 
 /// Renders the image once, which determines the size of footprints, and traces its photons again in
 /// one pass.
 PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSettings& render);
 
-/// A map that stays valid when others are built from the same photons; only the order of its
-/// footprints changes.
+/// A map of the photons.
 PhotonMap build(Device& device, PaperMap& paper, std::uint32_t leaf_size);
 
 /// Time [s] that the work and the commands recorded by it take. If the device is this machine's

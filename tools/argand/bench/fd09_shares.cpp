@@ -37,11 +37,9 @@ void measure_shares(Device& device, const Scene& scene, const RenderSettings& re
             trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f).value_or(paper.stored);
         const PhotonMap map =
             build_photon_map(device, paper.scene, paper.workspace, paper.stored, paper.settings);
-        const auto gather = [&](const Count& asking, std::uint32_t part) {
-            gather_footprints(device, paper.scene, map, query_target(eye, part), eye.traversal,
-                              false, asking);
-        };
-        trace_eye_paths(device, paper.scene, eye, paper.render, 0, paper.render.samples, gather,
+        FootprintEstimator estimator(device, paper.scene);
+        const PhotonLookup lookup{.map = map, .estimator = estimator};
+        trace_eye_paths(device, paper.scene, eye, paper.eye_pass(paper.render.samples), &lookup,
                         [](double) { return true; });
         std::array<double, 4> sums{};
         for (const StageTime& stage : device.stage_times()) {

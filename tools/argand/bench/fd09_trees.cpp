@@ -4,6 +4,7 @@
 #include "photon/vvh.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace argand {
 
@@ -16,38 +17,56 @@ struct Candidate {
     std::vector<double> seconds; ///< of each run, over all queries of the image
 };
 
-/// Times gathering for all of the image's queries with each candidate. Runs are interleaved so that
-/// other load on the machine affects all candidates alike.
-void gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& candidates, int runs,
-                      std::uint64_t& queries) {
-    for (Candidate& candidate : candidates) {
-        candidate.seconds.assign(static_cast<std::size_t>(runs), 0.0);
+/// Times every candidate's estimates at the same queries. Runs are interleaved so that other load on
+/// the machine affects all candidates alike.
+class CandidateTimes final : public PhotonEstimator {
+public:
+    CandidateTimes(Device& device, const DeviceScene& scene, std::span<Candidate> candidates,
+                   int runs)
+        : device_(device), estimator_(device, scene), candidates_(candidates), runs_(runs) {
+        for (Candidate& candidate : candidates_) {
+            candidate.seconds.assign(static_cast<std::size_t>(runs), 0.0);
+        }
     }
-    EyeWorkspace& eye = paper.eye;
-    // Resume queries until complete, even if some take more steps than one dispatch allows.
-    eye.traversal.careful = true;
-    const auto gather = [&](const Count& asking, std::uint32_t part) {
-        const GatherTarget target = query_target(eye, part);
+
+    void estimate(const PhotonMap&, const PhotonQueries& queries) override {
         const std::uint32_t count =
-            download<std::uint32_t>(device, asking.buffer, 1, asking.index)[0];
-        queries += count;
+            download<std::uint32_t>(device_, queries.count.buffer, 1, queries.count.index)[0];
+        queries_ += count;
         if (count == 0) {
             return;
         }
-        for (int run = -1; run < runs; ++run) { // one to warm up
-            for (Candidate& candidate : candidates) {
-                const double seconds = seconds_of(device, [&] {
-                    gather_footprints(device, paper.scene, candidate.map, target, eye.traversal,
-                                      false, asking);
-                });
+        for (int run = -1; run < runs_; ++run) { // one to warm up
+            for (Candidate& candidate : candidates_) {
+                const double seconds =
+                    seconds_of(device_, [&] { estimator_.estimate(candidate.map, queries); });
                 if (run >= 0) {
                     candidate.seconds[static_cast<std::size_t>(run)] += seconds;
                 }
             }
         }
-    };
-    trace_eye_paths(device, paper.scene, eye, paper.render, 0, 1, gather,
+    }
+
+    std::uint64_t queries() const { return queries_; }
+
+private:
+    Device& device_;
+    FootprintEstimator estimator_;
+    std::span<Candidate> candidates_;
+    int runs_;
+    std::uint64_t queries_ = 0;
+};
+
+/// The time that every candidate takes for all queries of the image. Returns their number.
+std::uint64_t gather_with_each(Device& device, PaperMap& paper, std::vector<Candidate>& candidates,
+                               int runs) {
+    // Resume queries until complete, even if some take more steps than one dispatch allows.
+    paper.eye.traversal.careful = true;
+    CandidateTimes times(device, paper.scene, candidates, runs);
+    const PhotonLookup lookup{.map = candidates.front().map, .estimator = times};
+    trace_eye_paths(device, paper.scene, paper.eye, paper.eye_pass(1), &lookup,
                     [](double) { return true; });
+    return times.queries();
 }
 
 /// Rates over leaf sizes, and how close T_auto, the last candidate, comes to the best.
@@ -98,8 +117,7 @@ void measure_trees(Device& device, const Scene& scene, const RenderSettings& ren
     for (std::size_t i = 0; i < of_each; ++i) {
         candidates.push_back({with_tree(device, sorted, tree, candidates[i].map.leaf_size), {}});
     }
-    std::uint64_t queries = 0;
-    gather_with_each(device, paper, candidates, runs, queries);
+    const std::uint64_t queries = gather_with_each(device, paper, candidates, runs);
 
     const std::span<const Candidate> all(candidates);
     linear.rows.push_back(row_of(scene.name, paper, all.first(of_each), queries));

@@ -1,0 +1,142 @@
+#include "methods/query_sharing.hpp"
+
+#include "kernels/estimate_add.hpp"
+#include "kernels/query_cells.hpp"
+#include "kernels/query_owners.hpp"
+#include "parallel/compact.hpp"
+#include "shared/query_record.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace argand {
+
+namespace {
+
+/// The queries that are answered together.
+struct Round {
+    std::uint32_t asks = asks_map; ///< asks_*
+    std::uint32_t part = map_whole;
+    double cell = 0;
+    bool pixel_sized = false;
+};
+
+QueryShareParams share_params(const EyeQueries& queries, const Round& round) {
+    QueryShareParams p{.pixel = 3e38f};
+    p.asks = round.asks;
+    p.cell = round.cell > 0 ? std::max(static_cast<float>(round.cell), 1e-30f) : 0;
+    if (round.pixel_sized) {
+        const CameraRecord& view = queries.view;
+        const double across = glm::length(glm::dvec3(view.across_x, view.across_y, view.across_z));
+        p.pixel = static_cast<float>(across * view.origin_share);
+        p.pixel_slope = static_cast<float>(across * (1 - view.origin_share));
+        p.eye_x = view.origin_x;
+        p.eye_y = view.origin_y;
+        p.eye_z = view.origin_z;
+    }
+    p.mask = static_cast<std::uint32_t>(queries.cells.size() / 4 - 1);
+    return p;
+}
+
+/// Finds for each query the slot whose estimate it takes, and marks the queries to be answered.
+void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& paths,
+                  const Round& round) {
+    const StageScope stage(device, "share queries");
+    const QueryShareParams params = share_params(queries, round);
+    if (round.cell > 0) {
+        device.fill(queries.cells, no_query);
+        device.fill(queries.owners, no_query);
+    }
+    dispatch_indirect(device,
+                      kernels::query_cells{.active_slots = paths.slots,
+                                           .counts = paths.counts,
+                                           .asks = queries.asks,
+                                           .queries = queries.points,
+                                           .table = queries.cells,
+                                           .owners = queries.owners,
+                                           .sources = queries.sources,
+                                           .params = params},
+                      paths.counts);
+    dispatch_indirect(device,
+                      kernels::query_owners{.active_slots = paths.slots,
+                                            .counts = paths.counts,
+                                            .owners = queries.owners,
+                                            .asks = queries.asks,
+                                            .sources = queries.sources,
+                                            .chosen = queries.chosen,
+                                            .params = params},
+                      paths.counts);
+}
+
+void answer_round(Device& device, const EyeQueries& queries, const ActivePaths& paths,
+                  const Round& round, const PhotonLookup& lookup) {
+    find_sources(device, queries, paths, round);
+    {
+        const StageScope stage(device, "compact");
+        compact(device, queries.chosen, paths.slots, queries.slots, paths.counts, counts_of_queries,
+                Count(paths.counts, 0, paths.most));
+    }
+    lookup.estimator.estimate(lookup.map,
+                              {.points = queries.points,
+                               .slots = queries.slots,
+                               .count = Count(paths.counts, counts_of_queries, paths.most),
+                               .estimates = queries.estimates,
+                               .suspended = queries.suspended,
+                               .unfinished = paths.traversal.unfinished,
+                               .until_complete = paths.traversal.careful,
+                               .part = round.part,
+                               .final_gather = queries.final_gather});
+    const StageScope stage(device, "share queries");
+    dispatch_indirect(device,
+                      kernels::estimate_add{.active_slots = paths.slots,
+                                            .counts = paths.counts,
+                                            .sources = queries.sources,
+                                            .queries = queries.points,
+                                            .estimates = queries.estimates,
+                                            .layers = paths.layers},
+                      paths.counts);
+}
+
+} // namespace
+
+EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slots,
+                            const CameraRecord& view) {
+    EyeQueries q{.view = view, .final_gather = plan.needs(Feature::final_gather)};
+    const bool needed = plan.needs(Feature::photon_map);
+    // A kernel takes at least an element of each of its buffers.
+    q.points = device.allocate("photon map queries", (needed ? slots : 1) * sizeof(QueryRecord));
+    q.asks = device.allocate("eye path flags", (needed ? slots : 1) * 4);
+    if (needed) {
+        q.chosen = device.allocate("eye path flags", slots * 4);
+        q.slots = device.allocate("asking eye paths", slots * 4);
+        q.estimates = device.allocate("photon map answers", slots * sizeof(EstimateRecord));
+        q.suspended = device.allocate("unfinished query sums", slots * sizeof(GatherRecord));
+        q.sources = device.allocate("photon map answers' slots", slots * 4);
+        const std::uint64_t entries = std::bit_ceil(slots + 1);
+        q.cells = device.allocate("cells of queries", entries * 4);
+        q.owners = device.allocate("owners of cells", entries * 4);
+    }
+    return q;
+}
+
+void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
+                    const ActivePaths& paths, const PhotonLookup& lookup) {
+    const QuerySharing& sharing = queries.sharing;
+    const double caustic_cell =
+        sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0;
+    const bool two_parts = sharing.caustics_apart && !queries.final_gather;
+    Round whole{.cell = sharing.cell, .pixel_sized = sharing.pixel_sized};
+    whole.part = two_parts ? map_indirect : map_whole;
+    answer_round(device, queries, paths, whole, lookup);
+    Round caustics{.cell = caustic_cell, .pixel_sized = true};
+    if (two_parts) {
+        caustics.part = map_caustic;
+        answer_round(device, queries, paths, caustics, lookup);
+    } else if (queries.final_gather && plan.needs(Feature::caustics)) {
+        caustics.asks = asks_caustics;
+        caustics.part = sharing.caustics_apart ? map_caustic : map_whole;
+        answer_round(device, queries, paths, caustics, lookup);
+    }
+}
+
+} // namespace argand

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "photon/estimator.hpp"
+#include "shared/camera.h"
+
+namespace argand {
+
+/// Which queries of eye paths traced together share an estimate: those in one cell of a grid.
+struct QuerySharing {
+    double cell = 0; ///< largest edge of a cell, in the scene's units; 0: queries share nothing
+    bool pixel_sized = false;    ///< no cell is larger than a pixel, because estimates may change
+                                 ///< from one pixel to the next
+    bool caustics_apart = false; ///< the map's caustic part has queries of its own, in cells no
+                                 ///< larger than a pixel
+    bool sharp_caustics = false; ///< or, if also set, without sharing
+};
+
+/// Device memory for the photon map queries of eye paths.
+struct EyeQueries {
+    Buffer points;               ///< QueryRecord per slot
+    Buffer asks;                 ///< uint per active path: asks_*, which queries its vertex has
+    Buffer chosen, slots;        ///< flags of the active paths, and slots, of the queries that the
+                                 ///< estimator answers; the others share their estimates
+    Buffer estimates, suspended; ///< see PhotonQueries
+    Buffer sources;              ///< uint per slot: the slot whose estimate it takes, or no_query
+    Buffer cells, owners;        ///< hash table of cells, see query_cells.h
+    CameraRecord view{};         ///< of the picture, for the size of its pixels
+    bool final_gather = false;   ///< paths query the map one scattering later, but for caustics
+    QuerySharing sharing;
+};
+
+/// Allocates for paths in `slots` slots. Plans without a photon map need only what kernels bind.
+EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slots,
+                            const CameraRecord& view);
+
+/// The paths whose queries are to be answered.
+struct ActivePaths {
+    const Buffer& slots;
+    const Buffer& counts; ///< [0]: their number; [counts_of_queries]: room for that of the queries
+    std::uint64_t most;   ///< of them
+    const Buffer& layers; ///< LayersRecord per slot, to which estimates are added
+    const Traversal& traversal;
+};
+inline constexpr std::uint32_t counts_of_queries = 2;
+
+/// Estimates the radiance at the vertices that have queries, once for all queries in a cell, and
+/// adds it to the paths' layers.
+void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
+                    const ActivePaths& paths, const PhotonLookup& lookup);
+
+} // namespace argand

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "photon/photon_map.hpp"
+#include "shared/query_record.h"
+
+namespace argand {
+
+/// Points at which a photon map is queried, and the estimates at these points. Records lie in slots
+/// that the queries share with the paths they belong to.
+struct PhotonQueries {
+    Buffer points;     ///< in: QueryRecord per slot
+    Buffer slots;      ///< in: uint per query, its slot
+    Count count = 0;   ///< of `slots`; the number is on the device
+    Buffer estimates;  ///< out: EstimateRecord per slot, without the path's throughput
+    Buffer suspended;  ///< GatherRecord per slot: a query's state between two dispatches. The k
+                       ///< nearest photons have states of their own, and do without it.
+    Buffer unfinished; ///< uint that counts queries which ran out of iterations; the caller clears
+                       ///< it. Estimates of these queries are wrong.
+    bool until_complete = false;    ///< resumes queries until all are complete, and waits for the
+                                    ///< device; `unfinished` is not used then
+    std::uint32_t part = map_whole; ///< map_*: which photons count
+    bool final_gather = false;      ///< queries limit the scatterings of photons that count
+};
+
+/// Estimates the radiance that the estimated lobes scatter towards the eye, at all query points in
+/// one call.
+class PhotonEstimator {
+public:
+    PhotonEstimator() = default;
+    PhotonEstimator(const PhotonEstimator&) = delete;
+    PhotonEstimator& operator=(const PhotonEstimator&) = delete;
+    virtual ~PhotonEstimator() = default;
+
+    /// Records only, unless `queries.until_complete`.
+    virtual void estimate(const PhotonMap& map, const PhotonQueries& queries) = 0;
+};
+
+/// The photon map that eye paths query, and how.
+struct PhotonLookup {
+    const PhotonMap& map;
+    PhotonEstimator& estimator;
+};
+
+} // namespace argand
