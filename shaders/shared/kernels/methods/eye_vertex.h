@@ -1,6 +1,28 @@
+// One vertex of each active eye path: adds the emission that the path has met, leaves a shadow ray
+// and a query of the photon map, and samples the ray on which the path continues.
 #include "shared/kernels/layers.h"
 #include "shared/kernels/material.h"
 #include "shared/kernels/scene.h"
+
+// A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
+// and this one.
+struct Vertex {
+    uint index; // of the path among the active ones
+    uint slot;
+    PathRecord path;
+    vec3 throughput;
+    vec3 direction; // of the ray that has come here
+    uint triangle;
+    Surface surface;
+    MaterialRecord material;
+    Frame frame; // of the shading normal
+    vec3 wo;
+    uint followed, estimated;   // lobes, see shared/follow.h
+    bool ends;                  // at the estimated lobes, but for a ray that seeks emission
+    uint onward;                // estimated lobes that scatter the path, too
+    real albedo;                // of the lobes that scatter the path
+    real estimated_probability; // that it is `onward` which does
+};
 
 FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
 
@@ -15,216 +37,222 @@ FN real power_heuristic(real a, real b) {
     return real(1.0) / (real(1.0) + r * r);
 }
 
-FN RayRecord make_ray(Surface surface, vec3 direction, real t_max) {
+FN RayRecord make_ray(IN(Surface) surface, vec3 direction, real t_max) {
     vec3 o =
         offset_ray_origin(surface.position, surface.error, surface.geometric_normal, direction);
     return RayRecord(o.x, o.y, o.z, t_max, direction.x, direction.y, direction.z, 0u);
 }
 
-// Whether the path ends where estimated lobes scatter it, but for a ray that seeks emission.
-FN bool ends_at_estimated(uint state) {
-    return photon_map && (!final_gather || (state & path_estimated) != 0u);
+FN bool behind_estimated(IN(PathRecord) path) { return (path.state & path_estimated) != 0u; }
+
+FN bool seeks_emission(IN(PathRecord) path) {
+    return final_gather && (path.state & path_seeks_emission) != 0u;
 }
 
-// Light that photons bring is not counted twice.
-FN void add_emission(uint slot, PathRecord path, vec3 radiance) {
+// Caustics come from photons if there is a final gather, and must not count twice.
+FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
     uint layer = layer_of_emission(path.state);
     if (!final_gather || layer != layer_caustic) {
         add_to_layer(slot, layer, radiance);
     }
 }
 
-// onward: those of the estimated lobes that the path is scattered by as well.
-FN void sample_light(uint slot, PathRecord path, vec3 throughput, Surface surface, Frame frame,
-                     MaterialRecord m, vec3 wo, uint estimated, uint onward, uint followed,
-                     real estimated_probability) {
-    bool ends = ends_at_estimated(path.state);
-    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
-    real choice_probability;
-    LightRecord light = lights[choose_light(u.x, choice_probability)];
+// Of a ray that leaves the scene.
+FN void add_sky(uint slot, IN(PathRecord) path, vec3 throughput) {
+    vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
+    if (has_light(light_sky) && max_component(sky) > real(0.0)) {
+        bool found_twice = path.pdf > real(0.0) && !seeks_emission(path);
+        real weight =
+            found_twice ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI)
+                        : real(1.0);
+        add_emission(slot, path, throughput * sky * weight);
+    }
+}
+
+FN void add_surface_emission(IN(Vertex) v, real distance) {
+    MaterialRecord m = v.material;
+    vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
+    if (has_light(light_triangle) && max_component(emission) > real(0.0) &&
+        (v.surface.front || m.double_sided != 0u)) {
+        real weight = real(1.0);
+        if (v.path.pdf > real(0.0)) {
+            real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
+            real sides = m.double_sided != 0u ? real(2.0) : real(1.0);
+            weight =
+                power_heuristic(v.path.pdf, emitter_density(emission, sides, scene[0].light_weight,
+                                                            distance, cosine));
+        }
+        add_emission(v.slot, v.path, v.throughput * emission * weight);
+    }
+}
+
+// Decides which lobes scatter the path, and with which probabilities.
+FN void split_lobes(INOUT(Vertex) v) {
+    v.frame = make_frame(v.surface.shading_normal);
+    v.wo = to_local(v.frame, -v.direction);
+    v.followed = followed_paths ? followed_lobes(v.material, scene[0].follow_roughness) : 0u;
+    v.estimated = bsdf_lobes(v.material) & ~v.followed;
+    real followed_albedo =
+        v.followed != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.followed))
+                         : real(0.0);
+    v.ends = photon_map && (!final_gather || behind_estimated(v.path));
+    // The map provides all other light behind the last estimated vertex. But lights that a glossy
+    // lobe reflects there would be fireflies if only shadow rays found them, so one more ray does.
+    v.onward = !v.ends ? v.estimated : final_gather ? v.estimated & LOBE_GLOSSY : 0u;
+    real estimated_albedo =
+        v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
+                       : real(0.0);
+    v.albedo = followed_albedo + estimated_albedo;
+    v.estimated_probability = v.albedo > real(0.0) ? estimated_albedo / v.albedo : real(0.0);
+}
+
+// A sample of a light as the vertex sees it.
+struct SeenLight {
+    vec3 origin; // of the shadow ray
     LightSample s;
-    vec3 o = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
-                               surface.geometric_normal);
-    if (!light_sample(light, light_kinds, o, vec2(u.y, u.z), s)) {
+    vec3 wi; // in the vertex's frame
+    real choice_probability;
+    bool sky_by_cosine; // the sky is the only light here that is not sampled by its own density
+};
+
+// False: no light arrives from there.
+FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
+    PathRecord path = v.path;
+    Surface surface = v.surface;
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
+    LightRecord light = lights[choose_light(u.x, l.choice_probability)];
+    l.sky_by_cosine = false;
+    l.wi = vec3(real(0.0));
+    l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
+                                 surface.geometric_normal);
+    if (!light_sample(light, light_kinds, l.origin, vec2(u.y, u.z), l.s)) {
+        return false;
+    }
+    l.wi = to_local(v.frame, l.s.wi);
+    l.sky_by_cosine = v.ends && is_light(light, light_kinds, light_sky);
+    if (l.sky_by_cosine) {
+        // No other ray finds the sky for the diffuse lobe here. Directions over the whole sphere,
+        // half of which lies below the surface, would be noisier.
+        l.wi = sample_cosine_hemisphere(vec2(u.y, u.z));
+        l.s.wi = to_world(v.frame, l.wi);
+        l.s.radiance = light_color(light) * (PI / max(l.wi.z, real(1e-6)));
+    }
+    return dot(l.s.wi, surface.geometric_normal) > real(0.0);
+}
+
+// Leaves a shadow ray to a light, and the radiance that it adds if nothing is in its way.
+FN void sample_light(IN(Vertex) v) {
+    SeenLight l;
+    if (!choose_light_sample(v, l)) {
         return;
     }
-    vec3 wi = to_local(frame, s.wi);
-    bool sky_by_cosine = ends && is_light(light, light_kinds, light_sky);
-    if (sky_by_cosine) {
-        // Nothing else finds the sky for diffuse lobes here: not evenly over the sphere, half of
-        // which is below.
-        wi = sample_cosine_hemisphere(vec2(u.y, u.z));
-        s.wi = to_world(frame, wi);
-        s.radiance = light_color(light) * (PI / max(wi.z, real(1e-6)));
+    LightSample s = l.s;
+    vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice_probability);
+    // Of the lobes `onward`, which the path samples, too. Others have this sample only.
+    real weight = real(1.0);
+    if (!s.delta && v.onward != 0u) {
+        real density = l.choice_probability * s.pdf;
+        weight = l.sky_by_cosine
+                     ? real(0.0)
+                     : power_heuristic(density, v.estimated_probability *
+                                                    bsdf_pdf(v.material, v.wo, l.wi, v.onward));
     }
-    if (!(dot(s.wi, surface.geometric_normal) > real(0.0))) {
-        return;
+    vec3 e = arriving * weight * bsdf_eval(v.material, v.wo, l.wi, v.onward);
+    if (v.onward != v.estimated) {
+        e += arriving * bsdf_eval(v.material, v.wo, l.wi, v.estimated & ~v.onward);
     }
-    vec3 arriving = throughput * s.radiance * (wi.z / choice_probability);
-    real weight = real(1.0); // for the lobes of `onward`; the others have nothing but this sample
-    if (!s.delta && onward != 0u) {
-        real density = choice_probability * s.pdf;
-        weight =
-            sky_by_cosine
-                ? real(0.0)
-                : power_heuristic(density, estimated_probability * bsdf_pdf(m, wo, wi, onward));
-    }
-    vec3 e = arriving * weight * bsdf_eval(m, wo, wi, onward);
-    if (onward != estimated) {
-        e += arriving * bsdf_eval(m, wo, wi, estimated & ~onward);
-    }
-    bool behind_estimated = (path.state & path_estimated) != 0u;
-    bool left_to_photons = final_gather && behind_estimated;
-    vec3 f = s.delta && followed != 0u && !left_to_photons
-                 ? arriving * bsdf_eval(m, wo, wi, followed)
+    bool behind = behind_estimated(v.path);
+    bool left_to_photons = final_gather && behind;
+    vec3 f = s.delta && v.followed != 0u && !left_to_photons
+                 ? arriving * bsdf_eval(v.material, v.wo, l.wi, v.followed)
                  : vec3(real(0.0));
     if (!(max_component(e) + max_component(f) > real(0.0))) {
         return;
     }
-    uint followed_layer = !behind_estimated                    ? layer_direct
-                          : (path.state & path_followed) != 0u ? layer_caustic
-                                                               : layer_indirect;
-    shadow_rays[slot] = RayRecord(o.x, o.y, o.z, s.distance, s.wi.x, s.wi.y, s.wi.z, 0u);
-    shadows[slot] = ShadowRecord(e.x, e.y, e.z, behind_estimated ? layer_indirect : layer_direct,
-                                 f.x, f.y, f.z, followed_layer);
+    uint followed_layer = !behind                                ? layer_direct
+                          : (v.path.state & path_followed) != 0u ? layer_caustic
+                                                                 : layer_indirect;
+    shadow_rays[v.slot] =
+        RayRecord(l.origin.x, l.origin.y, l.origin.z, s.distance, s.wi.x, s.wi.y, s.wi.z, 0u);
+    shadows[v.slot] = ShadowRecord(e.x, e.y, e.z, behind ? layer_indirect : layer_direct, f.x, f.y,
+                                   f.z, followed_layer);
 }
 
-FN void main() {
-    uint i = THREAD_INDEX;
-    if (i >= counts[0]) {
-        return;
-    }
-    uint slot = active_slots[i];
-    PathRecord path = paths[slot];
-    HitRecord hit = hits[slot];
-    vec3 direction = vec3(rays[slot].direction_x, rays[slot].direction_y, rays[slot].direction_z);
-    vec3 throughput = vec3(path.throughput_r, path.throughput_g, path.throughput_b);
-    alive[i] = 0u;
-    if (direct_light) {
-        shadow_rays[slot] = no_ray();
-    }
-    if (photon_map) {
-        asks[i] = 0u;
-    }
-    bool seeks_emission = final_gather && (path.state & path_seeks_emission) != 0u;
+// Steps in which queries may share the estimate of a glossy surface (query_steps_shift).
+FN uint shared_direction_steps(IN(Vertex) v) {
+    MaterialRecord m = v.material;
+    real all = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated));
+    real glossy = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated & LOBE_GLOSSY));
+    real share = clamp(glossy / max(all, real(1e-9)), real(0.0), real(1.0));
+    return direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
+}
 
-    if (hit.triangle == no_triangle) {
-        vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
-        if (has_light(light_sky) && max_component(sky) > real(0.0)) {
-            bool found_twice = path.pdf > real(0.0) && !seeks_emission;
-            real weight =
-                found_twice
-                    ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI)
-                    : real(1.0);
-            add_emission(slot, path, throughput * sky * weight);
-        }
-        return;
-    }
-
-    Surface surface = load_surface(hit, direction);
-    MaterialRecord m = load_material(triangles[hit.triangle].w);
-    vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
-    if (has_light(light_triangle) && max_component(emission) > real(0.0) &&
-        (surface.front || m.double_sided != 0u)) {
-        real weight = real(1.0);
-        if (path.pdf > real(0.0)) {
-            real cosine = max(-dot(direction, surface.geometric_normal), real(1.0e-12));
-            real sides = m.double_sided != 0u ? real(2.0) : real(1.0);
-            weight = power_heuristic(
-                path.pdf, emitter_density(emission, sides, scene[0].light_weight, hit.t, cosine));
-        }
-        add_emission(slot, path, throughput * emission * weight);
-    }
-    if (seeks_emission ||
-        ((path.state & path_estimated) != 0u && (path.state & path_depth_mask) >= batch.bounces)) {
-        return;
-    }
-    // From here on the state's depth is that of this vertex: scatterings between the first
-    // estimated vertex and it.
-    Frame frame = make_frame(surface.shading_normal);
-    vec3 wo = to_local(frame, -direction);
-    uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
-    uint estimated = bsdf_lobes(m) & ~followed;
-    real followed_albedo =
-        followed != 0u ? max_component(bsdf_albedo(m, wo, surface.front, followed)) : real(0.0);
-    // The map answers for what else lies behind the last estimated vertex; but shadow rays alone
-    // would make bright dots of lights that a glossy lobe reflects there, so one more ray looks for
-    // them.
-    bool ends = ends_at_estimated(path.state);
-    uint onward = !ends ? estimated : final_gather ? estimated & LOBE_GLOSSY : 0u;
-    real estimated_albedo =
-        onward != 0u ? max_component(bsdf_albedo(m, wo, surface.front, onward)) : real(0.0);
-    real albedo = followed_albedo + estimated_albedo;
-    real estimated_probability = albedo > real(0.0) ? estimated_albedo / albedo : real(0.0);
-
-    if (direct_light && scene[0].light_count > 0u &&
-        ((estimated | followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
-        sample_light(slot, path, throughput, surface, frame, m, wo, estimated, onward, followed,
-                     estimated_probability);
-    }
+// Leaves a query of the photon map for the estimated lobes.
+FN void leave_query(IN(Vertex) v) {
     uint asks_for = asks_map;
-    uint flags = surface.front ? query_front : 0u;
-    uint scatterings = batch.bounces; // of photons at most
-    if (final_gather && (path.state & path_estimated) != 0u) {
+    uint flags = v.surface.front ? query_front : 0u;
+    uint scatterings = batch.bounces; // at most, of photons that count
+    if (final_gather && behind_estimated(v.path)) {
         flags |= query_gathers;
-        scatterings -= (path.state & path_depth_mask) + 1u; // this one among them
+        scatterings -= (v.path.state & path_depth_mask) + 1u; // the one at this vertex among them
     } else if (final_gather) {
         asks_for = asks_caustics;
         flags |= query_caustics;
     }
-    if (photon_map && estimated != 0u && scatterings > 0u &&
-        (asks_for == asks_map || followed_paths)) {
-        // If answers are shared, all ask; else every few samples, which count for all.
-        bool shares = batch.shares_queries != 0u;
-        bool white = shares && is_lambertian(m);
-        if (shares || (path.sample_index - batch.first_sample) % batch.query_step == 0u) {
-            vec3 counts_by = throughput * (white ? bsdf_albedo(m, wo, surface.front, LOBE_DIFFUSE)
-                                           : shares ? vec3(real(1.0))
-                                                    : vec3(batch.query_weight));
-            flags |= min(scatterings, most_scatterings_known) << query_scatterings_shift;
-            if (white) {
-                flags |= query_white;
-            } else if (shares) {
-                real all = max_component(bsdf_albedo(m, wo, surface.front, estimated));
-                real glossy =
-                    max_component(bsdf_albedo(m, wo, surface.front, estimated & LOBE_GLOSSY));
-                real share = clamp(glossy / max(all, real(1e-9)), real(0.0), real(1.0));
-                flags |= direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share)
-                         << query_steps_shift;
-            }
-            asks[i] = asks_for;
-            queries[slot] =
-                QueryRecord(surface.position.x, surface.position.y, surface.position.z,
-                            triangles[hit.triangle].w, counts_by.x, counts_by.y, counts_by.z,
-                            pack_unit(-direction), pack_unit(surface.geometric_normal),
-                            pack_unit(surface.shading_normal), estimated, flags);
-        }
-    }
-    if ((followed | onward) == 0u || !(albedo > real(0.0))) {
+    bool wanted = v.estimated != 0u && scatterings > 0u && (asks_for == asks_map || followed_paths);
+    // If paths share estimates, all have queries; else only every few samples have, and count more.
+    bool shares = batch.shares_queries != 0u;
+    if (!wanted ||
+        !(shares || (v.path.sample_index - batch.first_sample) % batch.query_step == 0u)) {
         return;
     }
+    bool white = shares && is_lambertian(v.material);
+    vec3 counts_by =
+        v.throughput * (white    ? bsdf_albedo(v.material, v.wo, v.surface.front, LOBE_DIFFUSE)
+                        : shares ? vec3(real(1.0))
+                                 : vec3(batch.query_weight));
+    flags |= min(scatterings, most_scatterings_known) << query_scatterings_shift;
+    if (white) {
+        flags |= query_white;
+    } else if (shares) {
+        flags |= shared_direction_steps(v) << query_steps_shift;
+    }
+    vec3 p = v.surface.position;
+    asks[v.index] = asks_for;
+    queries[v.slot] =
+        QueryRecord(p.x, p.y, p.z, triangles[v.triangle].w, counts_by.x, counts_by.y, counts_by.z,
+                    pack_unit(-v.direction), pack_unit(v.surface.geometric_normal),
+                    pack_unit(v.surface.shading_normal), v.estimated, flags);
+}
 
+// Samples the ray on which the path continues, unless it ends by chance or because nothing is
+// scattered.
+FN void continue_path(INOUT(Vertex) v) {
+    PathRecord path = v.path;
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 2u);
-    bool takes_estimated = u.w < estimated_probability;
+    bool takes_estimated = u.w < v.estimated_probability;
     BsdfSample s;
-    uint lobes = takes_estimated ? onward : followed;
-    if (!bsdf_sample(m, wo, surface.front, lobes, u, s)) {
+    uint lobes = takes_estimated ? v.onward : v.followed;
+    if (!bsdf_sample(v.material, v.wo, v.surface.front, lobes, u, s)) {
         return;
     }
-    vec3 wi = may_have(m, LOBE_PASS) && s.lobe == LOBE_PASS ? direction : to_world(frame, s.wi);
-    // The sampled side and the geometric side must be the same, or light would pass through the
-    // surface.
-    if ((s.wi.z > real(0.0)) != (dot(wi, surface.geometric_normal) > real(0.0))) {
+    vec3 wi = may_have(v.material, LOBE_PASS) && s.lobe == LOBE_PASS ? v.direction
+                                                                     : to_world(v.frame, s.wi);
+    // Sides by the shading normal and by the geometric one must agree, or light would leak through
+    // the surface.
+    if ((s.wi.z > real(0.0)) != (dot(wi, v.surface.geometric_normal) > real(0.0))) {
         return;
     }
-    real probability = takes_estimated ? estimated_probability : real(1.0) - estimated_probability;
+    real probability =
+        takes_estimated ? v.estimated_probability : real(1.0) - v.estimated_probability;
+    vec3 throughput = v.throughput;
     throughput *= s.weight * (s.eta_scale / probability);
     path.vertices += 1u;
     if (path.vertices >= 3u) {
         real survival = min(max_component(throughput), real(0.95));
         // What is left of the number that chose between the lobes is uniform again.
         real left =
-            takes_estimated ? u.w / probability : (u.w - estimated_probability) / probability;
+            takes_estimated ? u.w / probability : (u.w - v.estimated_probability) / probability;
         if (!(left < survival)) {
             return;
         }
@@ -233,15 +261,60 @@ FN void main() {
     if (!(max_component(throughput) > real(0.0))) {
         return;
     }
-    rays[slot] = make_ray(surface, wi, far_away);
+    rays[v.slot] = make_ray(v.surface, wi, far_away);
     path.throughput_r = throughput.x;
     path.throughput_g = throughput.y;
     path.throughput_b = throughput.z;
-    path.pdf = takes_estimated ? estimated_probability * s.pdf : real(0.0);
+    path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
     path.state = state_after(path.state, !takes_estimated);
-    if (ends && takes_estimated) {
+    if (v.ends && takes_estimated) {
         path.state |= path_seeks_emission;
     }
-    paths[slot] = path;
-    alive[i] = 1u;
+    paths[v.slot] = path;
+    alive[v.index] = 1u;
+}
+
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counts[0]) {
+        return;
+    }
+    Vertex v;
+    v.index = i;
+    v.slot = active_slots[i];
+    v.path = paths[v.slot];
+    HitRecord hit = hits[v.slot];
+    v.direction =
+        vec3(rays[v.slot].direction_x, rays[v.slot].direction_y, rays[v.slot].direction_z);
+    v.throughput = vec3(v.path.throughput_r, v.path.throughput_g, v.path.throughput_b);
+    alive[i] = 0u;
+    if (direct_light) {
+        shadow_rays[v.slot] = no_ray();
+    }
+    if (photon_map) {
+        asks[i] = 0u;
+    }
+    if (hit.triangle == no_triangle) {
+        add_sky(v.slot, v.path, v.throughput);
+        return;
+    }
+    v.triangle = hit.triangle;
+    v.surface = load_surface(hit, v.direction);
+    v.material = load_material(triangles[hit.triangle].w);
+    add_surface_emission(v, hit.t);
+    if (seeks_emission(v.path) ||
+        (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {
+        return;
+    }
+    split_lobes(v);
+    if (direct_light && scene[0].light_count > 0u &&
+        ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+        sample_light(v);
+    }
+    if (photon_map) {
+        leave_query(v);
+    }
+    if ((v.followed | v.onward) != 0u && v.albedo > real(0.0)) {
+        continue_path(v);
+    }
 }

@@ -1,9 +1,9 @@
-// What all kinds of density estimation at the eye's queries have in common: reading a query, what
-// its surface scatters of a photon's flux, and writing the estimate.
+// Shared by all estimators: reading a query, the flux of a photon that the query's surface scatters
+// towards the eye, and writing the estimate.
 #include "shared/kernels/material.h"
 #include "shared/kernels/photon/map_walk.h"
 
-// So that a million photons in one point add up.
+// A compensated sum, in which a million photons at one point add up.
 struct Sum {
     vec3 value, compensation;
 };
@@ -15,21 +15,21 @@ struct Query {
     vec3 p;
     vec3 normal;       // geometric, towards the eye
     bool front;        // the surface is seen from its front
-    uint own_normal;   // packed as photons' are
-    uint front_normal; // that of the surface's front, as area samples have it
+    uint own_normal;   // packed as photons' normals are
+    uint front_normal; // normal of the surface's front, as area samples have it
     MaterialRecord material;
     uint lobes;
-    uint most_scatterings; // of a photon that counts (final_gather)
+    uint most_scatterings; // of a photon that counts; only with final_gather
     bool lambertian;
     vec3 reflectance; // if lambertian, over pi
     Frame frame;      // of the shading normal
     vec3 wo;
     Sum indirect, caustic;
     real coverage; // sum of the weighted areas
-    uint node;     // to go on with
+    uint node;     // at which the walk continues
 };
 
-// The query of a slot, before its walk.
+// The query of a slot, at the beginning of its walk.
 FN Query make_query(uint slot) {
     Query q;
     q.slot = slot;
@@ -58,10 +58,11 @@ FN Query make_query(uint slot) {
     return q;
 }
 
-// Whether a photon's or an area sample's packed normal is that of the query's surface, on its side.
-FN bool on_same_side(Query q, uint packed) {
+// Whether a photon or an area sample of this packed normal lies on the query's surface, on the
+// query's side of it.
+FN bool on_same_side(IN(Query) q, uint packed) {
     bool is_area = (packed & area_sample_bit) != 0u;
-    // On flat surfaces the packed normals are the same, and nothing need be unpacked.
+    // On flat surfaces the packed normals are equal, which saves unpacking.
     if ((packed & photon_normal_mask) == (is_area ? q.front_normal : q.own_normal)) {
         return true;
     }
@@ -69,8 +70,9 @@ FN bool on_same_side(Query q, uint packed) {
     return (is_area && !q.front ? -cosine : cosine) >= same_surface_cosine;
 }
 
-// Of a photon's flux and direction, what the surface scatters towards the eye.
-FN vec3 scattered(Query q, uvec4 carried) {
+// The flux that the surface scatters towards the eye, per solid angle, of a photon whose second
+// four words are `carried`.
+FN vec3 scattered(IN(Query) q, uvec4 carried) {
     if (final_gather && photon_scatterings(carried.w) > q.most_scatterings) {
         return vec3(real(0.0));
     }
@@ -82,10 +84,10 @@ FN vec3 scattered(Query q, uvec4 carried) {
     return flux * (wi.z > real(0.0) ? bsdf_eval(q.material, q.wo, wi, q.lobes) : vec3(real(0.0)));
 }
 
-// Of a photon's first four words.
+// place: a photon's first four words.
 FN bool is_caustic(uvec4 place) { return caustics && photon_is_caustic(place.w); }
 
-FN void store_estimate(Query q, vec3 indirect, vec3 caustic) {
+FN void store_estimate(IN(Query) q, vec3 indirect, vec3 caustic) {
     estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x,
                                        caustic.y, caustic.z, real(0.0));
 }

@@ -1,7 +1,15 @@
-// Queries that take one walk through the map, which can be put aside between two dispatches.
+// Queries that take one walk through the map and may be suspended between two dispatches.
 #include "shared/kernels/photon/query.h"
 
-// False: there is nothing to do.
+// Contributions of one leaf's photons, which are added up before they are added to the query's
+// compensated sums.
+struct LeafSums {
+    vec3 indirect, caustic;
+    real area; // of area samples, weighted
+};
+
+// The query of this invocation, as it was suspended if this is not its first dispatch. False: there
+// is none, or it is complete.
 FN bool load_query(OUT(Query) q) {
     uint i = THREAD_INDEX;
     if (i >= counts[params.count_index]) {
@@ -22,9 +30,9 @@ FN bool load_query(OUT(Query) q) {
     return params.first != 0u || q.node != lbvh_end;
 }
 
-// Puts the query aside if its walk has not come to its end. Else stores the estimate; the scales
-// are for what the kernels lost off the surfaces.
-FN void store_query(Query q, real indirect_scale, real caustic_scale) {
+// Suspends the query if its walk has not reached the end; else stores the estimate, times the
+// scales.
+FN void store_query(IN(Query) q, real indirect_scale, real caustic_scale) {
     if (q.node != lbvh_end) {
         vec3 a = q.indirect.compensation;
         vec3 b = q.caustic.compensation;
