@@ -21,7 +21,7 @@ public:
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
                                           const Bandwidth& bandwidth) const override {
-        return std::make_unique<RadiusEstimator>(c.device, c.on_device, bandwidth.radii);
+        return std::make_unique<RadiusEstimator>(c.device, c.on_device.plan, bandwidth.radii);
     }
 };
 

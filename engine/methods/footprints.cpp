@@ -25,7 +25,7 @@ public:
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
                                           const Bandwidth&) const override {
-        return std::make_unique<FootprintEstimator>(c.device, c.on_device,
+        return std::make_unique<FootprintEstimator>(c.device, c.on_device.plan,
                                                     c.settings.footprints.uniform_kernel);
     }
 };

@@ -32,7 +32,7 @@ public:
         const double samples_per_area =
             map.area_samples / std::max(c.on_device.surface_area, 1e-30);
         return std::make_unique<NearestEstimator>(
-            c.device, c.on_device,
+            c.device, c.on_device.plan,
             NearestSettings{.neighbours = bandwidth.neighbours,
                             .radius = bandwidth.radii.indirect,
                             .samples_per_area = samples_per_area});

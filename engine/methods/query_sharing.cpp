@@ -55,6 +55,7 @@ void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& 
                                            .table = queries.cells,
                                            .owners = queries.owners,
                                            .sources = queries.sources,
+                                           .query_bsdfs = queries.bsdfs,
                                            .params = params},
                       paths.counts);
     dispatch_indirect(device,
@@ -78,6 +79,7 @@ void answer_round(Device& device, const EyeQueries& queries, const ActivePaths& 
     }
     lookup.estimator.estimate(lookup.map,
                               {.points = queries.points,
+                               .bsdfs = queries.bsdfs,
                                .slots = queries.slots,
                                .count = Count(paths.counts, counts_of_queries, paths.most),
                                .estimates = queries.estimates,
@@ -105,6 +107,8 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
     const bool needed = plan.needs(Feature::photon_map);
     // A kernel takes at least an element of each of its buffers.
     q.points = device.allocate("photon map queries", (needed ? slots : 1) * sizeof(QueryRecord));
+    const bool glossy = needed && plan.needs(Feature::glossy_estimates);
+    q.bsdfs = device.allocate("query BSDFs", (glossy ? slots : 1) * sizeof(QueryBsdfRecord));
     q.asks = device.allocate("eye path flags", (needed ? slots : 1) * 4);
     if (needed) {
         q.chosen = device.allocate("eye path flags", slots * 4);

@@ -17,7 +17,7 @@ struct QuerySharing {
 
 /// Device memory for the photon map queries of eye paths.
 struct EyeQueries {
-    Buffer points;               ///< QueryRecord per slot
+    Buffer points, bsdfs;        ///< QueryRecord and QueryBsdfRecord per slot
     Buffer asks;                 ///< uint per active path: asks_*, which queries its vertex has
     Buffer chosen, slots;        ///< flags of the active paths, and slots, of the queries that the
                                  ///< estimator answers; the others share their estimates

@@ -9,6 +9,8 @@ namespace argand {
 /// that the queries share with the paths they belong to.
 struct PhotonQueries {
     Buffer points;     ///< in: QueryRecord per slot
+    Buffer bsdfs;      ///< in: QueryBsdfRecord per slot; one element if the plan has no glossy
+                       ///< estimates
     Buffer slots;      ///< in: uint per query, its slot
     Count count = 0;   ///< of `slots`; the number is on the device
     Buffer estimates;  ///< out: EstimateRecord per slot, without the path's throughput

@@ -10,7 +10,6 @@ namespace argand {
 
 void RadiusEstimator::estimate(const PhotonMap& map, const PhotonQueries& queries) {
     const StageScope stage(device_, "gather photons");
-    const Plan& plan = scene_.plan;
     PhotonGatherParams all = gather_params(map, queries, budget_);
     all.radius = static_cast<float>(radii_.indirect);
     all.caustic_radius = static_cast<float>(radii_.caustic);
@@ -25,15 +24,15 @@ void RadiusEstimator::estimate(const PhotonMap& map, const PhotonQueries& querie
                                    .active_slots = queries.slots,
                                    .counts = queries.count.buffer,
                                    .queries = queries.points,
-                                   .materials = scene_.materials,
+                                   .query_bsdfs = queries.bsdfs,
                                    .gathers = queries.suspended,
                                    .unfinished = unfinished,
                                    .estimates = queries.estimates,
                                    .params = params,
-                                   .constants = {.glossy = plan.needs(Feature::glossy_estimates),
+                                   .constants = {.glossy = plan_.needs(Feature::glossy_estimates),
                                                  .final_gather = queries.final_gather,
-                                                 .caustics = plan.needs(Feature::caustics),
-                                                 .material_features = plan.material_features()}},
+                                                 .caustics = plan_.needs(Feature::caustics),
+                                                 .material_features = plan_.material_features()}},
                             queries.count.buffer, queries.count.index);
                     });
     };
@@ -42,7 +41,6 @@ void RadiusEstimator::estimate(const PhotonMap& map, const PhotonQueries& querie
 
 void FootprintEstimator::estimate(const PhotonMap& map, const PhotonQueries& queries) {
     const StageScope stage(device_, "gather photons");
-    const Plan& plan = scene_.plan;
     PhotonGatherParams all = gather_params(map, queries, budget_);
     all.flatness = map.flatness;
     const auto use = [&]<class Kernel>(std::type_identity<Kernel>) {
@@ -56,17 +54,17 @@ void FootprintEstimator::estimate(const PhotonMap& map, const PhotonQueries& que
                                    .active_slots = queries.slots,
                                    .counts = queries.count.buffer,
                                    .queries = queries.points,
-                                   .materials = scene_.materials,
+                                   .query_bsdfs = queries.bsdfs,
                                    .gathers = queries.suspended,
                                    .unfinished = unfinished,
                                    .estimates = queries.estimates,
                                    .footprints = map.footprints,
                                    .params = params,
-                                   .constants = {.glossy = plan.needs(Feature::glossy_estimates),
+                                   .constants = {.glossy = plan_.needs(Feature::glossy_estimates),
                                                  .uniform_kernel = uniform_kernel_,
                                                  .final_gather = queries.final_gather,
-                                                 .caustics = plan.needs(Feature::caustics),
-                                                 .material_features = plan.material_features()}},
+                                                 .caustics = plan_.needs(Feature::caustics),
+                                                 .material_features = plan_.material_features()}},
                             queries.count.buffer, queries.count.index);
                     });
     };

@@ -18,15 +18,15 @@ struct GatherRadii {
 /// same for all queries (as in each pass of Hachisuka et al. 2008).
 class RadiusEstimator final : public PhotonEstimator {
 public:
-    RadiusEstimator(Device& device, const DeviceScene& scene, const GatherRadii& radii,
+    RadiusEstimator(Device& device, const Plan& plan, const GatherRadii& radii,
                     std::uint32_t budget = gather_budget)
-        : device_(device), scene_(scene), radii_(radii), budget_(budget) {}
+        : device_(device), plan_(plan), radii_(radii), budget_(budget) {}
 
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
 
 private:
     Device& device_;
-    const DeviceScene& scene_;
+    const Plan& plan_;
     GatherRadii radii_;
     std::uint32_t budget_;
 };
@@ -36,15 +36,15 @@ private:
 class FootprintEstimator final : public PhotonEstimator {
 public:
     /// uniform_kernel: instead of Epanechnikov's.
-    FootprintEstimator(Device& device, const DeviceScene& scene, bool uniform_kernel = false,
+    FootprintEstimator(Device& device, const Plan& plan, bool uniform_kernel = false,
                        std::uint32_t budget = gather_budget)
-        : device_(device), scene_(scene), uniform_kernel_(uniform_kernel), budget_(budget) {}
+        : device_(device), plan_(plan), uniform_kernel_(uniform_kernel), budget_(budget) {}
 
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
 
 private:
     Device& device_;
-    const DeviceScene& scene_;
+    const Plan& plan_;
     bool uniform_kernel_;
     std::uint32_t budget_;
 };

@@ -33,7 +33,6 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
     }
 
     const auto use = [&]<class Kernel>(std::type_identity<Kernel>) {
-        const Plan& plan = scene_.plan;
         const auto kernel = [&](const PhotonGatherParams& now, const Buffer& unfinished) {
             return Kernel{.nodes = map.lbvh.nodes,
                           .photons = map.photons,
@@ -41,16 +40,16 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
                           .active_slots = queries.slots,
                           .counts = count.buffer,
                           .queries = queries.points,
-                          .materials = scene_.materials,
+                          .query_bsdfs = queries.bsdfs,
                           .states = states_,
                           .unfinished = unfinished,
                           .estimates = queries.estimates,
                           .suspended_words = words_,
                           .params = now,
-                          .constants = {.glossy = plan.needs(Feature::glossy_estimates),
+                          .constants = {.glossy = plan_.needs(Feature::glossy_estimates),
                                         .final_gather = queries.final_gather,
-                                        .caustics = plan.needs(Feature::caustics),
-                                        .material_features = plan.material_features()}};
+                                        .caustics = plan_.needs(Feature::caustics),
+                                        .material_features = plan_.material_features()}};
         };
         if (!queries.until_complete) {
             run_queries(device_, queries, params,

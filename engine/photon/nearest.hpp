@@ -20,9 +20,9 @@ inline constexpr std::uint64_t nearest_places = 1u << 14;
 /// or r_max if there are fewer than k. Exact; ties go by the order of the map.
 class NearestEstimator final : public PhotonEstimator {
 public:
-    NearestEstimator(Device& device, const DeviceScene& scene, const NearestSettings& settings,
+    NearestEstimator(Device& device, const Plan& plan, const NearestSettings& settings,
                      std::uint32_t budget = gather_budget)
-        : device_(device), scene_(scene), settings_(settings), budget_(budget) {}
+        : device_(device), plan_(plan), settings_(settings), budget_(budget) {}
 
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
 
@@ -33,7 +33,7 @@ public:
 
 private:
     Device& device_;
-    const DeviceScene& scene_;
+    const Plan& plan_;
     NearestSettings settings_;
     std::uint32_t budget_;
     Buffer states_, words_; ///< of queries between two dispatches; `words_` are their bins

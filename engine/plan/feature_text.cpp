@@ -50,7 +50,9 @@ FeatureText text_of(Feature feature) {
                 "a round of tracing and shading for every surface that a path meets"};
     case Feature::glossy_estimates:
         return {"glossy_estimates", "estimates on non-Lambertian surfaces",
-                "the BSDF is evaluated for every photon of an estimate"};
+                fmt::format("the BSDF is evaluated for every photon of an estimate; {} bytes per "
+                            "eye path",
+                            sizeof(QueryBsdfRecord))};
     case Feature::direct_light:
         return {"direct_light", "shadow rays",
                 fmt::format("a ray at every eye vertex; {} bytes per eye path",

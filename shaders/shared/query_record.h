@@ -8,21 +8,27 @@ ARGAND_SHARED_BEGIN
 // A query of the photon map: a point at which estimated lobes scatter radiance towards the eye.
 struct QueryRecord {
     float32 x, y, z;
-    uint material;
-    // Weight of the answer in the eye path.
+    uint geometric_normal; // on the eye's side, packed (pack_unit)
+    // Weight of the answer in the eye path; times the albedo where surfaces share irradiance.
     float32 throughput_r, throughput_g, throughput_b;
-    uint direction;        // towards the eye, packed (pack_unit)
-    uint geometric_normal; // on the eye's side, packed
-    uint shading_normal;   // packed
-    uint lobes;            // LOBE_* to estimate
-    uint flags;            // query_*
+    uint flags;                                          // query_*
+    float32 reflectance_r, reflectance_g, reflectance_b; // BRDF of a Lambertian surface [1/sr]
+    uint material; // index: queries of different materials share no answer
 };
 
-CONSTANT uint query_front = 1u; // the eye sees the front of the surface
-// The surface is Lambertian and its albedo is in the throughput; the answer is for albedo 1.
-CONSTANT uint query_white = 2u;
-// The bits from here up: steps of directions within which an answer may be shared; 0 where white.
-CONSTANT uint query_steps_shift = 10u;
+// Parameters of the BSDF at a query on a non-Lambertian surface, as MaterialRecord has them, and
+// the vectors that its evaluation needs. Scenes without such surfaces have no such records.
+struct QueryBsdfRecord {
+    float32 base_r, base_g, base_b, metallic;
+    float32 specular_r, specular_g, specular_b, specular;
+    float32 roughness, transmission, ior, thickness;
+    float32 coverage, exponent;
+    uint direction;      // towards the eye, packed
+    uint shading_normal; // packed
+};
+
+CONSTANT uint query_front = 1u;      // the eye sees the front of the surface
+CONSTANT uint query_lambertian = 2u; // the reflectance is all that an estimate needs of the BSDF
 // With final gather, the first estimated vertex of an eye path queries caustic photons only. The
 // next one queries all photons up to a number of scatterings; the eye sees their light as indirect.
 CONSTANT uint query_caustics = 4u;
@@ -30,6 +36,12 @@ CONSTANT uint query_gathers = 8u;
 // Six bits: most scatterings of a photon that counts (photon.h).
 CONSTANT uint query_scatterings_shift = 4u;
 CONSTANT uint query_scatterings_mask = 0x3fu;
+// Six bits: steps of directions within which an answer may be shared; 0 where it does not depend on
+// directions.
+CONSTANT uint query_steps_shift = 10u;
+CONSTANT uint query_steps_mask = 0x3fu;
+// The bits from here up: LOBE_* to estimate (bsdf.h).
+CONSTANT uint query_lobes_shift = 16u;
 
 // Flags of paths that query. Queries with the same flags are answered together.
 CONSTANT uint asks_map = 1u;

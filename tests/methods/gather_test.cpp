@@ -37,7 +37,7 @@ protected:
         const PhotonMap map =
             build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
                              {.area_samples = area_samples});
-        RadiusEstimator estimator(device(), scene, {radius, radius}, budget);
+        RadiusEstimator estimator(device(), scene.plan, {radius, radius}, budget);
         return answers(device(), estimator, map, queries, {.until_complete = careful, .part = part},
                        finished_);
     }

@@ -136,7 +136,7 @@ protected:
         const PhotonMap map = build_photon_map(on, scene, workspace, store(on, workspace, photons),
                                                {.area_samples = area_samples});
         Answers answers;
-        NearestEstimator estimator(on, scene,
+        NearestEstimator estimator(on, scene.plan,
                                    {.neighbours = k,
                                     .radius = radius,
                                     .samples_per_area = map.area_samples / scene.surface_area},

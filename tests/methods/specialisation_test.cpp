@@ -1,6 +1,7 @@
 // Argand compiles, runs and allocates only what a scene requires, which changes no bit of an image.
 #include "rendering.hpp"
 #include "shared/geometry_records.h"
+#include "shared/query_record.h"
 #include "support/recording_device.hpp"
 #include "support/specialised.hpp"
 
@@ -237,6 +238,8 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
     EXPECT_EQ(without->bytes_of("area sums") > 0, map);
     EXPECT_EQ(without->runs_of("photon_emit") > 0, map);
     EXPECT_EQ(without->stages().contains("gather photons"), map);
+    EXPECT_EQ(without->bytes_of("query BSDFs"), sizeof(QueryBsdfRecord));
+    EXPECT_EQ(with->bytes_of("query BSDFs") > sizeof(QueryBsdfRecord), map);
 
     // A scene of mirrors has no surface that casts shadow rays.
     Scene mirrors = box_scene(mirror(glm::vec3(0.5f)));

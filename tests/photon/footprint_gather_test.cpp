@@ -66,7 +66,7 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
                           .footprints = plain_scale()});
 
     Sums result;
-    FootprintEstimator estimator(device, scene, settings.uniform_kernel, settings.budget);
+    FootprintEstimator estimator(device, scene.plan, settings.uniform_kernel, settings.budget);
     result.sums = answers(device, estimator, map, queries, {.until_complete = settings.careful},
                           result.finished);
     const std::size_t kept = stored + map.area_samples;

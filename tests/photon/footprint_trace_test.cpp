@@ -239,7 +239,7 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
         EXPECT_EQ(map.area_samples, area_samples);
         bool finished = false;
         double sum = 0;
-        FootprintEstimator estimator(device(), scene);
+        FootprintEstimator estimator(device(), scene.plan);
         const std::vector<Gathered> sums =
             answers(device(), estimator, map, queries, {.until_complete = true}, finished);
         for (const Gathered& g : sums) {

@@ -37,23 +37,32 @@ inline StoredPhotons store(Device& device, PhotonWorkspace& workspace,
 struct Answering {
     bool until_complete = true;
     std::uint32_t part = map_whole;
+    float albedo = 0.5f; ///< of the surfaces
 };
 
-/// The queries on the device, at surfaces of the scene's first material.
+/// The queries on the device, at Lambertian surfaces of this albedo.
 inline PhotonQueries upload_queries(Device& device, const std::vector<Query>& queries,
                                     const Answering& how) {
+    const float reflectance = how.albedo * INV_PI;
     std::vector<std::uint32_t> slots;
     std::vector<QueryRecord> records;
     for (const Query& q : queries) {
         const std::uint32_t normal = pack_unit(q.normal);
         slots.push_back(static_cast<std::uint32_t>(slots.size()));
-        records.push_back({q.position.x, q.position.y, q.position.z, 0, 1, 1, 1, normal, normal,
-                           normal, LOBE_DIFFUSE, query_front});
+        records.push_back({.x = q.position.x,
+                           .y = q.position.y,
+                           .z = q.position.z,
+                           .geometric_normal = normal,
+                           .flags = query_front | query_lambertian,
+                           .reflectance_r = reflectance,
+                           .reflectance_g = reflectance,
+                           .reflectance_b = reflectance});
     }
     const std::size_t n = queries.size();
     const Buffer number = upload(
         device, "counts", std::vector<std::uint32_t>{static_cast<std::uint32_t>(n), 0, 0, 0});
     return {.points = upload(device, "queries", records),
+            .bsdfs = device.allocate("query BSDFs", sizeof(QueryBsdfRecord)),
             .slots = upload(device, "slots", slots),
             .count = Count(number, 0, n),
             .estimates = upload(device, "estimates", std::vector<EstimateRecord>(n)),

@@ -206,7 +206,7 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
     }
     const auto gather = [&](const PhotonMap& map) {
         bool finished = false;
-        FootprintEstimator estimator(device, scene);
+        FootprintEstimator estimator(device, scene.plan);
         const std::vector<Gathered> sums =
             answers(device, estimator, map, queries, {.until_complete = false}, finished);
         EXPECT_TRUE(finished);

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 #include "shared/lights.h"
 #include "shared/photon.h"
 #include "shared/query_cell.h"
-#include "shared/query_record.h"
+#include "shared/query_bsdf.h"
 #include "shared/sampling.h"
 
 layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
@@ -21,6 +21,7 @@ layout(set = 0, binding = 14) writeonly buffer Shadows { ShadowRecord shadows[];
 layout(set = 0, binding = 15) writeonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 16) writeonly buffer Alive { uint alive[]; };
 layout(set = 0, binding = 17) writeonly buffer Asks { uint asks[]; };
+layout(set = 0, binding = 18) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: light that estimated lobes scatter more than once is left to the photon map.
@@ -31,5 +32,7 @@ layout(constant_id = 1) const bool final_gather = false;
 layout(constant_id = 2) const bool followed_paths = true;
 // Whether lights are sampled; else there are no shadow rays.
 layout(constant_id = 3) const bool direct_light = true;
+// Whether queries may be on surfaces that are not Lambertian; else `query_bsdfs` is not written.
+layout(constant_id = 4) const bool glossy_estimates = true;
 
 #include "shared/kernels/methods/eye_vertex.h"

@@ -11,6 +11,7 @@ layout(set = 0, binding = 3) readonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 4) coherent buffer Table { uint table[]; };
 layout(set = 0, binding = 5) coherent buffer Owners { uint owners[]; };
 layout(set = 0, binding = 6) writeonly buffer Sources { uint sources[]; };
+layout(set = 0, binding = 7) readonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(push_constant) uniform Push { QueryShareParams params; };
 
 #include "shared/kernels/methods/query_cells.h"

@@ -1,19 +1,18 @@
-// What all kinds of density estimation read and write.
+// What all estimators read and write.
 #include "photon/map_walk.glsl"
 #include "material_features.glsl"
-#include "shared/bsdf.h"
 #include "shared/compensated.h"
-#include "shared/query_record.h"
+#include "shared/query_bsdf.h"
 
 layout(set = 0, binding = 3) readonly buffer Active { uint active_slots[]; };
 layout(set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 5) readonly buffer Queries { QueryRecord queries[]; };
-layout(set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 0, binding = 6) readonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(set = 0, binding = 8) buffer Unfinished { uint unfinished[]; };
 layout(set = 0, binding = 9) writeonly buffer Estimates { EstimateRecord estimates[]; };
 layout(push_constant) uniform Push { PhotonGatherParams params; };
 
-// Whether any estimated lobe of the scene is not Lambertian.
+// Whether any estimated lobe of the scene is not Lambertian; else `query_bsdfs` is not read.
 layout(constant_id = 0) const bool glossy = true;
 // Whether queries are those of a final gather (query_record.h).
 layout(constant_id = 2) const bool final_gather = false;

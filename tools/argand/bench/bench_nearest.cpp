@@ -26,7 +26,14 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
         points.emplace_back(p.x, p.y, p.z);
         if (i % 8 == 0) {
             const std::uint32_t normal = pack_unit(unpack_photon_normal(p.normal));
-            records.push_back({p.x, p.y, p.z, 0, 1, 1, 1, normal, normal, normal, LOBE_DIFFUSE, 1});
+            records.push_back({.x = p.x,
+                               .y = p.y,
+                               .z = p.z,
+                               .geometric_normal = normal,
+                               .flags = query_front | query_lambertian,
+                               .reflectance_r = 0.2f,
+                               .reflectance_g = 0.2f,
+                               .reflectance_b = 0.2f});
             slots.push_back(static_cast<std::uint32_t>(slots.size()));
             asked.push_back(points.back());
         }
@@ -34,12 +41,13 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
     const std::uint64_t n = asked.size();
     const Buffer number =
         upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)});
-    const PhotonQueries queries{.points = upload(device, "bench queries", records),
-                                .slots = upload(device, "bench slots", slots),
-                                .count = Count(number, 0, n),
-                                .estimates =
-                                    device.allocate("bench estimates", n * sizeof(EstimateRecord)),
-                                .unfinished = upload(device, "bench unfinished", std::vector{0u})};
+    const PhotonQueries queries{
+        .points = upload(device, "bench queries", records),
+        .bsdfs = device.allocate("bench query BSDFs", sizeof(QueryBsdfRecord)),
+        .slots = upload(device, "bench slots", slots),
+        .count = Count(number, 0, n),
+        .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
+        .unfinished = upload(device, "bench unfinished", std::vector{0u})};
     const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
     std::vector<BenchRow> rows;
     for (const std::uint32_t k : {50u, 150u, 500u}) {
@@ -47,7 +55,7 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
             2.5 * median_radius(photons,
                                 std::span(asked).subspan(0, std::min<std::size_t>(n, 2000)),
                                 center - scene.record.radius, center + scene.record.radius, k);
-        NearestEstimator estimator(device, scene, {.neighbours = k, .radius = radius});
+        NearestEstimator estimator(device, scene.plan, {.neighbours = k, .radius = radius});
         const double seconds = median_host_seconds([&] { device.wait(); },
                                                    [&] {
                                                        estimator.estimate(map, queries);

@@ -37,7 +37,7 @@ void measure_shares(Device& device, const Scene& scene, const RenderSettings& re
             trace_photons(device, paper.scene, paper.workspace, pass, 1e-6f).value_or(paper.stored);
         const PhotonMap map =
             build_photon_map(device, paper.scene, paper.workspace, paper.stored, paper.settings);
-        FootprintEstimator estimator(device, paper.scene);
+        FootprintEstimator estimator(device, paper.scene.plan);
         const PhotonLookup lookup{.map = map, .estimator = estimator};
         trace_eye_paths(device, paper.scene, eye, paper.eye_pass(paper.render.samples), &lookup,
                         [](double) { return true; });

@@ -23,7 +23,7 @@ class CandidateTimes final : public PhotonEstimator {
 public:
     CandidateTimes(Device& device, const DeviceScene& scene, std::span<Candidate> candidates,
                    int runs)
-        : device_(device), estimator_(device, scene), candidates_(candidates), runs_(runs) {
+        : device_(device), estimator_(device, scene.plan), candidates_(candidates), runs_(runs) {
         for (Candidate& candidate : candidates_) {
             candidate.seconds.assign(static_cast<std::size_t>(runs), 0.0);
         }

@@ -187,6 +187,12 @@ FN uint shared_direction_steps(IN(Vertex) v) {
     return direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
 }
 
+// BRDF of a Lambertian surface, as the packed vectors of a query give it [1/sr].
+FN vec3 lambertian_reflectance(IN(Vertex) v, uint direction, uint shading_normal) {
+    vec3 wo = to_local(make_frame(unpack_unit(shading_normal)), unpack_unit(direction));
+    return bsdf_eval(v.material, wo, vec3(real(0.0), real(0.0), real(1.0)), v.estimated);
+}
+
 // Leaves a query of the photon map for the estimated lobes.
 FN void leave_query(IN(Vertex) v) {
     uint asks_for = asks_map;
@@ -206,23 +212,36 @@ FN void leave_query(IN(Vertex) v) {
         !(shares || (v.path.sample_index - batch.first_sample) % batch.query_step == 0u)) {
         return;
     }
-    bool white = shares && is_lambertian(v.material);
-    vec3 counts_by =
-        v.throughput * (white    ? bsdf_albedo(v.material, v.wo, v.surface.front, LOBE_DIFFUSE)
-                        : shares ? vec3(real(1.0))
-                                 : vec3(batch.query_weight));
+    // Lambertian surfaces share irradiance, which their albedo turns into radiance.
+    bool lambertian = !glossy_estimates || is_lambertian(v.material);
+    bool shares_irradiance = shares && lambertian;
+    vec3 counts_by = v.throughput;
+    if (shares_irradiance) {
+        counts_by = v.throughput * bsdf_albedo(v.material, v.wo, v.surface.front, LOBE_DIFFUSE);
+    } else if (!shares) {
+        counts_by = v.throughput * vec3(batch.query_weight);
+    }
     flags |= min(scatterings, most_scatterings_known) << query_scatterings_shift;
-    if (white) {
-        flags |= query_white;
-    } else if (shares) {
-        flags |= shared_direction_steps(v) << query_steps_shift;
+    flags |= v.estimated << query_lobes_shift;
+    uint direction = pack_unit(-v.direction);
+    uint shading_normal = pack_unit(v.surface.shading_normal);
+    vec3 reflectance = vec3(INV_PI);
+    if (lambertian) {
+        flags |= query_lambertian;
+        if (!shares_irradiance) {
+            reflectance = lambertian_reflectance(v, direction, shading_normal);
+        }
+    } else {
+        if (shares) {
+            flags |= shared_direction_steps(v) << query_steps_shift;
+        }
+        query_bsdfs[v.slot] = query_bsdf(v.material, direction, shading_normal);
     }
     vec3 p = v.surface.position;
     asks[v.index] = asks_for;
-    queries[v.slot] =
-        QueryRecord(p.x, p.y, p.z, triangles[v.triangle].w, counts_by.x, counts_by.y, counts_by.z,
-                    pack_unit(-v.direction), pack_unit(v.surface.geometric_normal),
-                    pack_unit(v.surface.shading_normal), v.estimated, flags);
+    queries[v.slot] = QueryRecord(p.x, p.y, p.z, pack_unit(v.surface.geometric_normal), counts_by.x,
+                                  counts_by.y, counts_by.z, flags, reflectance.x, reflectance.y,
+                                  reflectance.z, triangles[v.triangle].w);
 }
 
 // Samples the ray on which the path continues, unless it ends by chance or because nothing is

@@ -1,6 +1,5 @@
 // Shared by all estimators: reading a query, the flux of a photon that the query's surface scatters
 // towards the eye, and writing the estimate.
-#include "shared/kernels/material.h"
 #include "shared/kernels/photon/map_walk.h"
 
 // A compensated sum, in which a million photons at one point add up.
@@ -13,16 +12,16 @@ FN void add(INOUT(Sum) sum, vec3 term) { add_compensated(sum.value, sum.compensa
 struct Query {
     uint slot;
     vec3 p;
-    vec3 normal;       // geometric, towards the eye
-    bool front;        // the surface is seen from its front
-    uint own_normal;   // packed as photons' normals are
-    uint front_normal; // normal of the surface's front, as area samples have it
-    MaterialRecord material;
-    uint lobes;
+    vec3 normal;           // geometric, towards the eye
+    bool front;            // the surface is seen from its front
+    uint own_normal;       // packed as photons' normals are
+    uint front_normal;     // normal of the surface's front, as area samples have it
     uint most_scatterings; // of a photon that counts; only with final_gather
     bool lambertian;
-    vec3 reflectance; // if lambertian, over pi
-    Frame frame;      // of the shading normal
+    vec3 reflectance; // of a Lambertian surface [1/sr]; the next four are for all others
+    MaterialRecord material;
+    uint lobes;
+    Frame frame; // of the shading normal
     vec3 wo;
     Sum indirect, caustic;
     real coverage; // sum of the weighted areas
@@ -38,23 +37,21 @@ FN Query make_query(uint slot) {
     q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.coverage = real(0.0);
     q.node = first_node(params.part);
-    MaterialRecord m = load_material(record.material);
-    q.material = m;
-    q.lobes = record.lobes;
+    q.lobes = record.flags >> query_lobes_shift;
     q.most_scatterings = (record.flags >> query_scatterings_shift) & query_scatterings_mask;
-    bool white = (record.flags & query_white) != 0u;
-    q.lambertian = !glossy || white || is_lambertian(m);
+    q.lambertian = !glossy || (record.flags & query_lambertian) != 0u;
+    q.reflectance = vec3(record.reflectance_r, record.reflectance_g, record.reflectance_b);
     q.p = vec3(record.x, record.y, record.z);
     q.normal = unpack_unit(record.geometric_normal);
     q.front = (record.flags & query_front) != 0u;
     q.own_normal = pack_photon_normal(q.normal, false);
     q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
-    q.frame = make_frame(unpack_unit(record.shading_normal));
-    q.wo = to_local(q.frame, unpack_unit(record.direction));
-    q.reflectance = white ? vec3(INV_PI)
-                    : q.lambertian
-                        ? bsdf_eval(m, q.wo, vec3(real(0.0), real(0.0), real(1.0)), q.lobes)
-                        : vec3(real(0.0));
+    if (glossy && !q.lambertian) {
+        QueryBsdfRecord bsdf = query_bsdfs[slot];
+        q.material = material_of_query(bsdf, material_features);
+        q.frame = make_frame(unpack_unit(bsdf.shading_normal));
+        q.wo = to_local(q.frame, unpack_unit(bsdf.direction));
+    }
     return q;
 }
 
