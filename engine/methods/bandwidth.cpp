@@ -14,22 +14,23 @@ namespace argand {
 
 namespace {
 
-// Points at which a caustic's radius is looked for.
+// Points at which the radius of caustics is measured, at least.
 constexpr std::size_t caustic_samples = 1024;
-// r_max of the nearest photons, in radii that hold k of them where photons are as dense as in the
-// median.
+// r_max of the k nearest photons over the radius that holds k of them in the median.
 constexpr double reach_of_nearest = 2.5;
-// Semi-axes of caustic photons' footprints, in the radius that would serve for all caustics. Where
-// a caustic folds, its photons' footprints shrink to lines and points: bright streaks and dots, for
-// there the linear map of the differentials holds in a small neighbourhood only.
+// Bounds of the semi-axes of caustic photons' footprints, over the radius that would serve for all
+// caustics. Where a caustic folds, the linear map of the differentials holds only in a small
+// neighbourhood: footprints shrink to lines and points there, which are seen as streaks and
+// fireflies.
 constexpr float least_caustic = 0.2f;
 constexpr float most_caustic = 8;
-// A few large footprints cost more than they are worth, for their boxes are everywhere.
+// Bound of diffuse footprints over the radius that would serve for all. The few larger ones cost
+// more time than they save noise, because their boxes overlap with many queries.
 constexpr double largest_footprint = 1.4;
-// Of the scene's: smaller radii are below what positions are rounded by, and their squares
-// underflow.
+// Least radius over the scene's. Smaller ones are below the rounding of positions, and their
+// squares underflow.
 constexpr double least_radius = 1e-7;
-// Photons at which a given smoothing holds.
+// Number of photons for which a user's smoothing is meant.
 constexpr double reference_photons = 200'000;
 
 struct Cube {
@@ -41,7 +42,7 @@ Cube bounds_of(const SceneRecord& scene) {
     return {center - scene.radius, center + scene.radius};
 }
 
-/// Those that are there, along the space-filling curve.
+/// The photons without the empty slots, along the space-filling curve.
 std::vector<PhotonRecord> in_curve_order(std::span<const PhotonRecord> photons,
                                          const Cube& bounds) {
     struct Place {
@@ -64,19 +65,21 @@ std::vector<PhotonRecord> in_curve_order(std::span<const PhotonRecord> photons,
     return ordered;
 }
 
-// Footprints on a point over photons in a disc: those of different sizes do not count the same.
+// Footprints that should contain a point over photons that a disc should hold. Footprints differ in
+// size, and so do their weights.
 constexpr double footprints_for_disc = 1.7;
-// Caustics are at most so sharp beside the radius of all other light; up to twice as wide, they are
-// treated as that.
+// Least radius of caustics over that of all other light. Caustics whose radius would be twice this
+// or more get no radius of their own.
 constexpr double sharpest_caustic = 0.17;
 
-/// Photons that one pass should find in a disc, or k, so that all passes together find as many as
-/// is best.
+/// Photons that one pass should find in a disc (or k), so that all passes together find the best
+/// number.
 double in_disc_of_pass(double photons, double passes, bool caustic = false) {
     return photons_in_disc(photons * passes, caustic) / passes;
 }
 
-/// The radius of caustics follows from where their photons are, which is where the caustics are.
+/// The radii for a picture. That of caustics is measured where caustic photons lie, because that is
+/// where caustics are.
 GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const glm::vec3> queries,
                        const SceneRecord& scene, double passes,
                        std::optional<std::uint32_t> neighbours) {
@@ -98,12 +101,13 @@ GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const 
         in_caustics.emplace_back(caustic[i].x, caustic[i].y, caustic[i].z);
     }
     GatherRadii radii;
-    // Without photons, or with all of them in one point, nothing is to be learnt.
+    // Without photons, or with all of them at one point, there is nothing to learn from.
     const double learnt = radius_of(photons, queries, false);
     radii.indirect = learnt > 0 ? learnt : 0.01 * scene.radius;
     const double of_caustics = radius_of(caustic, in_caustics, true);
-    // Most of a caustic's photons lie where it is brightest; the few elsewhere would be seen one by
-    // one. And a radius that is little smaller gains nothing, and loses the boundary correction.
+    // Most of a caustic's photons lie where it is brightest. With a smaller radius the few
+    // elsewhere would be seen one by one. A radius that is little smaller than the other gains
+    // nothing, and loses the boundary correction.
     const bool sharp = of_caustics > 0 && of_caustics < 2 * sharpest_caustic * radii.indirect;
     radii.caustic =
         sharp ? std::max(of_caustics, sharpest_caustic * radii.indirect) : radii.indirect;
@@ -121,45 +125,44 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
     return scale;
 }
 
-/// Sizes fall with the number of passes as with that of photons; a smoothing that is fixed does
-/// not.
+/// Factor by which sizes fall with the number of passes, as they do with that of photons. A fixed
+/// smoothing does not fall.
 double shrinking(double passes) { return std::pow(passes, -1.0 / 6); }
 
 } // namespace
 
-Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene,
-                          const PhotonWorkspace& workspace, const StoredPhotons& stored,
-                          std::span<const glm::vec3> queries, const RenderSettings& settings,
-                          Estimator estimator, double passes) {
+Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const FirstPass& first,
+                          const RenderSettings& settings, Estimator estimator) {
     const bool nearest = estimator == Estimator::nearest;
+    const StoredPhotons& stored = first.stored;
     const auto count = static_cast<double>(stored.photons);
     const std::vector<PhotonRecord> photons =
-        download<PhotonRecord>(device, workspace.photons, stored.slots);
+        download<PhotonRecord>(device, first.workspace.photons, stored.slots);
     Bandwidth b;
     b.caustics = std::any_of(photons.begin(), photons.end(), [](const PhotonRecord& photon) {
         return photon.normal != no_photon && photon_is_caustic(photon.normal);
     });
     const double given = std::max(settings.radius.value_or(0), least_radius * scene.record.radius);
     b.radii = settings.radius ? GatherRadii{given, given}
-                              : radii_from(photons, queries, scene.record, passes,
+                              : radii_from(photons, first.queries, scene.record, first.passes,
                                            nearest ? settings.neighbours : std::nullopt);
     if (nearest) {
-        const double automatic = std::max(std::round(in_disc_of_pass(count, passes)), 2.0);
+        const double automatic = std::max(std::round(in_disc_of_pass(count, first.passes)), 2.0);
         b.neighbours = settings.neighbours.value_or(static_cast<std::uint32_t>(automatic));
         b.radii.indirect *= settings.radius ? 1 : reach_of_nearest;
         b.radii.caustic = b.radii.indirect;
     }
-    const double by = settings.footprints.fixed_smoothing ? 1 : shrinking(passes);
+    const double by = settings.footprints.fixed_smoothing ? 1 : shrinking(first.passes);
     b.caustic_smoothing = settings.footprints.caustic_smoothing * by;
     if (estimator == Estimator::footprints && settings.footprints.smoothing) {
         b.smoothing = *settings.footprints.smoothing * by;
     } else if (estimator == Estimator::footprints) {
-        const auto offsets = download<glm::uvec4>(device, workspace.offsets, stored.slots);
+        const auto offsets = download<glm::uvec4>(device, first.workspace.offsets, stored.slots);
         const double learnt =
-            median_smoothing(photons, offsets, queries,
+            median_smoothing(photons, offsets, first.queries,
                              scale_of(settings.footprints, static_cast<double>(stored.emitted), 1,
                                       1, 1e6, scene.record),
-                             footprints_for_disc * in_disc_of_pass(count, passes));
+                             footprints_for_disc * in_disc_of_pass(count, first.passes));
         b.smoothing = learnt > 0 ? learnt : 1;
     }
     return b;
@@ -193,7 +196,7 @@ FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettin
     const auto caustic = static_cast<float>(
         std::min(bandwidth.radii.caustic, 4 * sharpest_caustic * bandwidth.radii.indirect));
     scale.caustic_min = std::max(scale.radius_min, least_caustic * caustic);
-    // Beyond the largest of diffuse light there is as little noise, and much more to gather.
+    // Beyond the bound of diffuse light, noise falls little and the cost of queries rises much.
     scale.caustic_max =
         std::max(scale.caustic_min, std::min(most_caustic * caustic, scale.radius_max));
     return scale;

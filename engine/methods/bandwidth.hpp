@@ -7,10 +7,10 @@
 
 namespace argand {
 
-/// How radiance is estimated from the map.
+/// How radiance is estimated from a photon map.
 enum class Estimator { radius, footprints, nearest };
 
-/// Over how large a neighbourhood densities of photons are estimated, in each pass.
+/// How large the neighbourhoods are in which each pass estimates densities of photons.
 struct Bandwidth {
     GatherRadii radii;            ///< of `nearest`: r_max
     std::uint32_t neighbours = 0; ///< k; only of `nearest`
@@ -19,19 +19,24 @@ struct Bandwidth {
     bool caustics = false;        ///< whether there are caustic photons
 };
 
-/// What is learnt from the photons of a picture's first pass and the points at which the picture
-/// asks for them, for so many passes of as many photons; what the user has set is as set. Waits for
-/// the device.
-Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene,
-                          const PhotonWorkspace& workspace, const StoredPhotons& stored,
-                          std::span<const glm::vec3> queries, const RenderSettings& settings,
-                          Estimator estimator, double passes);
+/// The first pass of a picture, from which its bandwidth is learnt.
+struct FirstPass {
+    const PhotonWorkspace& workspace; ///< holds the pass's photons
+    const StoredPhotons& stored;
+    std::span<const glm::vec3> queries; ///< points at which the picture queries the photon map
+    double passes = 1; ///< of as many photons each, over which the picture averages
+};
 
-/// The same for another number of passes.
+/// The bandwidth for a picture, from the density of the first pass's photons at its query points.
+/// Values that the user has set are kept. Waits for the device.
+Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const FirstPass& first,
+                          const RenderSettings& settings, Estimator estimator);
+
+/// The bandwidth for another number of passes than it was learnt for.
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings);
 
-/// Of a pass of so many photons.
+/// The scale of the footprints of a pass that emits `photons` photons.
 FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings,
                                double photons, const SceneRecord& scene);
 

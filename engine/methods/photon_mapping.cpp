@@ -56,8 +56,11 @@ public:
         learnt_ = budget.once([&] {
             const std::vector<glm::vec3> queries = sample_queries(
                 c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
-            return learn_bandwidth(c_.device, c_.on_device, photons_, *first_, queries, c_.settings,
-                                   estimator_->kind(), static_cast<double>(split_.passes));
+            const FirstPass first{.workspace = photons_,
+                                  .stored = *first_,
+                                  .queries = queries,
+                                  .passes = static_cast<double>(split_.passes)};
+            return learn_bandwidth(c_.device, c_.on_device, first, c_.settings, estimator_->kind());
         });
     }
 

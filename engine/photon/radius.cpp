@@ -26,7 +26,7 @@ double median_radius(std::span<const PhotonRecord> photons, std::span<const glm:
     for (const PhotonRecord& photon : photons) {
         codes.push_back(morton30({photon.x, photon.y, photon.z}, low, high));
     }
-    // Neighbours in the plane are near in the order, but on both sides and with gaps.
+    // Neighbours on a surface are near in the order, but on both sides and with gaps.
     const auto nearest = static_cast<std::size_t>(in_disc);
     const std::size_t reach = 3 * nearest;
     std::vector<double> radii;
@@ -56,7 +56,7 @@ double median_radius(std::span<const PhotonRecord> photons, std::span<const glm:
 std::uint64_t area_samples(double surface_area, double radius) {
     constexpr double samples_in_disc = 90;
     constexpr double most = 1 << 20;
-    // Where discs are so small that it would take more, edges hardly matter.
+    // Discs that would need more samples are so small that edges hardly matter.
     const double wanted = samples_in_disc * surface_area / (std::numbers::pi * radius * radius);
     return wanted <= most ? static_cast<std::uint64_t>(wanted) : 0;
 }

@@ -8,20 +8,20 @@
 
 namespace argand {
 
-/// Photons that a disc of density estimation should hold where so many are stored in all. Bias
-/// grows as r², variance falls as 1 / (n r²): the balance lies at r ∝ n^(−1/6) (Silverman 1986,
-/// §4.3, in two dimensions). Caustics, which have edges, want fewer.
+/// Photons that a disc of density estimation should hold if `photons_stored` are stored in all.
+/// Bias grows as r², variance falls as 1 / (n r²): their balance is r ∝ n^(−1/6) (Silverman 1986,
+/// §4.3, in two dimensions). Caustics have edges, and are better with fewer photons.
 double photons_in_disc(double photons_stored, bool caustic = false);
 
 /// Radius within which half of the points have `in_disc` or more photons, in the scene's units: the
-/// median of the distance to the last of the nearest, looked for among the photons that are near in
-/// the order of the Morton codes, in which they come. `low`, `high`: the box of the codes. 0
-/// without photons or points.
+/// median distance to the `in_disc`-th nearest photon. photons: sorted by their Morton codes in the
+/// box from `low` to `high`; only those near in this order are looked at. 0 without photons or
+/// points.
 double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points,
                      glm::vec3 low, glm::vec3 high, double in_disc);
 
-/// Number of samples of a surface of this area that tell a disc of this radius anywhere on it how
-/// much of it is covered; 0 if the disc is too small for that.
+/// Number of samples of surfaces of this area that are enough to estimate how much of a disc of
+/// this radius lies on them; 0 if the disc is too small for that.
 std::uint64_t area_samples(double surface_area, double radius);
 
 } // namespace argand

@@ -11,8 +11,8 @@ namespace argand {
 
 namespace {
 
-// Enough for a median within a few per cent: every point is compared with every photon that is
-// looked at.
+// Enough for a median within a few per cent. The work is their product: every point is compared
+// with every photon.
 constexpr std::size_t points_looked_at = 96;
 constexpr std::size_t photons_looked_at = 50'000;
 
@@ -50,7 +50,7 @@ double median_smoothing(std::span<const PhotonRecord> photons, std::span<const g
     std::vector<float> smoothings;
     const std::size_t step = std::max<std::size_t>(points.size() / points_looked_at, 1);
     for (std::size_t i = step / 2; i < points.size(); i += step) {
-        // In units of a footprint of smoothing 1, on its own surface.
+        // Squared distances in units of a footprint of smoothing 1.
         std::transform(ellipses.begin(), ellipses.end(), distances.begin(), [&](const Ellipse& e) {
             const glm::vec3 offset = points[i] - e.position;
             const float x = glm::dot(e.a, offset);

@@ -32,7 +32,7 @@ struct Partition {
     std::uint32_t left = 0; ///< boxes on the left side
 };
 
-/// What all nodes share. The boxes of a node are the same range in each of the orders.
+/// State of the build. A node's boxes are the same range in each of the orders.
 struct Builder {
     std::vector<Box> boxes;
     std::array<std::vector<std::uint32_t>, 3>
@@ -82,8 +82,8 @@ struct Builder {
             for (std::uint32_t i = 1; i < node.count; ++i) {
                 left.add(boxes[order[i - 1]]);
                 const double cost = left.volume() * i + right_volumes[i] * (node.count - i);
-                // Boxes in one place all cost the same: halved, they make no tree as deep as they
-                // are many.
+                // All partitions of boxes at one place cost the same. Halving them keeps the tree
+                // shallow.
                 if (cost < best.cost ||
                     (cost == best.cost && off_middle(i) < off_middle(best.left))) {
                     best = {cost, axis, i};
@@ -124,7 +124,7 @@ VolumeTree build_volume_tree(std::span<const BoxRecord> boxes, std::uint32_t lea
     }
     Builder builder(boxes);
     tree.nodes.push_back({.first = 0, .count = static_cast<std::uint32_t>(boxes.size())});
-    // Children are appended, so that they come up in their turn.
+    // Children are appended, so that the loop reaches them.
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const VolumeNode node = tree.nodes[i];
         tree.nodes[i].box = record(builder.bounds(node));

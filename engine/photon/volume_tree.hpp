@@ -22,10 +22,10 @@ struct VolumeTree {
     std::vector<VolumeNode> nodes;    ///< the root first, every node before its children
 };
 
-/// The tree of the voxel volume heuristic, split until a node has at most leaf_size boxes (at least
-/// 1): at each node, of the partitions by planes that sweep through the boxes' centres along each
-/// axis, the one of least V_L N_L + V_R N_R (Fabianowski and Dingliana 2009, §5.1, eq. 14). On one
-/// thread, O(n log n) for boxes that can be told apart.
+/// Builds the tree of the voxel volume heuristic, whose leaves have at most leaf_size boxes (at
+/// least 1). Planes sweep through the boxes' centres along each axis, and each node takes the
+/// partition of least V_L N_L + V_R N_R (Fabianowski and Dingliana 2009, §5.1, eq. 14). On one
+/// thread; O(n log n) if few boxes have the same centre.
 VolumeTree build_volume_tree(std::span<const BoxRecord> boxes, std::uint32_t leaf_size);
 
 /// A tree in the layout of LbvhNode, inner node i at 2 i, leaf i at 2 i + 1.
@@ -35,8 +35,8 @@ struct LaidOutTree {
         leaves; ///< first box and count of each as in shared/photon_records.h
 };
 
-/// The tree down to its largest subtrees of at most leaf_size boxes, from 1 to most_photons_a_leaf,
-/// and not less than what it was built with.
+/// Lays the tree out, with its largest subtrees of at most leaf_size boxes as leaves. leaf_size:
+/// from the one that the tree was built with to most_photons_a_leaf.
 LaidOutTree lay_out(const VolumeTree& tree, std::uint32_t leaf_size);
 
 } // namespace argand

@@ -40,7 +40,7 @@ std::vector<BoxRecord> footprint_boxes(Device& device, const PhotonMap& map) {
         const FootprintDuals duals{unpack_dual(packed.x, packed.y),
                                    unpack_dual(packed.z, packed.w)};
         const Footprint f = footprint_of_duals(duals, unpack_photon_normal(p.normal), map.flatness);
-        // As much more as photon_boxes.comp gives.
+        // Enlarged as in photon_boxes.h.
         const vec3 half_size = footprint_extent(f) * 1.001f;
         boxes.push_back({p.x - half_size.x, p.y - half_size.y, p.z - half_size.z, 0,
                          p.x + half_size.x, p.y + half_size.y, p.z + half_size.z, 0});

@@ -30,8 +30,8 @@ std::vector<LightChoice> alias_table(const std::vector<double>& weights) {
             small.push_back(rich);
         }
     }
-    // What is left over has a scaled probability of 1 but for rounding, unless its weight is 0:
-    // then it sends on.
+    // Rows left over have a scaled probability of 1 but for rounding, and keep their choice. A row
+    // of weight 0 must never be chosen: it passes every choice on.
     for (const std::uint32_t i : small) {
         if (sum > 0 && !(weights[i] > 0)) {
             table[i].keep = 0;

@@ -90,8 +90,8 @@ struct HashCorners {
     }
 };
 
-/// Area of each triangle; 0 of one that is there already, with the same front, for only one of them
-/// is ever hit: what lies there twice would count twice as a surface that photons may lie on.
+/// Area of each triangle; 0 for duplicates with the same front. Rays hit only the first of them, so
+/// counting both would double the area that photons may lie on.
 std::vector<double> areas_that_can_be_hit(const Scene& scene) {
     std::vector<double> areas;
     areas.reserve(scene.triangles.size());
@@ -111,7 +111,7 @@ std::vector<double> areas_that_can_be_hit(const Scene& scene) {
     return areas;
 }
 
-/// Area of the triangles before each, as a fraction of 2^32 of the whole.
+/// For each triangle, the area of all triangles before it, as a fraction of the whole times 2^32.
 std::vector<std::uint32_t> area_sums(const std::vector<double>& areas, double total) {
     std::vector<std::uint32_t> sums;
     sums.reserve(areas.size());
@@ -133,42 +133,35 @@ std::vector<glm::vec4> padded(const std::vector<glm::vec3>& vectors) {
     return result;
 }
 
-/// What kernels get for a buffer that they do not read.
+/// Bound where a kernel does not read its buffer.
 Buffer nothing(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }
 
-} // namespace
+/// The lights of a scene, and how one of them is chosen.
+struct LightTable {
+    std::vector<LightRecord> lights;
+    std::vector<double> weights; ///< of each light: mean power of the channels
+    glm::dvec3 power{0};
+    double weight = 0, sky_weight = 0, emitter_weight = 0; ///< of all, of the sky, of triangles
+};
 
-DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
-    const StageScope stage(device, "upload scene");
-    DeviceScene result;
-    result.plan = plan;
-
-    std::vector<MaterialRecord> materials;
-    for (const Material& material : scene.materials) {
-        materials.push_back(material_record(material));
+LightTable make_light_table(const Scene& scene, float scene_radius) {
+    LightTable table;
+    table.lights = collect_lights(scene);
+    for (const LightRecord& light : table.lights) {
+        const glm::vec3 power = light_power(light, all_light_kinds, scene_radius);
+        const double weight = (double(power.r) + power.g + power.b) / 3;
+        table.power += glm::dvec3(power);
+        table.weights.push_back(weight);
+        table.weight += weight;
+        table.sky_weight += light.kind == light_sky ? weight : 0;
+        table.emitter_weight += light.kind == light_triangle ? weight : 0;
     }
+    return table;
+}
 
-    const Bounds box = bounds(scene);
-    const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
-    // A little more than half the diagonal: the sphere holds the box whatever the rounding.
-    const float radius = 0.50001f * glm::length(box.high - box.low);
-
-    const std::vector<LightRecord> lights = collect_lights(scene);
-    std::vector<double> weights;
-    double total_weight = 0;
-    double sky_weight = 0;
-    double emitter_weight = 0;
-    for (const LightRecord& light : lights) {
-        const glm::vec3 power = light_power(light, all_light_kinds, radius);
-        result.power += glm::dvec3(power);
-        weights.push_back((double(power.r) + power.g + power.b) / 3);
-        total_weight += weights.back();
-        sky_weight += light.kind == light_sky ? weights.back() : 0;
-        emitter_weight += light.kind == light_triangle ? weights.back() : 0;
-    }
-
-    SceneRecord& record = result.record;
-    record = {};
+SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3 center,
+                         float radius) {
+    SceneRecord record{};
     record.center_x = center.x;
     record.center_y = center.y;
     record.center_z = center.z;
@@ -178,26 +171,58 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
         record.sky_g = scene.sky->g;
         record.sky_b = scene.sky->b;
     }
-    record.light_count = total_weight > 0 ? static_cast<std::uint32_t>(lights.size()) : 0;
-    record.light_weight = static_cast<float>(total_weight);
-    record.sky_probability = total_weight > 0 ? static_cast<float>(sky_weight / total_weight) : 0;
-    result.emitter_probability = total_weight > 0 ? emitter_weight / total_weight : 0;
+    const bool lit = lights.weight > 0;
+    record.light_count = lit ? static_cast<std::uint32_t>(lights.lights.size()) : 0;
+    record.light_weight = static_cast<float>(lights.weight);
+    record.sky_probability = lit ? static_cast<float>(lights.sky_weight / lights.weight) : 0;
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
-    record.follow_roughness = plan.request.follow_roughness;
+    return record;
+}
 
+/// Of each triangle the vertices and the material.
+std::vector<glm::uvec4> triangle_records(const Scene& scene) {
     std::vector<glm::uvec4> triangles;
     triangles.reserve(scene.triangles.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         triangles.emplace_back(scene.triangles[i], scene.triangle_material[i]);
     }
-    result.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
+    return triangles;
+}
+
+std::vector<MaterialRecord> material_records(const Scene& scene) {
+    std::vector<MaterialRecord> materials;
+    materials.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        materials.push_back(material_record(material));
+    }
+    return materials;
+}
+
+} // namespace
+
+DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
+    const StageScope stage(device, "upload scene");
+    const Bounds box = bounds(scene);
+    const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
+    // A little more than half the diagonal, so that the sphere contains the box in spite of
+    // rounding.
+    const float radius = 0.50001f * glm::length(box.high - box.low);
+    const LightTable lights = make_light_table(scene, radius);
+
+    DeviceScene result;
+    result.plan = plan;
+    result.power = lights.power;
+    result.emitter_probability = lights.weight > 0 ? lights.emitter_weight / lights.weight : 0;
+    result.record = scene_record(scene, lights, center, radius);
+    result.record.follow_roughness = plan.request.follow_roughness;
+    result.scene = upload<SceneRecord>(device, "scene", std::span(&result.record, 1));
     result.positions = upload(device, "positions", padded(scene.positions));
     result.normals = plan.needs(Feature::smooth_normals)
                          ? upload(device, "normals", padded(scene.normals))
                          : nothing(device);
-    result.triangles = upload(device, "triangles", triangles);
-    result.materials = upload(device, "materials", materials);
-    result.lights = upload(device, "lights", lights);
+    result.triangles = upload(device, "triangles", triangle_records(scene));
+    result.materials = upload(device, "materials", material_records(scene));
+    result.lights = upload(device, "lights", lights.lights);
     if (plan.needs(Feature::photon_map)) {
         const std::vector<double> areas = areas_that_can_be_hit(scene);
         result.surface_area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -206,10 +231,10 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
         result.area_sums = nothing(device);
     }
     result.light_choices = plan.needs(Feature::several_lights)
-                               ? upload(device, "light choices", alias_table(weights))
+                               ? upload(device, "light choices", alias_table(lights.weights))
                                : nothing(device);
-    result.bvh =
-        build_triangle_bvh(device, result.positions, result.triangles, record.triangle_count);
+    result.bvh = build_triangle_bvh(device, result.positions, result.triangles,
+                                    result.record.triangle_count);
     return result;
 }
 
@@ -217,7 +242,7 @@ CameraRecord camera_record(const Camera& camera, int width, int height) {
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
     const bool perspective = camera.kind == CameraKind::perspective;
-    // Half the picture's height at unit distance, or in the scene's units.
+    // Half the picture's height at unit distance; for orthographic cameras, in the scene's units.
     const float half =
         perspective ? std::tan(0.5f * camera.vertical_angle) : camera.vertical_extent;
     const glm::vec3 across = camera.right * (2 * half / h);

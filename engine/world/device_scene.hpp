@@ -8,32 +8,33 @@
 
 namespace argand {
 
-/// A scene on the device, as the kernels that shade want it (shaders/comp/scene.glsl).
+/// A scene on a device, in the layout that shading kernels read (shaders/comp/scene.glsl).
 struct DeviceScene {
     Buffer scene;         ///< one SceneRecord
     Buffer positions;     ///< vec4 per vertex
-    Buffer normals;       ///< vec4 per vertex, 0 where the geometric normal serves
+    Buffer normals;       ///< vec4 per vertex, 0 where the file has none
     Buffer triangles;     ///< uvec4 per triangle: vertices, material
     Buffer materials;     ///< MaterialRecord
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices; ///< LightChoice per light
-    Buffer area_sums;     ///< uint per triangle: area of all before it, as a fraction of 2^32
+    Buffer area_sums;     ///< uint per triangle: area of all before it over the whole, times 2^32
     TriangleBvh bvh;
-    SceneRecord record;             ///< the host's copy
+    SceneRecord record;             ///< the host's copy of `scene`
     double surface_area = 0;        ///< of all triangles that can be hit; 0 without a photon map
-    glm::dvec3 power{0};            ///< of all lights, per channel [lm-like: candela × steradian]
-    double emitter_probability = 0; ///< that a choice of light gives an emissive triangle
-    Plan plan; ///< what of it kernels need; buffers that they do not need are empty
+    glm::dvec3 power{0};            ///< of all lights, per channel [candela × steradian]
+    double emitter_probability = 0; ///< that a light chosen by power is an emissive triangle
+    Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 };
 
-/// Uploads of the scene what the plan needs, and builds its acceleration structure. Records only.
+/// Uploads the parts of the scene that the plan needs, and builds its acceleration structure.
+/// Records only.
 DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan);
 
-/// The camera for a picture of this size; the vertical angle is kept whatever the size.
+/// The camera for a picture of this size in pixels. The vertical angle does not depend on the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);
 
-/// Alias table (Walker 1977, built after Vose 1991) that chooses i with probability weights[i] /
-/// sum.
+/// Alias table (Walker 1977, built as by Vose 1991) for choosing i with probability weights[i] /
+/// sum; all are equally probable if the sum is 0.
 std::vector<LightChoice> alias_table(const std::vector<double>& weights);
 
 } // namespace argand

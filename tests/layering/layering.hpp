@@ -22,14 +22,8 @@ using Sources = std::map<std::string, std::string>;
 
 /// The folders of engine/ from the bottom up. Folders on one level must not include each other.
 inline const std::vector<std::vector<std::string>> levels = {
-    {"base"},
-    {"image", "scene", "device"},
-    {"plan", "parallel"},
-    {"accel"},
-    {"world"},
-    {"photon", "imagespace"},
-    {"methods"},
-    {"autotune", "sweep", "compare"},
+    {"base"},  {"image", "scene", "device"}, {"plan", "parallel"}, {"accel"},
+    {"world"}, {"photon", "imagespace"},     {"methods"},          {"autotune", "sweep", "compare"},
     {"plot"},
 };
 

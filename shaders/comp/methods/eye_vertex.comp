@@ -24,11 +24,11 @@ layout(set = 0, binding = 17) writeonly buffer Asks { uint asks[]; };
 layout(set = 0, binding = 18) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
-// false: a path tracer. true: light that estimated lobes scatter more than once is left to the photon map.
+// false: a path tracer. true: the photon map provides the light that estimated lobes scatter more than once.
 layout(constant_id = 0) const bool photon_map = false;
-// Whether that is asked one scattering later, but for caustics.
+// Whether paths query the map one scattering later, but for caustics.
 layout(constant_id = 1) const bool final_gather = false;
-// Whether some surface has lobes that are followed; else there are no caustics.
+// Whether some surface has followed lobes; else there are no caustics.
 layout(constant_id = 2) const bool followed_paths = true;
 // Whether lights are sampled; else there are no shadow rays.
 layout(constant_id = 3) const bool direct_light = true;

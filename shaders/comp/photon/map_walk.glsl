@@ -1,4 +1,4 @@
-// The photon map. TEXELS (0 or 1) says through what it is read.
+// The photon map. It is read as texels if TEXELS is 1, through storage buffers if it is 0.
 #include "shared/accel_records.h"
 #include "shared/photon.h"
 

@@ -14,7 +14,7 @@ layout(push_constant) uniform Push { PhotonGatherParams params; };
 
 // Whether any estimated lobe of the scene is not Lambertian; else `query_bsdfs` is not read.
 layout(constant_id = 0) const bool glossy = true;
-// Whether queries are those of a final gather (query_record.h).
+// Whether queries limit the scatterings of photons that count (final gather, query_record.h).
 layout(constant_id = 2) const bool final_gather = false;
 // Whether there may be caustic photons.
 layout(constant_id = 3) const bool caustics = true;

@@ -17,8 +17,8 @@ struct Candidate {
     std::vector<double> seconds; ///< of each run, over all queries of the image
 };
 
-/// Times every candidate's estimates at the same queries. Runs are interleaved so that other load on
-/// the machine affects all candidates alike.
+/// Times every candidate's estimates at the same queries. Runs are interleaved so that other load
+/// on the machine affects all candidates alike.
 class CandidateTimes final : public PhotonEstimator {
 public:
     CandidateTimes(Device& device, const DeviceScene& scene, std::span<Candidate> candidates,

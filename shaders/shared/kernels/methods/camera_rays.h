@@ -1,5 +1,6 @@
 #include "shared/kernels/interleave.h"
 
+// Starts the paths of a batch.
 FN void main() {
     uint slot = THREAD_INDEX;
     if (slot >= batch.pixels * batch.samples) {

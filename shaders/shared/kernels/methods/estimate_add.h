@@ -1,6 +1,6 @@
 #include "shared/kernels/layers.h"
 
-// Adds the photon map's answers to the layers of the paths that asked.
+// Adds the estimates from the photon map to the layers of the paths that have queries.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {

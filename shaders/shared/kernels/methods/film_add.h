@@ -1,6 +1,7 @@
 #include "shared/kernels/interleave.h"
 
-// One pixel an invocation, its samples in their order: the sum does not depend on scheduling.
+// Adds the layers of a batch to the film. An invocation adds the samples of one pixel in their
+// order, so that sums do not depend on scheduling.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= batch.pixels || unfinished[0] > 0u) {

@@ -1,5 +1,5 @@
-// Of the entry of its cell (none: it has one of its own), makes the slot whose answer each query
-// takes; only that one is chosen to ask.
+// Replaces the entry of each query's cell in `sources` by the slot whose estimate the query takes:
+// the cell's owner, or its own slot if it shares none. Only owners are chosen to be answered.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {

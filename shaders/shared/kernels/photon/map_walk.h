@@ -1,8 +1,9 @@
-// Walking a photon map: its tree in depth-first order, by escape references, from leaf to leaf.
-// NODES(i) and PHOTONS(i) read the map.
-uint walk_end = lbvh_end; // the node at which the walk is over
+// Walks through a photon map: from leaf to leaf in depth-first order, by escape references instead
+// of a stack. NODES(i) and PHOTONS(i) read the map.
+uint walk_end = lbvh_end; // the node that ends the walk
 
-// Where the walk through a part of the map begins; walk_end is set.
+// The first node of the walk through a part of the map (map_*), or lbvh_end if the part is empty.
+// Sets walk_end.
 FN uint first_node(uint part) {
     uint leaves = counters[counter_leaves];
     uint root = leaves == 0u ? lbvh_end : leaves == 1u ? 1u : 0u;
@@ -24,14 +25,15 @@ FN uint first_node(uint part) {
     return others;
 }
 
-// A leaf's photons: first <= i < end.
+// The photons i of a leaf: first <= i < end.
 struct PhotonRange {
     uint first, end;
 };
 
-// The next leaf, from `node` on, that a ball about p reaches; empty at the tree's end or after
-// `limit` steps. Apart from the photons' loop, so that all lanes of a subgroup look for a leaf, and
-// then go through theirs together: 2.2 times as fast on lavapipe.
+// The next leaf, from `node` on, whose box a ball about p touches; empty at the end of the walk or
+// after `limit` steps. This loop is separate from the loop over photons, so that all lanes of a
+// subgroup first look for a leaf and then go through their leaves together: 2.2 times as fast on
+// lavapipe.
 FN PhotonRange next_leaf(vec3 p, real radius2, uint limit, INOUT(uint) node, INOUT(uint) steps) {
     PhotonRange range = PhotonRange(0u, 0u);
     while (range.end == 0u && node != lbvh_end && steps < limit) {

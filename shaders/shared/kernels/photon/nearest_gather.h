@@ -1,30 +1,35 @@
-// Density estimation over the k nearest photons within r_max (Jensen 1996), exactly: ties go to the
-// photon that comes first in the map. WORD(i) is the i-th of nearest_words words that a query works
-// with.
+// Density estimation over exactly the k nearest photons within r_max (Jensen 1996). Ties go to the
+// photon that comes first in the map. WORD(i) is the i-th of the query's nearest_words words of
+// working memory.
 //
-// There is no heap: it takes k words of memory a query, and each insertion is a chain of dependent
-// reads that lanes of a subgroup go through at different lengths. A first walk counts photons by
-// distance in a histogram, whose bins are ranges of the bits of squared distances, and shrinks its
-// radius whenever the bins below hold k. The bin of the k-th nearest holds few photons (else it is
-// divided, and they are counted again). A second walk adds up what is surely nearer, and puts that
-// bin's few photons in a list, from which the rest is selected. As the kernel is linear in the
-// squared distance, sums of flux and of flux times squared distance do not need to know its radius
-// beforehand.
+// The selection counts; it keeps no heap. A heap takes k words of memory per query, and each
+// insertion is a chain of dependent reads of different length in each lane of a subgroup. Instead:
+// - A first walk counts photons in a histogram, whose bins are ranges of the bits of squared
+//   distances. It shrinks its radius whenever the bins below it hold k photons.
+// - If the bin of the k-th photon holds many photons, it is divided into bins, and the walk
+// repeated.
+// - A second walk adds up all photons in lower bins, and lists the few photons of that bin, of
+// which
+//   the nearest are selected.
+// Epanechnikov's kernel is linear in the squared distance, so the sums of flux and of flux times
+// squared distance are enough: the kernel's radius need not be known during the walk.
 #include "shared/kernels/photon/query.h"
 
-// Bin 0: bits < low; bin i: low + (i - 1 .. i) << shift, none of `high` or more.
+// Bin 0 holds bits below `low`, bin i those from low + ((i - 1) << shift) to low + (i << shift); no
+// bin holds bits of `high` or more.
 struct Search {
     uint phase;
     uint low, high, shift;
-    uint top;   // the bin that holds the k-th nearest of those counted so far
-    uint total; // photons in bins 0 to top
-    uint start,
-        stop; // photons of the leaf where the walk began, if it has to go around, and where it ends
-    // Of the second walk: bits below low are taken, those from low on, below high, are candidates.
+    uint top;         // the bin that holds the k-th nearest of those counted so far
+    uint total;       // photons in bins 0 to top
+    uint start, stop; // first photons of the leaves at which the walk began, if it still has to go
+                      // around, and at which it ends
+    // For the second walk: photons with bits below `low` are taken, from `low` to `high` they are
+    // candidates.
     uint missing;     // candidates to be taken
-    uint taken, last; // those that have been, if their distances are all the same; the last one
+    uint taken, last; // candidates that were taken if all have one distance; the last one taken
     uint listed;
-    bool overflown;                      // the list
+    bool overflown;                      // the list has no room for all candidates
     Sum indirect_moment, caustic_moment; // flux times squared distance, in units of `unit`
     real coverage_moment;
 };
@@ -38,7 +43,7 @@ FN uint bin_start(Search s, uint bin) {
     return bin == 0u ? 0u : min(s.low + ((bin - 1u) << s.shift), s.high);
 }
 
-// The leaf that a descent towards the nearer box leads to.
+// A leaf near p: at every node, the descent takes the child whose box is nearer.
 FN uint near_leaf(vec3 p, INOUT(uint) steps) {
     uint node = first_node(params.part);
     while (node != lbvh_end && (node & 1u) == 0u) {
@@ -64,8 +69,8 @@ FN void clear_bins() {
     }
 }
 
-// Bins for the whole ball of r_max. The walk begins near the query, so that its radius shrinks
-// soon.
+// Begins to count in bins for the whole ball of r_max. The walk starts near the query, so that its
+// radius shrinks soon.
 FN void start_counting(INOUT(Query) q, OUT(Search) s, INOUT(uint) steps) {
     s.phase = nearest_counts;
     s.high = float_bits(params.radius * params.radius);
@@ -80,13 +85,13 @@ FN void start_counting(INOUT(Query) q, OUT(Search) s, INOUT(uint) steps) {
     clear_bins();
 }
 
-// Bins for what lies in [low, high) only, where the k-th nearest is.
+// Begins to count in bins for [low, high) only, where the k-th nearest photon is.
 FN void zoom(INOUT(Query) q, INOUT(Search) s, uint low, uint high) {
     s.phase = nearest_counts;
     s.high = high;
     s.low = low;
     if (low == 0u) {
-        // All that is left, of whatever magnitude.
+        // Everything below `high`, of whatever magnitude.
         s.shift = uint(max(findMSB(high) - 5, 0));
     } else {
         s.shift = max(s.shift, nearest_zoom_bits) - nearest_zoom_bits;
@@ -99,7 +104,7 @@ FN void zoom(INOUT(Query) q, INOUT(Search) s, uint low, uint high) {
     clear_bins();
 }
 
-// False: it is not at its end.
+// The first walk. Returns whether it has come to its end.
 FN bool count_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     uint bound = bin_start(s, s.top + 1u);
     for (;;) {
@@ -135,7 +140,7 @@ FN bool count_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     }
 }
 
-// After a count: on to the sums, or to another count.
+// After a count: starts the sums, or another count.
 FN void judge_count(INOUT(Query) q, INOUT(Search) s) {
     bool all = s.total < params.neighbours;
     uint in_top = WORD(s.top);
@@ -167,7 +172,7 @@ FN real least_r2() {
                nearest_least_square);
 }
 
-// The same for both walks. False: it is not at its end.
+// The second walk. Returns whether it has come to its end.
 FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     bool one_distance = s.high - s.low == 1u;
     real radius2 = bits_float(s.high);
@@ -235,7 +240,7 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     }
 }
 
-// Bits of the squared distance of the last candidate to be taken, which becomes s.last.
+// Selects the last candidate that is taken as s.last, and returns the bits of its squared distance.
 FN uint select_last(INOUT(Search) s) {
     for (uint i = 0u; i < s.listed; ++i) {
         uint bits = WORD(2u * i);
@@ -251,20 +256,20 @@ FN uint select_last(INOUT(Search) s) {
             return bits;
         }
     }
-    return s.high; // with nothing missing
+    return s.high; // nothing is missing
 }
 
 FN void finish(Query q, INOUT(Search) s) {
     bool one_distance = s.high - s.low == 1u;
     real unit = max(bits_float(s.high), least_r2());
     uint last_bits = one_distance ? s.low : select_last(s);
-    // Photons lie in a disc to whose edge the k-th nearest belongs, with no weight: so the mean is
-    // right where they are spread evenly, (k - 1) / (π r²) being the unbiased estimate of their
-    // density. Fewer than k: the disc of r_max.
+    // The k-th nearest photon lies on the edge of the disc, where its weight is 0. So the mean is
+    // right for evenly spread photons: (k - 1) / (π r²) is the unbiased estimate of their density.
+    // With fewer than k photons the disc is that of r_max.
     real r2 = max(bits_float(last_bits), least_r2());
     real inverse_r2 = real(1.0) / r2;
     real ratio = unit * inverse_r2;
-    // What is taken away is at most as much, but for rounding.
+    // Negative differences come from rounding only.
     vec3 indirect = max(q.indirect.value - s.indirect_moment.value * ratio, vec3(real(0.0)));
     vec3 caustic = caustics ? max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0)))
                             : vec3(real(0.0));
@@ -380,7 +385,7 @@ FN void main() {
     bool ended;
     for (;;) {
         ended = true;
-        // All lanes of a subgroup count, and then all of them add up.
+        // All lanes of a subgroup count first, and add up together then.
         while (ended && s.phase == nearest_counts) {
             ended = count_photons(q, s, steps);
             if (ended) {
@@ -391,7 +396,7 @@ FN void main() {
         if (!ended || !s.overflown) {
             break;
         }
-        // Too many area samples among the candidates.
+        // The candidates include too many area samples.
         zoom(q, s, s.low, s.high);
     }
     if (ended) {
