@@ -1,5 +1,5 @@
-// Density estimation over footprints made by hand, against the sum in double precision over what
-// the map keeps.
+// Density estimation over footprints made by hand, compared with the sum in double precision over
+// the photons and footprints of the map.
 #include "photon/map_queries.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
@@ -17,7 +17,7 @@ struct Splat {
     glm::vec3 u{0}, v{0}; ///< its positional differentials
 };
 
-/// What the device adds to the layers, and the map that it read.
+/// The estimates of the device, and the photons and footprints of its map.
 struct Sums {
     std::vector<Gathered> sums;
     std::vector<PhotonRecord> photons;
@@ -33,8 +33,8 @@ struct GatherSettings {
     std::uint64_t area_samples = 0;
 };
 
-/// Semi-axes are the differentials as they are, but for photons that are not caustic, whose lengths
-/// are compressed.
+/// A scale with which the semi-axes of caustic photons equal their differentials. The axes of other
+/// photons are compressed.
 FootprintScale plain_scale() {
     FootprintScale s{};
     s.spacing = s.diffuse = s.caustic = 1;
@@ -75,11 +75,11 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
     return result;
 }
 
-/// Of one photon at a query, in double precision.
+/// Weight of one photon at a query, in double precision.
 struct Weight {
     double value = 0;       ///< flux per area
-    double center = 0;      ///< what it is in the footprint's centre
-    bool uncertain = false; ///< so near to the rim that rounding decides
+    double center = 0;      ///< the value at the footprint's centre
+    bool uncertain = false; ///< rounding decides whether the footprint contains the query
 };
 
 /// The ellipsoid |A x| <= 1, its axes the columns of the inverse M; a plane of unit normal m
@@ -158,7 +158,7 @@ protected:
                     uniform(0.1f, 1), pack_unit({0, 1, 0})};
         s.u = (f.x * std::cos(turn) + f.y * std::sin(turn)) * (size * uniform(0.3f, 3));
         s.v = (f.x * std::cos(skew) + f.y * std::sin(skew)) * size;
-        // What compresses footprints of photons that are not caustic is undone.
+        // Undoes the compression of footprints of photons that are not caustic.
         const auto compressible = [](glm::vec3 x) {
             return x * float(std::pow(glm::length(x), 3));
         };
@@ -169,7 +169,7 @@ protected:
         return s;
     }
 
-    /// On a bumpy floor, so that tangent planes are tilted against one another and offsets leave
+    /// Photons on a bumpy floor: tangent planes are tilted against one another, and offsets leave
     /// them.
     std::vector<Splat> bumpy(std::size_t count, float size) {
         std::vector<Splat> splats;
@@ -246,7 +246,7 @@ TEST_F(GatherFootprints, MillionInOnePointIsTheExactSum) {
     expect_exact_sums(gathered, queries);
     EXPECT_GT(gathered.sums[1].caustic.g, 0);
     EXPECT_EQ(gathered.sums[2], Gathered());
-    // In one dispatch there is no end to it: that is said, and nothing is added.
+    // One dispatch does not complete the queries: this is reported, and nothing is added.
     const Sums hurried = gather(device(), splats, {queries[0]}, {.careful = false});
     EXPECT_FALSE(hurried.finished);
     EXPECT_EQ(hurried.sums[0], Gathered());
@@ -295,13 +295,13 @@ TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
     for (const Splat& splat : others) {
         EXPECT_EQ(gather(device(), {splat}, {Query{}}).sums[0], Gathered());
     }
-    // The other side of the floor sees what this one does not.
+    // Photons on the other side of the floor count there only.
     EXPECT_GT(gather(device(), {others[3]}, {Query{.normal = {0, -1, 0}}}).sums[0].caustic.g, 0);
 }
 
 TEST_F(GatherFootprints, EdgesOfSurfacesLoseNothing) {
-    // Photons spread evenly, not one of them caustic: the estimate is the same in the middle, at an
-    // edge, in a corner.
+    // With evenly spread photons, none of them caustic, the estimate is the same in the middle, at
+    // an edge and in a corner.
     constexpr int side = 200;
     std::vector<Splat> splats;
     for (int i = 0; i < side * side; ++i) {
@@ -322,7 +322,8 @@ TEST_F(GatherFootprints, EdgesOfSurfacesLoseNothing) {
     EXPECT_RELATIVE(plain[3].indirect.g, 0.25 * albedo / double(pi), 0.03);
 }
 
-// Texels or storage buffers, subgroups or not: the same photons in the same order.
+// Reads through texels or storage buffers, with or without subgroups, give the same photons in the
+// same order.
 TEST_F(GatherFootprints, EveryWayToReadTheMapGivesTheSameBits) {
     const std::vector<Splat> splats = bumpy(5003, 0.1f);
     const std::vector<Query> queries = bumpy_queries(200);

@@ -1,5 +1,5 @@
-// Footprints of photons that the device has traced: how they cover surfaces, and what is estimated
-// from them.
+// Footprints of photons that the device has traced: how they cover surfaces, and the estimates from
+// them.
 #include "photon/map_queries.hpp"
 #include "photon/radius.hpp"
 #include "photon/smoothing.hpp"
@@ -50,8 +50,8 @@ protected:
     }
 };
 
-// Photons are stored from their second hit on, so a mirror comes first: where every photon has come
-// by it, footprints are those of the light's image, and the mean of area × density is pi.
+// Photons are stored from their second hit on, so they meet a mirror first. Where all photons come
+// from the mirror, footprints are those of the light's image, and the mean of area × density is pi.
 TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
     const std::pair<const char*, Light> lights[] = {
         {"point", point_light({0.1f, 1, 0.2f}, glm::vec3(1))},
@@ -66,8 +66,8 @@ TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
                      add_material(scene, lambertian(glm::vec3(0.5f))));
             scene.lights = {light};
             const std::vector<Landed> landed = trace(scene, 1, 600'000);
-            // The mean over photons is the integral of area × density over the number of photons:
-            // so is the sum of areas over a window's area.
+            // The mean over photons is the integral of area × density over the number of photons,
+            // and so is the sum of areas over a window's area.
             double sum = 0;
             int count = 0;
             for (const Landed& photon : landed) {
@@ -84,7 +84,8 @@ TEST_F(FootprintTrace, AreaTimesDensityIsPiAtTheFirstDiffuseHit) {
     }
 }
 
-// What passes a surface by alpha keeps its way, and is thinned out as by roulette.
+// Photons that pass a surface by its alpha keep their direction, and are thinned out as by
+// roulette.
 TEST_F(FootprintTrace, AreaTimesDensityIsPiBehindAlpha) {
     for (const float albedo : {0.0f, 0.8f}) {
         for (const Light& light : {point_light({0.1f, 1, 0.2f}, glm::vec3(1)),
@@ -116,12 +117,13 @@ TEST_F(FootprintTrace, AreaTimesDensityIsPiBehindAlpha) {
     }
 }
 
-/// Median and quartiles of area × density, and the mean.
+/// Median, quartiles and mean of area × density.
 struct Spread {
     double mean = 0, quartile = 0, median = 0, upper_quartile = 0;
 };
 
-/// Of photons on the walls of the box |x|, |y|, |z| <= 1; densities from cells of a quarter.
+/// The same of photons on the walls of the box |x|, |y|, |z| <= 1; densities are those of cells
+/// with edges of a quarter.
 Spread spread_in_box(const std::vector<Landed>& landed) {
     const auto cell_of = [](glm::vec3 p) {
         const glm::vec3 size = glm::abs(p);
@@ -146,15 +148,15 @@ Spread spread_in_box(const std::vector<Landed>& landed) {
     return {sum, products[n / 4], products[n / 2], products[3 * n / 4]};
 }
 
-// Deeper footprints only approximate pi: they know nothing of photons whose paths have crossed.
-// Independent spreads add 1 with each bounce; virtual origins multiply, and the paper's spacing is
-// too wide for what is sampled by cosine.
+// After more bounces the mean is only about pi, because footprints do not account for photons whose
+// paths cross. Independent spreads add 1 with each bounce; virtual origins multiply, and the
+// paper's spacing is too large for directions that are sampled by cosine.
 TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
     Scene box = box_scene(lambertian(glm::vec3(0.6f)));
     box.lights.push_back(point_light({0.2f, 0.4f, -0.1f}, glm::vec3(1)));
     constexpr std::uint64_t photons = 100'000;
     constexpr std::uint32_t depths = 3;
-    // Photons of one batch are stored bounce after bounce, and go the same ways whatever their
+    // Photons of one batch are stored bounce after bounce, and take the same paths whatever their
     // limit.
     std::vector<std::ptrdiff_t> ends{0};
     for (std::uint32_t depth = 1; depth <= depths; ++depth) {
@@ -187,8 +189,8 @@ TEST_F(FootprintTrace, AreaTimesDensityAfterDiffuseReflection) {
     }
 }
 
-// The flux that is stored is the integral of the estimate over all surfaces; without samples of the
-// surfaces' area, part of it is lost off their edges.
+// The integral of the estimate over all surfaces is the stored flux. Without samples of the
+// surfaces' area, part of it is lost over their edges.
 TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     const double albedo = 0.5;
     Scene box = box_scene(lambertian(glm::vec3(float(albedo))));
@@ -255,11 +257,11 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     RecordProperty("lost_off_edges", std::to_string(1 - plain / flux));
 }
 
-// Lengths of the scene cancel: a millimetre's model is the same picture as a kilometre's, but for
-// photons that rounding sends another way.
+// The scene's unit of length cancels: a model in millimetres gives the same picture as one in
+// kilometres, but for photons that rounding sends another way.
 TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
     RenderSettings settings = settings_of("footprints", 32, 4);
-    settings.query_cell = 0; // cells are entered at random, by the bits of positions
+    settings.query_cell = 0; // queries enter cells at random, by the bits of their positions
     settings.photons = 20'000;
     const Scene room = room_scene();
     const RenderResult expected = render(room, settings);
@@ -273,8 +275,8 @@ TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
     }
 }
 
-// Figure 4 of Fabianowski and Dingliana 2009: from one map, a caustic that is sharp and other light
-// that is smooth.
+// Figure 4 of Fabianowski and Dingliana 2009: one map gives a sharp caustic and other light that is
+// smooth.
 TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
     const Scene ring = load_asset("ring.glb");
     RenderSettings settings = settings_of("photons", 64, 8);
@@ -291,7 +293,7 @@ TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
     EXPECT_LT(compare(layer(footprints, "caustic"), layer(truth, "caustic")).rmse,
               0.8 * compare(layer(discs, "caustic"), layer(truth, "caustic")).rmse);
     EXPECT_RELATIVE(mean(layer(footprints, "caustic")).g, mean(layer(truth, "caustic")).g, 0.05);
-    // A few thousand photons, blurred from where the ring hides them.
+    // A few thousand photons blur into places that the ring hides from the light.
     EXPECT_RELATIVE(mean(layer(footprints, "indirect")).g, mean(layer(truth, "indirect")).g, 0.8);
     const auto roughness = [](const Image& image) {
         double sum = 0;
@@ -307,10 +309,10 @@ TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
               0.7 * roughness(layer(footprints, "caustic")));
 }
 
-// Each is another estimate of the same light.
+// All variants estimate the same light.
 TEST_F(FootprintTrace, OptionsOfThePaperChangeTheNoiseNotTheLight) {
     RenderSettings settings = settings_of("footprints", 32, 16);
-    // Not learnt, which would undo what the exponent does.
+    // Given, because learning would undo the effect of the exponent.
     settings.footprints.smoothing = 5;
     settings.photons = 50'000;
     const Scene room = room_scene();

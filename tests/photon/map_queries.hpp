@@ -1,4 +1,4 @@
-// Photon maps of photons made by hand, and queries of them at points given by hand.
+// Photon maps of photons made by hand, and queries at points made by hand.
 #pragma once
 
 #include "methods/rendering.hpp"
@@ -15,13 +15,13 @@ struct Query {
     glm::vec3 normal{0, 1, 0};
 };
 
-/// What a query is answered.
+/// The estimate at a query.
 struct Gathered {
     glm::dvec3 indirect{0}, caustic{0};
     bool operator==(const Gathered&) const = default;
 };
 
-/// As if these had been traced.
+/// Stores the photons as if they had been traced.
 inline StoredPhotons store(Device& device, PhotonWorkspace& workspace,
                            const std::vector<PhotonRecord>& photons,
                            const std::vector<glm::uvec4>& offsets = {}) {

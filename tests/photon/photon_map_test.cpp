@@ -1,4 +1,4 @@
-// The tree over stored photons: its leaves.
+// The tree over stored photons, and who owns a map's data.
 #include "device_fixture.hpp"
 #include "photon/map_queries.hpp"
 #include "photon/photon_map.hpp"
@@ -20,8 +20,8 @@ struct Leaf {
     bool operator==(const Leaf&) const = default;
 };
 
-/// Leaves of at most leaf_size photons of the tree that splits photons first..last at the highest
-/// bit in which their codes differ, or their places if the codes are equal.
+/// Appends the leaves of at most leaf_size photons of the tree that splits photons first..last at
+/// the highest bit in which their codes differ, or in which their places do if the codes are equal.
 void split(const std::vector<std::uint64_t>& codes, std::uint32_t first, std::uint32_t last,
            std::uint32_t leaf_size, std::vector<Leaf>& leaves) {
     if (last - first < leaf_size) {
@@ -74,7 +74,7 @@ TEST_P(PhotonMapTree, LeavesAreTheLargestSubtreesBelowTheThreshold) {
                 PhotonRecord& p = photons[i];
                 p.x = coordinate(random);
                 p.y = coordinate(random);
-                // Every seventh slot is empty, and every third photon lies in one point.
+                // Every seventh slot is empty, and every third photon lies at one point.
                 p.normal = i % 7 == 3 ? no_photon : 0;
                 if (i % 3 == 0) {
                     p.x = p.y = 0.25f;
@@ -132,8 +132,8 @@ std::vector<std::vector<std::uint32_t>> contents(Device& device, const PhotonMap
             download<std::uint32_t>(device, map.lbvh.order, leaves)};
 }
 
-// A map owns its data: whatever happens to the workspace and to scratch memory later, it stays as
-// it is; and only maps in use take memory.
+// A map owns its data: later use of the workspace and of scratch memory does not change it. Only
+// maps in use take memory.
 TEST_P(PhotonMapTree, AMapStaysAsItIsWhenAnotherIsBuilt) {
     Device& device = open_variant();
     const DeviceScene scene = unit_ball(device);

@@ -1,4 +1,4 @@
-// The size of footprints that is learnt from the photons around the picture's queries.
+// The size of footprints that is learnt from the photons around query points.
 #include "photon/smoothing.hpp"
 
 #include "shared/footprint.h"
@@ -39,7 +39,7 @@ struct Stored {
     }
 };
 
-/// A plane y = 0 with a photon every `spacing`, its differentials of these lengths.
+/// Photons on the plane y = 0, `spacing` apart, with differentials of these lengths.
 Stored grid(float u, float v) {
     Stored stored;
     for (int i = 0; i < side * side; ++i) {
@@ -68,13 +68,13 @@ TEST(Smoothing, AsManyFootprintsOnAPointAsAreAskedFor) {
         const float v = 1e-4f;
         const Stored stored = grid(u, v);
         for (const double on_point : {20.0, 100.0, 500.0}) {
-            // An ellipse of half-axes s r and s r', which holds an area of on_point photons.
+            // The ellipse of half-axes s r and s r' has the area of on_point photons.
             const double area = std::numbers::pi * std::pow(u, 0.25) * std::pow(v, 0.25);
             const double expected = std::sqrt(on_point * spacing * spacing / area);
             const double found = smoothing_of(stored, on_point);
             EXPECT_NEAR(found, expected, 0.06 * expected)
                 << "ratio " << ratio << ", on point " << on_point;
-            // Half of the points lie in as many of these footprints.
+            // Half of the points lie in that many of these footprints.
             std::vector<int> counts;
             for (const glm::vec3& p : points_in_the_middle()) {
                 int count = 0;
@@ -99,7 +99,7 @@ TEST(Smoothing, CausticsOtherSurfacesAndEmptySlotsDoNotCount) {
     for (int i = 0; i < side * side; i += 2) {
         const PhotonRecord p = stored.photons[static_cast<std::size_t>(i)];
         stored.add({p.x, 0, p.z}, {0, 1, 0}, true, {1e-4f, 0, 0}, {0, 0, 1e-4f});
-        // A surface a discs' width away.
+        // A surface a disc's diameter away.
         stored.add({p.x, 0.3f, p.z}, {0, 1, 0}, false, {1e-4f, 0, 0}, {0, 0, 1e-4f});
         stored.add({p.x, 0, p.z}, {0, 1, 0}, false, {1e-4f, 0, 0}, {0, 0, 1e-4f});
         stored.photons.back().normal = no_photon;
@@ -114,7 +114,7 @@ TEST(Smoothing, NothingToLearnFromIsZero) {
     Stored caustic;
     caustic.add({0.5f, 0, 0.5f}, {0, 1, 0}, true, {1e-4f, 0, 0}, {0, 0, 1e-4f});
     EXPECT_EQ(smoothing_of(caustic, 100), 0);
-    // More than there are: all of them.
+    // More than there are photons: counts as all of them.
     EXPECT_GT(smoothing_of(stored, 1e9), smoothing_of(stored, 5000));
 }
 

@@ -1,5 +1,5 @@
-// The voxel volume heuristic's trees, and that a map walked through them holds what the linear
-// build's does.
+// Trees by the voxel volume heuristic, and that estimates by them agree with those by the linear
+// build.
 #include "photon/map_queries.hpp"
 #include "photon/vvh.hpp"
 #include "shared/footprint.h"
@@ -29,7 +29,7 @@ std::vector<BoxRecord> random_boxes(std::size_t count, std::uint32_t seed) {
     return boxes;
 }
 
-/// What a walk by escape references from the root sees, if it enters every node.
+/// The leaves that a walk by escape references from the root meets if it enters every node.
 struct Walked {
     std::vector<std::uint32_t> leaves;
     std::size_t nodes = 0;
