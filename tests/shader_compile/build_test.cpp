@@ -18,7 +18,9 @@ set_target_properties(shader_compile PROPERTIES IMPORTED_LOCATION )" ARGAND_TOOL
 include()" ARGAND_SOURCE_DIR R"(/tools/shader_compile/kernels.cmake)
 file(GLOB_RECURSE kernels shaders/comp/*.comp)
 add_library(library STATIC user.cpp)
-argand_add_kernels(library ${kernels})
+argand_add_kernels(library ${TWINS} ${kernels})
+get_property(twins GLOBAL PROPERTY ARGAND_TWINS)
+message(STATUS "Twins: ${twins}")
 target_include_directories(library PUBLIC shaders )" ARGAND_SOURCE_DIR R"(/engine)
 )");
         write("user.cpp", "#include \"kernels/copy.hpp\"\n"
@@ -29,9 +31,13 @@ target_include_directories(library PUBLIC shaders )" ARGAND_SOURCE_DIR R"(/engin
                      "void main() { a[THREAD_INDEX] = one(); }\n");
         write("shaders/comp/a/one.glsl", "uint one() { return 1u; }\n");
     }
-    Outcome configure() const {
+    Outcome configure(const std::string& options = "") const {
         return run(ARGAND_CMAKE " -G Ninja -DCMAKE_CXX_COMPILER=" ARGAND_CXX_COMPILER " -S " +
-                   root.string() + " -B " + (root / "build").string());
+                   root.string() + " -B " + (root / "build").string() + " " + options);
+    }
+    Outcome configure_with_twins() const {
+        fs::create_directories(root / "shaders/cuda");
+        return configure("'-DTWINS=TWINS;" + (root / "shaders/cuda").string() + "'");
     }
     Outcome build() const { return run(ARGAND_CMAKE " --build " + (root / "build").string()); }
 };
@@ -59,6 +65,30 @@ TEST_F(BuildSlow, FollowsIncludesAndFailsOnErrors) {
     write("shaders/comp/a/one.glsl", "uint one() { return 3u; }\n");
     EXPECT_EQ(build().status, 0);
     EXPECT_THAT(build().said, HasSubstr("no work to do"));
+}
+
+TEST_F(BuildSlow, TwinIsGeneratedUnlessItIsWrittenByHand) {
+    EXPECT_THAT(configure_with_twins().said, HasSubstr("build/generated/kernels/copy.cu\n"));
+    const Outcome outcome = build();
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.said,
+                HasSubstr("shaders/comp/a/copy.comp:1: error: the kernel has no text"));
+
+    write("shaders/cuda/a/copy.cu", "// by hand\n");
+    EXPECT_THAT(configure_with_twins().said, HasSubstr("shaders/cuda/a/copy.cu\n"));
+}
+
+TEST_F(BuildSlow, TwinWithoutAKernelIsRefused) {
+    write("shaders/cuda/a/gone.cu", "// its kernel was removed\n");
+    Outcome outcome = configure_with_twins();
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.said, HasSubstr("shaders/cuda/a/gone.cu"));
+
+    fs::remove(root / "shaders/cuda/a/gone.cu");
+    write("shaders/comp/a/gone_texels.comp", head + "void main() {}\n");
+    outcome = configure_with_twins();
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.said, HasSubstr("shares the twin of gone.comp"));
 }
 
 TEST_F(BuildSlow, TwoKernelsOfOneNameAreRefused) {

@@ -9,9 +9,8 @@ struct Kernel {
     std::string name;
     std::string path; ///< of its source, for the documentation
     Reflection interface;
-    Spirv spirv; ///< final
-    std::string
-        twin; ///< the kernel under shaders/cuda/ that other backends run instead; empty: none
+    Spirv spirv;      ///< final
+    std::string twin; ///< the kernel whose text other backends run instead; empty: none
 };
 
 /// NAME.hpp: the typed binding.
@@ -21,8 +20,18 @@ std::string emit_header(const Kernel& kernel);
 /// alike.
 std::string emit_source(const Kernel& kernel);
 
-/// twins/NAME.h: what the kernel declares, as the members that its twin in C++ or CUDA works with.
-std::string emit_twin(const Kernel& kernel);
+/// NAME.twin.h: a struct with what the kernel declares. The kernel's twin derives from it.
+std::string emit_twin_header(const Kernel& kernel);
+
+/// NAME.cu: the kernel's twin, for nvcc and for C++ compilers. It is a struct that includes the
+/// kernel's text, so that the text's functions are members.
+/// text: the header that holds it, as twin_text() returns it.
+std::string emit_twin_source(const Kernel& kernel, const std::string& text);
+
+/// The included header that holds the text of the kernel `twin`: shared/kernels/.../TWIN.h, as C++
+/// includes it. Throws Error "file:1: error: ..." if the kernel includes none.
+std::string twin_text(const Sources& sources, const std::vector<std::string>& include_directories,
+                      const std::string& twin);
 
 /// A depfile in the syntax of make: `outputs` depend on `inputs`.
 std::string emit_depfile(const std::vector<std::string>& outputs,

@@ -1,12 +1,11 @@
+#include "base/error.hpp"
 #include "emit.hpp"
-
-#include <fmt/format.h>
 
 #include <iterator>
 
 namespace argand::shader_compile {
 
-std::string emit_twin(const Kernel& kernel) {
+std::string emit_twin_header(const Kernel& kernel) {
     const Reflection& interface = kernel.interface;
     std::string text;
     const auto out = std::back_inserter(text);
@@ -47,6 +46,35 @@ std::string emit_twin(const Kernel& kernel) {
     }
     fmt::format_to(out, "    return to;\n}}\n\n}} // namespace argand::twins\n");
     return text;
+}
+
+std::string emit_twin_source(const Kernel& kernel, const std::string& text) {
+    return fmt::format("// Written by shader_compile from {1}.\n"
+                       "#include \"cuda/kernel.h\"\n"
+                       "#include \"kernels/{0}.twin.h\"\n"
+                       "\n"
+                       "namespace argand::twins {{\n"
+                       "struct {0} : {0}_arguments {{\n"
+                       "    uint thread_index = 0;\n"
+                       "#include \"{2}\"\n"
+                       "}};\n"
+                       "}} // namespace argand::twins\n"
+                       "\n"
+                       "ARGAND_TWIN({0})\n",
+                       kernel.name, kernel.path, text);
+}
+
+std::string twin_text(const Sources& sources, const std::vector<std::string>& include_directories,
+                      const std::string& twin) {
+    for (const Source& source : sources) {
+        const std::string path = shared_path(source, include_directories);
+        if (path.starts_with("shared/kernels/") && path.ends_with("/" + twin + ".h")) {
+            return path;
+        }
+    }
+    fail("{}:1: error: the kernel has no text that other backends can run; move its main() to "
+         "shaders/shared/kernels/.../{}.h and include that",
+         sources.front().path, twin);
 }
 
 } // namespace argand::shader_compile

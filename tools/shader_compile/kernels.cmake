@@ -1,7 +1,13 @@
-# argand_add_kernels(target [TWINS directory] file.comp...): compiles each kernel at build time. NAME.comp becomes
-# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which becomes part of the target. With TWINS,
-# FOLDER/NAME.comp and FOLDER/NAME_texels.comp must have a twin FOLDER/NAME.cu in that directory, for which NAME.twin.h is
-# written; but those in the folders parallel and device, which only Vulkan needs: other backends have libraries for them.
+# argand_add_kernels(target [TWINS directory] file.comp...) compiles each kernel at build time. NAME.comp becomes
+# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which is compiled into the target.
+#
+# With TWINS, other backends run the kernels too. FOLDER/NAME.comp then needs a text, shaders/shared/kernels/FOLDER/NAME.h,
+# from which shader_compile writes the twin generated/kernels/NAME.cu and the header NAME.twin.h. A twin that needs more than
+# the text is written by hand, as FOLDER/NAME.cu in the directory TWINS. FOLDER/NAME_texels.comp shares the twin of NAME.comp.
+# Kernels in the folders parallel and device have no twin: the other backends use libraries instead.
+#
+# Sets the global property ARGAND_TWINS to the sources of all twins, and adds the target TARGET_twins, which writes the
+# generated ones.
 function(argand_add_kernels target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" TWINS "")
     set(directory ${CMAKE_BINARY_DIR}/generated/kernels)
@@ -13,35 +19,41 @@ function(argand_add_kernels target)
             message(FATAL_ERROR "Two kernels are called ${name}: ${earlier} and ${file}; rename one of them")
         endif()
         set_property(GLOBAL PROPERTY ARGAND_KERNEL_${name} ${file})
-        set(twin)
-        set(twin_header)
-        get_filename_component(folder ${file} DIRECTORY)
-        get_filename_component(folder ${folder} NAME)
+        set(options)
+        set(twin_files)
+        get_filename_component(parent ${file} DIRECTORY)
+        get_filename_component(folder ${parent} NAME)
         if(ARG_TWINS AND NOT folder MATCHES "^(parallel|device)$")
-            string(REGEX REPLACE "_texels$" "" twin_name ${name})
-            set(twin_source ${ARG_TWINS}/${folder}/${twin_name}.cu)
-            if(NOT EXISTS ${twin_source})
-                message(FATAL_ERROR "Kernel ${file} has no twin; write ${twin_source}")
-            endif()
-            set(twin --twin ${twin_name})
-            if(twin_name STREQUAL name)
-                set(twin_header ${directory}/${name}.twin.h)
+            string(REGEX REPLACE "_texels$" "" twin ${name})
+            set(options --twin ${twin})
+            set(by_hand ${ARG_TWINS}/${folder}/${twin}.cu)
+            if(NOT twin STREQUAL name)
+                if(NOT EXISTS ${parent}/${twin}.comp)
+                    message(FATAL_ERROR "Kernel ${file} shares the twin of ${twin}.comp, which does not exist")
+                endif()
+            elseif(EXISTS ${by_hand})
+                list(APPEND twins ${by_hand})
+                set(twin_files ${directory}/${name}.twin.h)
+            else()
+                list(APPEND options --write-twin)
+                list(APPEND twins ${directory}/${name}.cu)
+                set(twin_files ${directory}/${name}.twin.h ${directory}/${name}.cu)
             endif()
         endif()
         # The path as messages show it.
         file(RELATIVE_PATH shown ${CMAKE_SOURCE_DIR} ${file})
         add_custom_command(
-            OUTPUT ${directory}/${name}.hpp ${directory}/${name}.cpp ${twin_header}
-            COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${twin} ${shown}
+            OUTPUT ${directory}/${name}.hpp ${directory}/${name}.cpp ${twin_files}
+            COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${options} ${shown}
             DEPENDS ${file} shader_compile
             DEPFILE ${directory}/${name}.d
             WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
             COMMENT "Compiling kernel ${shown}"
             VERBATIM)
-        target_sources(${target} PRIVATE ${directory}/${name}.cpp ${directory}/${name}.hpp ${twin_header})
+        target_sources(${target} PRIVATE ${directory}/${name}.cpp ${directory}/${name}.hpp)
         list(APPEND bindings ${directory}/${name}.cpp)
-        list(APPEND generated ${directory}/${name}.hpp ${twin_header})
-        list(APPEND twin_headers ${twin_header})
+        list(APPEND generated ${directory}/${name}.hpp ${twin_files})
+        list(APPEND all_twin_files ${twin_files})
     endforeach()
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/generated>)
     # Most of the time that one binding takes to compile goes to the headers, so ten of them share a translation unit.
@@ -59,7 +71,12 @@ function(argand_add_kernels target)
     endif()
     add_dependencies(argand_generated ${target}_generated)
     if(ARG_TWINS)
-        # What the twins, which are targets of their own, wait for.
-        add_custom_target(${target}_twin_headers DEPENDS ${twin_headers})
+        file(GLOB_RECURSE written CONFIGURE_DEPENDS ${ARG_TWINS}/*.cu)
+        list(REMOVE_ITEM written ${twins})
+        if(written)
+            message(FATAL_ERROR "No kernel has the twin ${written}; remove the file, or name it as the kernel")
+        endif()
+        add_custom_target(${target}_twins DEPENDS ${all_twin_files})
+        set_property(GLOBAL PROPERTY ARGAND_TWINS ${twins})
     endif()
 endfunction()

@@ -1,4 +1,9 @@
-// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME] KERNEL.comp
+// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME [--write-twin]]
+// KERNEL.comp
+//
+// Compiles a GLSL kernel to SPIR-V and writes its C++ binding: KERNEL.hpp and KERNEL.cpp. --twin
+// names the kernel that other backends run instead; if that is the kernel itself, KERNEL.twin.h
+// declares what its text uses. --write-twin also writes the twin, KERNEL.cu.
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
@@ -18,6 +23,7 @@ struct Options {
     std::string out;
     std::string depfile;
     std::string twin;
+    bool write_twin = false;
     std::string kernel;
 };
 
@@ -37,6 +43,8 @@ Options parse(const std::vector<std::string>& words) {
             options.depfile = words[++i];
         } else if (words[i] == "--twin") {
             options.twin = words[++i];
+        } else if (words[i] == "--write-twin") {
+            options.write_twin = true;
         } else if (words[i].starts_with("-") || !options.kernel.empty()) {
             throw UsageError(fmt::format("shader_compile: unknown argument {}", words[i]));
         } else {
@@ -45,7 +53,7 @@ Options parse(const std::vector<std::string>& words) {
     }
     if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
         throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE "
-                         "[--twin NAME] KERNEL.comp");
+                         "[--twin NAME [--write-twin]] KERNEL.comp");
     }
     return options;
 }
@@ -71,11 +79,20 @@ void run(const Options& options) {
         // The build runs elsewhere than this program.
         inputs.push_back(fs::absolute(input.path).string());
     }
-    const std::string twin = (fs::path(options.out) / (name + ".twin.h")).string();
     std::vector<std::string> outputs{header, source};
-    if (options.twin == name) {
-        outputs.push_back(twin);
-        write_if_changed(twin, emit_twin(kernel));
+    if (!options.twin.empty()) {
+        const std::string text =
+            twin_text(compiled.sources, options.include_directories, options.twin);
+        const std::string twin_header = (fs::path(options.out) / (name + ".twin.h")).string();
+        const std::string twin_source = (fs::path(options.out) / (name + ".cu")).string();
+        if (options.twin == name) {
+            outputs.push_back(twin_header);
+            write_if_changed(twin_header, emit_twin_header(kernel));
+        }
+        if (options.write_twin) {
+            outputs.push_back(twin_source);
+            write_if_changed(twin_source, emit_twin_source(kernel, text));
+        }
     }
     write_if_changed(options.depfile, emit_depfile(outputs, inputs));
     write_if_changed(header, emit_header(kernel));

@@ -33,14 +33,9 @@ struct Reader {
     /// The included header under shared/ that declares `struct name`, as C++ includes it.
     std::optional<std::string> shared_header(const std::string& name) const {
         for (const Source& source : sources) {
-            for (const std::string& directory : include_directories) {
-                const std::string path = std::filesystem::path(source.path)
-                                             .lexically_relative(directory)
-                                             .generic_string();
-                if (path.rfind("shared/", 0) == 0 &&
-                    line_of(without_comments(source.text), {"struct", name, "{"})) {
-                    return path;
-                }
+            const std::string path = shared_path(source, include_directories);
+            if (!path.empty() && line_of(without_comments(source.text), {"struct", name, "{"})) {
+                return path;
             }
         }
         return std::nullopt;
@@ -151,12 +146,9 @@ std::string element_words(const Reader& reader, const SPIRType& block) {
 std::vector<std::string> shared_headers(const Reader& reader) {
     std::vector<std::string> headers;
     for (const Source& source : reader.sources) {
-        for (const std::string& directory : reader.include_directories) {
-            const std::string path =
-                std::filesystem::path(source.path).lexically_relative(directory).generic_string();
-            if (path.starts_with("shared/") && !path.starts_with("shared/kernels/")) {
-                headers.push_back(path);
-            }
+        const std::string path = shared_path(source, reader.include_directories);
+        if (!path.empty() && !path.starts_with("shared/kernels/")) {
+            headers.push_back(path);
         }
     }
     std::sort(headers.begin(), headers.end());

@@ -40,6 +40,17 @@ bool all_stand_at(std::string_view text, std::size_t at,
 
 } // namespace
 
+std::string shared_path(const Source& source, const std::vector<std::string>& include_directories) {
+    for (const std::string& directory : include_directories) {
+        std::string path =
+            std::filesystem::path(source.path).lexically_relative(directory).generic_string();
+        if (path.starts_with("shared/")) {
+            return path;
+        }
+    }
+    return "";
+}
+
 std::string read_text(const std::filesystem::path& path) {
     const std::vector<std::uint8_t> bytes = read_file(path);
     return {bytes.begin(), bytes.end()};

@@ -18,6 +18,10 @@ struct Source {
 /// The kernel itself first, then every file it includes, each once.
 using Sources = std::vector<Source>;
 
+/// The path of a source under shared/ in one of the include directories, as C++ includes it
+/// ("shared/..."); empty for other sources.
+std::string shared_path(const Source& source, const std::vector<std::string>& include_directories);
+
 /// As argand::read_file.
 std::string read_text(const std::filesystem::path& path);
 
