@@ -28,44 +28,25 @@ struct Work {
 using RunKernel = void (*)(const Work& work, const TraceParams& params, bool resume,
                            std::uint64_t threads);
 
-template <class Kernel> void run(const Work& work, const Kernel& kernel, std::uint64_t threads) {
-    if (!kernel.constants.resume && kernel.params.count.on_device != 0) {
+/// Dispatches one of the kernels that trace rays. Its output is the only member behind the buffers
+/// that all of them share: `hits` or `occluded`.
+template <class Kernel>
+void run(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
+    const Kernel kernel{{.nodes = work.bvh.nodes,
+                         .triangles = work.bvh.triangles,
+                         .rays = work.rays,
+                         .active_rays = work.active,
+                         .counts = counts_or(work.count, work.active),
+                         .suspended = work.traversal.suspended,
+                         .unfinished = work.traversal.unfinished},
+                        work.results,
+                        params,
+                        {.resume = resume}};
+    if (!resume && params.count.on_device != 0) {
         dispatch_indirect(work.device, kernel, work.count.buffer, work.count.index);
     } else {
         dispatch(work.device, kernel, threads);
     }
-}
-
-template <class Kernel>
-void run_closest(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
-    run(work,
-        Kernel{.nodes = work.bvh.nodes,
-               .triangles = work.bvh.triangles,
-               .rays = work.rays,
-               .active_rays = work.active,
-               .counts = counts_or(work.count, work.active),
-               .suspended = work.traversal.suspended,
-               .unfinished = work.traversal.unfinished,
-               .hits = work.results,
-               .params = params,
-               .constants = {.resume = resume}},
-        threads);
-}
-
-template <class Kernel>
-void run_any(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
-    run(work,
-        Kernel{.nodes = work.bvh.nodes,
-               .triangles = work.bvh.triangles,
-               .rays = work.rays,
-               .active_rays = work.active,
-               .counts = counts_or(work.count, work.active),
-               .suspended = work.traversal.suspended,
-               .unfinished = work.traversal.unfinished,
-               .occluded = work.results,
-               .params = params,
-               .constants = {.resume = resume}},
-        threads);
 }
 
 TraceParams make_params(const Work& work) {
@@ -145,16 +126,15 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                    const Buffer& active, const Buffer& hits, const Count& count) {
     trace({device, bvh, traversal, rays, active, hits, count},
-          read_as_texels(device, bvh.nodes, bvh.triangles)
-              ? run_closest<kernels::trace_closest_texels>
-              : run_closest<kernels::trace_closest>);
+          read_as_texels(device, bvh.nodes, bvh.triangles) ? run<kernels::trace_closest_texels>
+                                                           : run<kernels::trace_closest>);
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
                const Buffer& active, const Buffer& occluded, const Count& count) {
     trace({device, bvh, traversal, rays, active, occluded, count},
-          read_as_texels(device, bvh.nodes, bvh.triangles) ? run_any<kernels::trace_any_texels>
-                                                           : run_any<kernels::trace_any>);
+          read_as_texels(device, bvh.nodes, bvh.triangles) ? run<kernels::trace_any_texels>
+                                                           : run<kernels::trace_any>);
 }
 
 } // namespace argand

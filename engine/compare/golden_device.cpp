@@ -87,7 +87,7 @@ void GoldenDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arg
     for (const WrittenBinding& binding : written_bindings(kernel, arguments)) {
         written.push_back(binding.view);
     }
-    play(stage_name(kernel), written);
+    play(kernel.stage, written);
 }
 
 } // namespace argand

@@ -99,9 +99,11 @@ StageComparison& PairedDevice::comparison(const std::string& stage) {
 void PairedDevice::run(const std::string& stage, const std::function<void()>& on_a,
                        const std::function<void()>& on_b,
                        const std::vector<WrittenBinding>& written) {
-    const bool has_cells = stage == cells_stage;
+    const auto indices =
+        std::find_if(written.begin(), written.end(),
+                     [](const WrittenBinding& binding) { return binding.how.refers_to >= 0; });
     std::vector<std::vector<std::uint32_t>> before;
-    if (recorder_ || has_cells) {
+    if (recorder_ || indices != written.end()) {
         for (const WrittenBinding& binding : written) {
             before.push_back(words_of(a_, view(binding.view, &PairedBuffer::a)));
         }
@@ -110,8 +112,9 @@ void PairedDevice::run(const std::string& stage, const std::function<void()>& on
     ++found.runs;
     found.seconds_a += seconds_of(a_, on_a);
     found.seconds_b += seconds_of(b_, on_b);
-    if (has_cells) {
-        compare_cells(before, written, found);
+    if (indices != written.end()) {
+        compare_referred(before[static_cast<std::size_t>(indices - written.begin())], *indices,
+                         written, found);
     }
     GoldenStep step{stage, {}};
     for (std::size_t i = 0; i < written.size(); ++i) {
@@ -122,18 +125,19 @@ void PairedDevice::run(const std::string& stage, const std::function<void()>& on
         if (recorder_) {
             step.writes.push_back(changes(before[i], a));
         }
-        const bool counts = !is_incidental(stage, binding.name);
+        const std::string_view layout = binding.how.words;
+        const bool counts = !binding.how.incidental && binding.how.refers_to < 0;
         if (a == b) {
-            found.items += counts ? a.size() / binding.layout.size() : 0;
+            found.items += counts ? a.size() / layout.size() : 0;
             continue;
         }
         if (pairing_ == Pairing::isolated) {
             b_.upload(*in_b.buffer, in_b.offset, std::as_bytes(std::span(a)));
         }
         if (counts) {
-            put_in_order(stage, binding.name, a);
-            put_in_order(stage, binding.name, b);
-            compare_items(a, b, binding.layout, tolerance(), found);
+            put_in_order(binding.how.unordered, a);
+            put_in_order(binding.how.unordered, b);
+            compare_items(a, b, layout, tolerance(), found);
         }
     }
     if (recorder_) {
@@ -145,37 +149,38 @@ double PairedDevice::tolerance() const {
     return pairing_ == Pairing::isolated ? isolated_divergence : end_to_end_divergence;
 }
 
-void PairedDevice::compare_cells(const std::vector<std::vector<std::uint32_t>>& before,
-                                 const std::vector<WrittenBinding>& written,
-                                 StageComparison& found) {
-    CellTables a, b;
-    std::vector<std::uint32_t> old;
-    for (std::size_t i = 0; i < written.size(); ++i) {
-        const bool is_owners = written[i].name == "owners";
-        if (is_owners || written[i].name == "sources") {
-            (is_owners ? a.owners : a.sources) =
-                words_of(a_, view(written[i].view, &PairedBuffer::a));
-            (is_owners ? b.owners : b.sources) =
-                words_of(b_, view(written[i].view, &PairedBuffer::b));
-            old = is_owners ? old : before[i];
+void PairedDevice::compare_referred(const std::vector<std::uint32_t>& before,
+                                    const WrittenBinding& indices,
+                                    const std::vector<WrittenBinding>& written,
+                                    StageComparison& found) {
+    const auto is_target = [&](const WrittenBinding& binding) {
+        return static_cast<int>(binding.how.binding) == indices.how.refers_to;
+    };
+    const auto targets = std::find_if(written.begin(), written.end(), is_target);
+    if (targets == written.end()) {
+        return; // another binding has the same buffer
+    }
+    const auto read = [&](Device& device, Buffer PairedBuffer::*side) {
+        return IndexedWords{words_of(device, view(indices.view, side)),
+                            words_of(device, view(targets->view, side))};
+    };
+    const IndexedWords a = read(a_, &PairedBuffer::a);
+    const IndexedWords b = read(b_, &PairedBuffer::b);
+    std::vector<std::uint32_t> words_a, words_b;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        // Indices that neither device has written are left from earlier runs.
+        if (a.indices[i] != before[i] || b.indices[i] != before[i]) {
+            words_a.push_back(referred_word(a, i));
+            words_b.push_back(referred_word(b, i));
         }
     }
-    std::vector<std::uint32_t> owners_a, owners_b;
-    for (std::size_t query = 0; query < old.size(); ++query) {
-        // Slots of finished paths hold leftovers of earlier batches.
-        if (a.sources[query] != old[query] || b.sources[query] != old[query]) {
-            owners_a.push_back(owner_of(a, query));
-            owners_b.push_back(owner_of(b, query));
-        }
-    }
-    compare_items(owners_a, owners_b, "u", tolerance(), found);
+    compare_items(words_a, words_b, "u", tolerance(), found);
 }
 
 void PairedDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
                             std::uint64_t threads) {
     run(
-        stage_name(kernel),
-        [&] { a_.dispatch(kernel, side_of(arguments, &PairedBuffer::a), threads); },
+        kernel.stage, [&] { a_.dispatch(kernel, side_of(arguments, &PairedBuffer::a), threads); },
         [&] { b_.dispatch(kernel, side_of(arguments, &PairedBuffer::b), threads); },
         written_bindings(kernel, arguments));
 }
@@ -187,7 +192,7 @@ void PairedDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArgum
             [&kernel, &device, arguments = side_of(arguments, side), count = paired(counts).*side,
              count_index] { device.dispatch_indirect(kernel, arguments, count, count_index); };
     };
-    run(stage_name(kernel), on(a_, &PairedBuffer::a), on(b_, &PairedBuffer::b),
+    run(kernel.stage, on(a_, &PairedBuffer::a), on(b_, &PairedBuffer::b),
         written_bindings(kernel, arguments));
 }
 

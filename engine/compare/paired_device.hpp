@@ -67,9 +67,10 @@ public:
 private:
     StageComparison& comparison(const std::string& stage);
     double tolerance() const;
-    /// Compares the owners that query_cells found, wherever its hash table stores the cells.
-    void compare_cells(const std::vector<std::vector<std::uint32_t>>& before,
-                       const std::vector<WrittenBinding>& written, StageComparison& found);
+    /// Compares the words to which `indices` refer, see KernelBinding::refers_to.
+    /// before: the indices before the stage ran.
+    void compare_referred(const std::vector<std::uint32_t>& before, const WrittenBinding& indices,
+                          const std::vector<WrittenBinding>& written, StageComparison& found);
 
     Device& a_;
     Device& b_;

@@ -91,7 +91,9 @@ public:
     }
 
 private:
-    static WrittenBinding words(const Buffer& buffer) { return {buffer, "", "u"}; }
+    static WrittenBinding words(const Buffer& buffer) {
+        return {buffer, {.name = "", .binding = 0, .access = Access::write}};
+    }
 
     template <class Work>
     void run(const char* stage, const Work& work, const std::vector<WrittenBinding>& written) {

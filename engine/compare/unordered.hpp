@@ -1,29 +1,23 @@
 #pragma once
 
+#include "device/kernel.hpp"
+
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace argand {
 
-/// Some stages leave records in the order in which invocations happened to come. Sorts them, so
-/// that two devices' can be compared; records elsewhere are left alone.
-void put_in_order(std::string_view stage, std::string_view buffer, std::span<std::uint32_t> words);
+/// Sorts the records that invocations appended in the order in which they happened to run, so that
+/// the buffers of two devices can be compared. Other buffers stay as they are.
+void put_in_order(UnorderedRecords records, std::span<std::uint32_t> words);
 
-/// Whether a buffer's contents say nothing that later stages do not say again, independent of the
-/// order.
-bool is_incidental(std::string_view stage, std::string_view buffer);
-
-/// Gives queries cells of a hash table; which entry a cell gets depends on who comes first.
-inline constexpr std::string_view cells_stage = "query_cells";
-
-/// What that stage wrote: the entry of each query's cell, and each entry's owner.
-struct CellTables {
-    std::vector<std::uint32_t> sources, owners;
+/// A buffer of indices and the buffer into which they point, see KernelBinding::refers_to.
+struct IndexedWords {
+    std::vector<std::uint32_t> indices, targets;
 };
 
-/// The owner of a query's cell; no_query if it has none.
-std::uint32_t owner_of(const CellTables& tables, std::size_t query);
+/// The word to which the index at `item` refers; UINT32_MAX if it points nowhere.
+std::uint32_t referred_word(const IndexedWords& words, std::size_t item);
 
 } // namespace argand

@@ -50,13 +50,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
     const Plan& plan = scene.plan;
     dispatch_indirect(
         device,
-        kernels::eye_vertex{.scene = scene.scene,
-                            .positions = scene.positions,
-                            .normals = scene.normals,
-                            .triangles = scene.triangles,
-                            .materials = scene.materials,
-                            .lights = scene.lights,
-                            .light_choices = scene.light_choices,
+        kernels::eye_vertex{.scene = scene.bindings(),
                             .hits = w.hits,
                             .active_slots = w.active,
                             .counts = w.counts,
@@ -75,9 +69,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                                           .followed_paths = plan.needs(Feature::followed_paths),
                                           .direct_light = plan.needs(Feature::direct_light),
                                           .glossy_estimates = plan.needs(Feature::glossy_estimates),
-                                          .smooth_normals = plan.needs(Feature::smooth_normals),
-                                          .several_lights = plan.needs(Feature::several_lights),
-                                          .light_kinds = plan.light_kinds(),
+                                          .scene = scene.constants(),
                                           .material_features = plan.material_features()}},
         w.counts);
 }

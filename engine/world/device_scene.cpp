@@ -200,6 +200,22 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
 
 } // namespace
 
+kernels::SceneBindings DeviceScene::bindings() const {
+    return {.scene = scene,
+            .positions = positions,
+            .normals = normals,
+            .triangles = triangles,
+            .materials = materials,
+            .lights = lights,
+            .light_choices = light_choices};
+}
+
+kernels::SceneConstants DeviceScene::constants() const {
+    return {.smooth_normals = plan.needs(Feature::smooth_normals),
+            .several_lights = plan.needs(Feature::several_lights),
+            .light_kinds = plan.light_kinds()};
+}
+
 DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     const StageScope stage(device, "upload scene");
     const Bounds box = bounds(scene);

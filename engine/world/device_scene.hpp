@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/triangle_bvh.hpp"
+#include "kernels/scene_bindings.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "shared/camera.h"
@@ -24,6 +25,11 @@ struct DeviceScene {
     glm::dvec3 power{0};            ///< of all lights, per channel [candela × steradian]
     double emitter_probability = 0; ///< that a light chosen by power is an emissive triangle
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
+
+    /// Buffers for the member `scene` of a kernel that shades.
+    kernels::SceneBindings bindings() const;
+    /// Specialization constants for the member `scene` of its constants.
+    kernels::SceneConstants constants() const;
 };
 
 /// Uploads the parts of the scene that the plan needs, and builds its acceleration structure.

@@ -47,7 +47,7 @@ public:
             const glm::dvec3 high =
                 corner(node, {node.high_cells_x, node.high_cells_y, node.high_cells_z}, i);
             const glm::dvec3 cell = cells(node);
-            // Within what make_ray in traverse.glsl allows for, and not a cell more than needed.
+            // Within what make_ray in traverse.h allows for, and not a cell more than needed.
             const glm::dvec3 slack = 1e-6 * (glm::abs(glm::dvec3(child.low)) +
                                              glm::abs(glm::dvec3(child.high)) + 256.0 * cell);
             for (int axis = 0; axis < 3; ++axis) {

@@ -72,7 +72,7 @@ TEST_F(BuildSlow, TwinIsGeneratedUnlessItIsWrittenByHand) {
     const Outcome outcome = build();
     EXPECT_NE(outcome.status, 0);
     EXPECT_THAT(outcome.said,
-                HasSubstr("shaders/comp/a/copy.comp:1: error: the kernel has no text"));
+                HasSubstr("shaders/comp/a/copy.comp:1: error: the kernel has no body"));
 
     write("shaders/cuda/a/copy.cu", "// by hand\n");
     EXPECT_THAT(configure_with_twins().said, HasSubstr("shaders/cuda/a/copy.cu\n"));

@@ -24,7 +24,7 @@ struct Twin : ShaderCompile {
     }
 };
 
-TEST_F(Twin, IsWrittenFromTheTextThatTheKernelIncludes) {
+TEST_F(Twin, IsWrittenFromTheBodyThatTheKernelIncludes) {
     const Outcome outcome = compile_twin();
     ASSERT_EQ(outcome.status, 0) << outcome.said;
     EXPECT_THAT(generated("twice.cu"), HasSubstr("#include \"shared/kernels/a/twice.h\"\n"));
@@ -35,7 +35,7 @@ TEST_F(Twin, IsWrittenFromTheTextThatTheKernelIncludes) {
     EXPECT_EQ(checked.status, 0) << checked.said;
 }
 
-TEST_F(Twin, DoesNotCompileIfItsTextNeedsMoreThanTheKernelDeclares) {
+TEST_F(Twin, DoesNotCompileIfItsBodyNeedsMoreThanTheKernelDeclares) {
     write("shaders/comp/a/twice.comp",
           head + declarations +
               "layout(set = 0, binding = 1) buffer B { uint missing[]; };\n"
@@ -46,7 +46,7 @@ TEST_F(Twin, DoesNotCompileIfItsTextNeedsMoreThanTheKernelDeclares) {
                 HasSubstr("shaders/shared/kernels/a/twice.h:1:"));
 }
 
-TEST_F(Twin, KernelWithoutTextIsAnError) {
+TEST_F(Twin, KernelWithoutABodyIsAnError) {
     write("shaders/comp/a/twice.comp", head + declarations + "void main() {}\n");
     const Outcome outcome = compile_twin();
     EXPECT_EQ(outcome.status, 1);

@@ -31,9 +31,8 @@ std::string trimmed(const std::string& text) {
                : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
-/// glslang's log in the form that editors understand: "ERROR: FILE:LINE: ..." becomes "FILE:LINE:
-/// error:
-/// ...".
+/// glslang's log in the form that editors understand: "ERROR: FILE:LINE: ..." becomes
+/// "FILE:LINE: error: ...".
 Messages messages(const std::string& log, const std::string& kernel) {
     static const std::regex located(R"((ERROR|WARNING): (.+?):(\d+): (.*))");
     static const std::regex unlocated(R"((ERROR|WARNING): (.*))");
@@ -74,11 +73,15 @@ Messages messages(const std::string& log, const std::string& kernel) {
 } // namespace
 
 Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories) {
-    const Process process;
     const std::string path = std::filesystem::path(kernel).lexically_normal().string();
+    return compile_text(path, read_text(path), include_directories);
+}
+
+Compiled compile_text(const std::string& path, const std::string& text,
+                      const std::vector<std::string>& include_directories) {
+    const Process process;
     Compiled result;
-    result.sources.push_back({path, read_text(path)});
-    const std::string text = result.sources.front().text;
+    result.sources.push_back({path, text});
     if (!line_of(without_comments(text), {"#version", "460"})) {
         fail("{}:1: error: a kernel begins with #version 460", path);
     }

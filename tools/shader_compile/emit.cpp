@@ -19,12 +19,92 @@ std::string_view enumerator(Access access) {
     return access == Access::read ? "read" : access == Access::write ? "write" : "read_write";
 }
 
-std::size_t longest_name(const Reflection& interface) {
-    std::size_t longest = 0;
-    for (const Binding& binding : interface.bindings) {
-        longest = std::max(longest, binding.name.size());
+/// The C++ struct of a group's bindings or constants: SceneBindings, SceneConstants of "scene".
+std::string group_type(const std::string& group, std::string_view kind) {
+    std::string name;
+    bool start = true;
+    for (const char c : group) {
+        if (c != '_') {
+            name += start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+        }
+        start = c == '_';
     }
-    return longest;
+    return name.append(kind);
+}
+
+/// The names of the groups among bindings and constants.
+std::set<std::string> groups_of(const Reflection& interface) {
+    std::set<std::string> groups;
+    for (const Binding& binding : interface.bindings) {
+        groups.insert(binding.group);
+    }
+    for (const Constant& constant : interface.constants) {
+        groups.insert(constant.group);
+    }
+    groups.erase("");
+    return groups;
+}
+
+/// How the kernel's struct names a binding or a constant that may be a group's.
+template <class T> std::string member_of(const T& item) {
+    return item.group.empty() ? item.name : item.group + "." + item.name;
+}
+
+struct Declaration {
+    std::string type, name, comment;
+};
+
+/// A line each, names and comments aligned.
+void emit_declarations(Out out, const std::vector<Declaration>& declarations) {
+    std::size_t type_width = 9;
+    std::size_t name_width = 0;
+    for (const Declaration& declaration : declarations) {
+        type_width = std::max(type_width, declaration.type.size());
+        name_width = std::max(name_width, declaration.name.size() + 1);
+    }
+    for (const Declaration& declaration : declarations) {
+        fmt::format_to(out, "    {:{}} {:{}} ///< {}\n", declaration.type, type_width,
+                       declaration.name + ";", name_width, declaration.comment);
+    }
+}
+
+/// The kernel's buffers, those of a group as one member.
+std::vector<Declaration> binding_members(const Reflection& interface) {
+    std::vector<Declaration> members;
+    std::set<std::string> groups;
+    for (std::size_t i = 0; i < interface.bindings.size(); ++i) {
+        const Binding& binding = interface.bindings[i];
+        if (binding.group.empty()) {
+            members.push_back({std::string(type_name(binding.access)), binding.name,
+                               fmt::format("binding {}", i)});
+        } else if (groups.insert(binding.group).second) {
+            members.push_back({group_type(binding.group, "Bindings"), binding.group,
+                               fmt::format("binding {} and those that follow", i)});
+        }
+    }
+    return members;
+}
+
+void emit_constants(Out out, const Reflection& interface) {
+    fmt::format_to(out, "    struct Constants {{\n");
+    std::set<std::string> groups;
+    for (const Constant& constant : interface.constants) {
+        if (constant.group.empty()) {
+            fmt::format_to(out, "        {} {} = {};\n", constant.type, constant.name,
+                           constant.value);
+        } else if (groups.insert(constant.group).second) {
+            fmt::format_to(out, "        {} {} = {{}};\n", group_type(constant.group, "Constants"),
+                           constant.group);
+        }
+    }
+    fmt::format_to(out, "    }} constants = {{}};\n");
+}
+
+bool needs_limits(const Reflection& interface) {
+    return std::any_of(interface.constants.begin(), interface.constants.end(),
+                       [](const Constant& constant) {
+                           return constant.value.find("numeric_limits") != std::string::npos;
+                       });
 }
 
 void emit_checks(Out out, const Record& record) {
@@ -52,7 +132,73 @@ void emit_words(Out out, const Spirv& spirv) {
     }
 }
 
-/// Spaces would separate, `#` and `$` mean something.
+void emit_bindings(Out out, const Kernel& kernel) {
+    const std::vector<Binding>& bindings = kernel.interface.bindings;
+    fmt::format_to(out, "constexpr KernelBinding {}_bindings[] = {{\n", kernel.name);
+    for (std::size_t i = 0; i < bindings.size(); ++i) {
+        const Binding& binding = bindings[i];
+        fmt::format_to(out, "    {{.name = \"{}\", .binding = {}, .access = Access::{}",
+                       binding.name, i, enumerator(binding.access));
+        if (binding.texels) {
+            fmt::format_to(out, ", .texels = true");
+        }
+        fmt::format_to(out, ", .words = \"{}\"", binding.words);
+        if (!binding.unordered_stride.empty()) {
+            fmt::format_to(out, ", .unordered = {{.head = {}, .stride = {}}}",
+                           binding.unordered_head, binding.unordered_stride);
+        }
+        if (binding.incidental) {
+            fmt::format_to(out, ", .incidental = true");
+        }
+        if (binding.refers_to >= 0) {
+            fmt::format_to(out, ", .refers_to = {}", binding.refers_to);
+        }
+        fmt::format_to(out, "}},\n");
+    }
+    fmt::format_to(out, "}};\n");
+}
+
+/// A group has the same members in all kernels, whatever macros they define before they include it.
+void emit_group_checks(Out out, const Reflection& interface) {
+    for (const std::string& group : groups_of(interface)) {
+        const auto count = std::count_if(interface.bindings.begin(), interface.bindings.end(),
+                                         [&](const Binding& b) { return b.group == group; });
+        fmt::format_to(out,
+                       "static_assert(sizeof({0}) == {1} * sizeof(BufferView), \"{2}_bindings.glsl "
+                       "declares other buffers here\");\n",
+                       group_type(group, "Bindings"), count, group);
+    }
+}
+
+void emit_info(Out out, const Kernel& kernel) {
+    const Reflection& interface = kernel.interface;
+    const std::string& name = kernel.name;
+    const bool has_twin = !kernel.twin.empty();
+    if (has_twin) {
+        fmt::format_to(out,
+                       "RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n",
+                       kernel.twin);
+    }
+    fmt::format_to(out, "constinit const KernelInfo {0}::info{{\n    .name = \"{0}\",\n", name);
+    fmt::format_to(out, "    .stage = \"{}\",\n", has_twin ? kernel.twin : name);
+    fmt::format_to(out, "    .spirv = {}_spirv,\n", name);
+    fmt::format_to(out, "    .bindings = {},\n",
+                   interface.bindings.empty() ? "{}" : name + "_bindings");
+    fmt::format_to(out, "    .constants = {},\n",
+                   interface.constants.empty() ? "{}" : name + "_constants");
+    fmt::format_to(out, "    .push_bytes = {},\n", interface.push ? interface.push->size : 0);
+    fmt::format_to(out, "    .local_size = {{{}, {}, {}}},\n", interface.local_size[0],
+                   interface.local_size[1], interface.local_size[2]);
+    fmt::format_to(out, "    .uses_subgroups = {},\n", interface.uses_subgroups);
+    if (has_twin) {
+        fmt::format_to(out,
+                       "    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n",
+                       kernel.twin);
+    }
+    fmt::format_to(out, "}};\n\n");
+}
+
+/// A path as make reads it: a space separates paths, and `#` and `$` have a meaning.
 std::string escaped(const std::string& path) {
     std::string result;
     for (const char c : path) {
@@ -70,42 +216,61 @@ std::string escaped(const std::string& path) {
 
 std::string emit_header(const Kernel& kernel) {
     const Reflection& interface = kernel.interface;
-    const bool has_limits =
-        std::any_of(interface.constants.begin(), interface.constants.end(), [](const Constant& c) {
-            return c.value.find("numeric_limits") != std::string::npos;
-        });
     std::string text;
     const Out out(text);
     fmt::format_to(
         out,
         "// Written by shader_compile from {}.\n#pragma once\n\n#include \"device/kernel.hpp\"\n",
         kernel.path);
+    for (const std::string& group : groups_of(interface)) {
+        fmt::format_to(out, "#include \"kernels/{}_bindings.hpp\"\n", group);
+    }
     if (interface.push) {
         fmt::format_to(out, "#include \"{}\"\n", interface.push->header);
     }
     fmt::format_to(out, "{}\nnamespace argand::kernels {{\n\n/// {}\nstruct {} {{\n",
-                   has_limits ? "\n#include <limits>\n" : "", kernel.path, kernel.name);
-    const std::size_t width = longest_name(interface) + 1;
-    for (std::size_t i = 0; i < interface.bindings.size(); ++i) {
-        const Binding& binding = interface.bindings[i];
-        fmt::format_to(out, "    {:9} {:{}} ///< binding {}\n", type_name(binding.access),
-                       binding.name + ";", width, i);
-    }
+                   needs_limits(interface) ? "\n#include <limits>\n" : "", kernel.path,
+                   kernel.name);
+    emit_declarations(out, binding_members(interface));
     if (interface.push) {
         fmt::format_to(out, "    {0} {1} = missing_push_constants<{0}>();\n", interface.push->name,
                        interface.push_name);
     }
     if (!interface.constants.empty()) {
-        fmt::format_to(out, "    struct Constants {{\n");
-        for (const Constant& constant : interface.constants) {
-            fmt::format_to(out, "        {} {} = {};\n", constant.type, constant.name,
-                           constant.value);
-        }
-        fmt::format_to(out, "    }} constants = {{}};\n");
+        emit_constants(out, interface);
     }
     fmt::format_to(
         out, "\n    static const KernelInfo info;\n    KernelArguments arguments() const;\n}};\n\n"
              "}} // namespace argand::kernels\n");
+    return text;
+}
+
+std::string emit_group(const Kernel& group) {
+    std::string text;
+    const Out out(text);
+    fmt::format_to(
+        out,
+        "// Written by shader_compile from {0}.\n#pragma once\n\n#include "
+        "\"device/kernel.hpp\"\n{1}\n"
+        "namespace argand::kernels {{\n\n/// The buffers that {0} declares.\nstruct {2} {{\n",
+        group.path, needs_limits(group.interface) ? "\n#include <limits>\n" : "",
+        group_type(group.name, "Bindings"));
+    std::vector<Declaration> members;
+    for (const Binding& binding : group.interface.bindings) {
+        members.push_back({std::string(type_name(binding.access)), binding.name,
+                           fmt::format("binding {}", members.size())});
+    }
+    emit_declarations(out, members);
+    fmt::format_to(out, "}};\n\n");
+    if (!group.interface.constants.empty()) {
+        fmt::format_to(out, "/// Its specialization constants.\nstruct {} {{\n",
+                       group_type(group.name, "Constants"));
+        for (const Constant& constant : group.interface.constants) {
+            fmt::format_to(out, "    {} {} = {};\n", constant.type, constant.name, constant.value);
+        }
+        fmt::format_to(out, "}};\n\n");
+    }
+    fmt::format_to(out, "}} // namespace argand::kernels\n");
     return text;
 }
 
@@ -119,6 +284,7 @@ std::string emit_source(const Kernel& kernel) {
     for (const Record& record : interface.records) {
         headers.insert(record.header);
     }
+    headers.insert(interface.constant_headers.begin(), interface.constant_headers.end());
     for (const std::string& header : headers) {
         fmt::format_to(out, "#include \"{}\"\n", header);
     }
@@ -132,18 +298,13 @@ std::string emit_source(const Kernel& kernel) {
     for (const Record& record : interface.records) {
         emit_checks(out, record);
     }
+    emit_group_checks(out, interface);
     // The names differ between kernels, so that the sources of several make one translation unit.
     fmt::format_to(out, "\nconstexpr std::uint32_t {}_spirv[] = {{", kernel.name);
     emit_words(out, kernel.spirv);
     fmt::format_to(out, "\n}};\n");
     if (!interface.bindings.empty()) {
-        fmt::format_to(out, "constexpr KernelBinding {}_bindings[] = {{\n", kernel.name);
-        for (std::size_t i = 0; i < interface.bindings.size(); ++i) {
-            fmt::format_to(out, "    {{\"{}\", {}, Access::{}, {}, \"{}\"}},\n",
-                           interface.bindings[i].name, i, enumerator(interface.bindings[i].access),
-                           interface.bindings[i].texels, interface.bindings[i].words);
-        }
-        fmt::format_to(out, "}};\n");
+        emit_bindings(out, kernel);
     }
     if (!interface.constants.empty()) {
         fmt::format_to(out, "constexpr KernelConstant {}_constants[] = {{\n", kernel.name);
@@ -152,36 +313,18 @@ std::string emit_source(const Kernel& kernel) {
         }
         fmt::format_to(out, "}};\n");
     }
-    fmt::format_to(
-        out,
-        "\n}} // namespace\n\n{8}constinit const KernelInfo {0}::info{{\n"
-        "    .name = \"{0}\",\n    .spirv = {0}_spirv,\n    .bindings = {1},\n    .constants = "
-        "{2},\n"
-        "    .push_bytes = {3},\n    .local_size = {{{4}, {5}, {6}}},\n    .uses_subgroups = "
-        "{7},\n{9}}};\n\n",
-        kernel.name, interface.bindings.empty() ? "{}" : kernel.name + "_bindings",
-        interface.constants.empty() ? "{}" : kernel.name + "_constants",
-        interface.push ? interface.push->size : 0, interface.local_size[0], interface.local_size[1],
-        interface.local_size[2], interface.uses_subgroups,
-        kernel.twin.empty()
-            ? ""
-            : fmt::format(
-                  "RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n",
-                  kernel.twin),
-        kernel.twin.empty()
-            ? ""
-            : fmt::format("    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n",
-                          kernel.twin));
+    fmt::format_to(out, "\n}} // namespace\n\n");
+    emit_info(out, kernel);
     fmt::format_to(out, "KernelArguments {}::arguments() const {{\n    KernelArguments result;\n",
                    kernel.name);
     for (const Binding& binding : interface.bindings) {
-        fmt::format_to(out, "    result.add({});\n", binding.name);
+        fmt::format_to(out, "    result.add({});\n", member_of(binding));
     }
     if (interface.push) {
         fmt::format_to(out, "    result.set_push({});\n", interface.push_name);
     }
     for (const Constant& constant : interface.constants) {
-        fmt::format_to(out, "    result.add_constant(constants.{});\n", constant.name);
+        fmt::format_to(out, "    result.add_constant(constants.{});\n", member_of(constant));
     }
     fmt::format_to(out, "    return result;\n}}\n\n}} // namespace argand::kernels\n");
     return text;

@@ -4,33 +4,35 @@
 
 namespace argand::shader_compile {
 
-/// A kernel as its generated files show it.
+/// A kernel, or a group of bindings, of which files are generated.
 struct Kernel {
-    std::string name;
+    std::string name; ///< of a group: NAME in NAME_bindings.glsl
     std::string path; ///< of its source, for the documentation
     Reflection interface;
-    Spirv spirv;      ///< final
-    std::string twin; ///< the kernel whose text other backends run instead; empty: none
+    Spirv spirv;      ///< final; a group has none
+    std::string twin; ///< the kernel whose body other backends run; empty: none
 };
 
 /// NAME.hpp: the typed binding.
 std::string emit_header(const Kernel& kernel);
 
-/// NAME.cpp: the SPIR-V, what is known of it, and checks that host and GPU lay out shared records
-/// alike.
+/// NAME_bindings.hpp: the structs NameBindings and NameConstants, see group_of().
+std::string emit_group(const Kernel& group);
+
+/// NAME.cpp: the SPIR-V, its KernelInfo, and checks that host and GPU lay out shared records alike.
 std::string emit_source(const Kernel& kernel);
 
 /// NAME.twin.h: a struct with what the kernel declares. The kernel's twin derives from it.
 std::string emit_twin_header(const Kernel& kernel);
 
 /// NAME.cu: the kernel's twin, for nvcc and for C++ compilers. It is a struct that includes the
-/// kernel's text, so that the text's functions are members.
-/// text: the header that holds it, as twin_text() returns it.
-std::string emit_twin_source(const Kernel& kernel, const std::string& text);
+/// kernel's body, so that the body's functions are members.
+/// body: the header that holds it, as twin_body() returns it.
+std::string emit_twin_source(const Kernel& kernel, const std::string& body);
 
-/// The included header that holds the text of the kernel `twin`: shared/kernels/.../TWIN.h, as C++
+/// The included header that holds the body of the kernel `twin`: shared/kernels/.../TWIN.h, as C++
 /// includes it. Throws Error "file:1: error: ..." if the kernel includes none.
-std::string twin_text(const Sources& sources, const std::vector<std::string>& include_directories,
+std::string twin_body(const Sources& sources, const std::vector<std::string>& include_directories,
                       const std::string& twin);
 
 /// A depfile in the syntax of make: `outputs` depend on `inputs`.

@@ -48,7 +48,7 @@ std::string emit_twin_header(const Kernel& kernel) {
     return text;
 }
 
-std::string emit_twin_source(const Kernel& kernel, const std::string& text) {
+std::string emit_twin_source(const Kernel& kernel, const std::string& body) {
     return fmt::format("// Written by shader_compile from {1}.\n"
                        "#include \"cuda/kernel.h\"\n"
                        "#include \"kernels/{0}.twin.h\"\n"
@@ -61,10 +61,10 @@ std::string emit_twin_source(const Kernel& kernel, const std::string& text) {
                        "}} // namespace argand::twins\n"
                        "\n"
                        "ARGAND_TWIN({0})\n",
-                       kernel.name, kernel.path, text);
+                       kernel.name, kernel.path, body);
 }
 
-std::string twin_text(const Sources& sources, const std::vector<std::string>& include_directories,
+std::string twin_body(const Sources& sources, const std::vector<std::string>& include_directories,
                       const std::string& twin) {
     for (const Source& source : sources) {
         const std::string path = shared_path(source, include_directories);
@@ -72,7 +72,7 @@ std::string twin_text(const Sources& sources, const std::vector<std::string>& in
             return path;
         }
     }
-    fail("{}:1: error: the kernel has no text that other backends can run; move its main() to "
+    fail("{}:1: error: the kernel has no body that other backends can run; move its main() to "
          "shaders/shared/kernels/.../{}.h and include that",
          sources.front().path, twin);
 }

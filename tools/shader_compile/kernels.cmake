@@ -1,9 +1,12 @@
 # argand_add_kernels(target [TWINS directory] file.comp...) compiles each kernel at build time. NAME.comp becomes
 # generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which is compiled into the target.
 #
-# With TWINS, other backends run the kernels too. FOLDER/NAME.comp then needs a text, shaders/shared/kernels/FOLDER/NAME.h,
+# NAME_bindings.glsl becomes generated/kernels/NAME_bindings.hpp: the buffers that it declares as one struct, which the
+# kernels that include it share.
+#
+# With TWINS, other backends run the kernels too. FOLDER/NAME.comp then needs a body, shaders/shared/kernels/FOLDER/NAME.h,
 # from which shader_compile writes the twin generated/kernels/NAME.cu and the header NAME.twin.h. A twin that needs more than
-# the text is written by hand, as FOLDER/NAME.cu in the directory TWINS. FOLDER/NAME_texels.comp shares the twin of NAME.comp.
+# the body is written by hand, as FOLDER/NAME.cu in the directory TWINS. FOLDER/NAME_texels.comp shares the twin of NAME.comp.
 # Kernels in the folders parallel and device have no twin: the other backends use libraries instead.
 #
 # Sets the global property ARGAND_TWINS to the sources of all twins, and adds the target TARGET_twins, which writes the
@@ -21,9 +24,14 @@ function(argand_add_kernels target)
         set_property(GLOBAL PROPERTY ARGAND_KERNEL_${name} ${file})
         set(options)
         set(twin_files)
+        set(outputs ${directory}/${name}.hpp)
+        if(NOT name MATCHES "_bindings$")
+            list(APPEND outputs ${directory}/${name}.cpp)
+            list(APPEND bindings ${directory}/${name}.cpp)
+        endif()
         get_filename_component(parent ${file} DIRECTORY)
         get_filename_component(folder ${parent} NAME)
-        if(ARG_TWINS AND NOT folder MATCHES "^(parallel|device)$")
+        if(ARG_TWINS AND NOT folder MATCHES "^(parallel|device)$" AND NOT name MATCHES "_bindings$")
             string(REGEX REPLACE "_texels$" "" twin ${name})
             set(options --twin ${twin})
             set(by_hand ${ARG_TWINS}/${folder}/${twin}.cu)
@@ -43,15 +51,14 @@ function(argand_add_kernels target)
         # The path as messages show it.
         file(RELATIVE_PATH shown ${CMAKE_SOURCE_DIR} ${file})
         add_custom_command(
-            OUTPUT ${directory}/${name}.hpp ${directory}/${name}.cpp ${twin_files}
+            OUTPUT ${outputs} ${twin_files}
             COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${options} ${shown}
             DEPENDS ${file} shader_compile
             DEPFILE ${directory}/${name}.d
             WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
             COMMENT "Compiling kernel ${shown}"
             VERBATIM)
-        target_sources(${target} PRIVATE ${directory}/${name}.cpp ${directory}/${name}.hpp)
-        list(APPEND bindings ${directory}/${name}.cpp)
+        target_sources(${target} PRIVATE ${outputs})
         list(APPEND generated ${directory}/${name}.hpp ${twin_files})
         list(APPEND all_twin_files ${twin_files})
     endforeach()

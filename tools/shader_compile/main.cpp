@@ -3,7 +3,7 @@
 //
 // Compiles a GLSL kernel to SPIR-V and writes its C++ binding: KERNEL.hpp and KERNEL.cpp. --twin
 // names the kernel that other backends run instead; if that is the kernel itself, KERNEL.twin.h
-// declares what its text uses. --write-twin also writes the twin, KERNEL.cu.
+// declares what its body uses. --write-twin also writes the twin, KERNEL.cu.
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
@@ -58,6 +58,37 @@ Options parse(const std::vector<std::string>& words) {
     return options;
 }
 
+std::string in(const std::string& directory, const std::string& file) {
+    return (fs::path(directory) / file).string();
+}
+
+/// The build reads the depfile elsewhere than this program runs, so paths in it are absolute.
+std::vector<std::string> absolute_paths(const Sources& sources) {
+    std::vector<std::string> paths;
+    for (const Source& source : sources) {
+        paths.push_back(fs::absolute(source.path).string());
+    }
+    return paths;
+}
+
+/// Writes NAME_bindings.hpp. The group is compiled alone, as a kernel that does nothing.
+void run_group(const Options& options) {
+    const std::string path = fs::path(options.kernel).lexically_normal().string();
+    const std::string name = group_of(path);
+    const std::string text =
+        fmt::format("#version 460\nlayout(local_size_x = 1) in;\n#include \"kernel.glsl\"\n"
+                    "#include \"{}\"\nvoid main() {{}}\n",
+                    fs::path(path).filename().string());
+    Compiled compiled = compile_text(path + ".comp", text, options.include_directories);
+    std::fputs(compiled.warnings.c_str(), stderr);
+    const Kernel group{name, path, reflect(compiled, options.include_directories), {}, ""};
+
+    compiled.sources.erase(compiled.sources.begin()); // no file holds it
+    const std::string header = in(options.out, name + "_bindings.hpp");
+    write_if_changed(options.depfile, emit_depfile({header}, absolute_paths(compiled.sources)));
+    write_if_changed(header, emit_group(group));
+}
+
 void run(const Options& options) {
     const std::string name = fs::path(options.kernel).stem().string();
     if (!is_cpp_name(name)) {
@@ -72,29 +103,22 @@ void run(const Options& options) {
                   optimise(compiled.spirv, options.kernel), options.twin};
     validate(kernel.spirv, options.kernel);
 
-    const std::string header = (fs::path(options.out) / (name + ".hpp")).string();
-    const std::string source = (fs::path(options.out) / (name + ".cpp")).string();
-    std::vector<std::string> inputs;
-    for (const Source& input : compiled.sources) {
-        // The build runs elsewhere than this program.
-        inputs.push_back(fs::absolute(input.path).string());
-    }
+    const std::string header = in(options.out, name + ".hpp");
+    const std::string source = in(options.out, name + ".cpp");
     std::vector<std::string> outputs{header, source};
     if (!options.twin.empty()) {
-        const std::string text =
-            twin_text(compiled.sources, options.include_directories, options.twin);
-        const std::string twin_header = (fs::path(options.out) / (name + ".twin.h")).string();
-        const std::string twin_source = (fs::path(options.out) / (name + ".cu")).string();
+        const std::string body =
+            twin_body(compiled.sources, options.include_directories, options.twin);
         if (options.twin == name) {
-            outputs.push_back(twin_header);
-            write_if_changed(twin_header, emit_twin_header(kernel));
+            outputs.push_back(in(options.out, name + ".twin.h"));
+            write_if_changed(outputs.back(), emit_twin_header(kernel));
         }
         if (options.write_twin) {
-            outputs.push_back(twin_source);
-            write_if_changed(twin_source, emit_twin_source(kernel, text));
+            outputs.push_back(in(options.out, name + ".cu"));
+            write_if_changed(outputs.back(), emit_twin_source(kernel, body));
         }
     }
-    write_if_changed(options.depfile, emit_depfile(outputs, inputs));
+    write_if_changed(options.depfile, emit_depfile(outputs, absolute_paths(compiled.sources)));
     write_if_changed(header, emit_header(kernel));
     write_if_changed(source, emit_source(kernel));
 }
@@ -104,7 +128,13 @@ void run(const Options& options) {
 
 int main(int count, char** words) {
     try {
-        argand::shader_compile::run(argand::shader_compile::parse({words + 1, words + count}));
+        using namespace argand::shader_compile;
+        const Options options = parse({words + 1, words + count});
+        if (group_of(options.kernel).empty()) {
+            run(options);
+        } else {
+            run_group(options);
+        }
         return 0;
     } catch (const argand::UsageError& error) {
         std::fprintf(stderr, "%s\n", error.what());

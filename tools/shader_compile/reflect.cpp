@@ -1,5 +1,6 @@
 #include "reflect.hpp"
 
+#include "annotations.hpp"
 #include "base/error.hpp"
 #include "names.hpp"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace argand::shader_compile {
 namespace {
@@ -41,6 +43,17 @@ struct Reader {
         return std::nullopt;
     }
 
+    /// The group of the file in which these words declare something; empty if it has none.
+    std::string group(std::initializer_list<std::string_view> words) const {
+        for (const Source& source : sources) {
+            const std::string name = group_of(source.path);
+            if (!name.empty() && line_of(without_comments(source.text), words)) {
+                return name;
+            }
+        }
+        return "";
+    }
+
     Record record(const SPIRType& type, std::string header, std::uint32_t size) const {
         Record result{spirv.get_name(type.self), std::move(header), size, {}};
         for (std::uint32_t i = 0; i < type.member_types.size(); ++i) {
@@ -53,7 +66,7 @@ struct Reader {
     }
 };
 
-/// A utextureBuffer: how a kernel reads a buffer through a device's texture units.
+/// Whether it is a utextureBuffer, through which a kernel reads a buffer with texture units.
 bool is_texels(const Reader& reader, const Resource& image) {
     const SPIRType& type = reader.spirv.get_type(image.type_id);
     return type.image.dim == spv::DimBuffer && type.image.sampled == 1 &&
@@ -112,7 +125,7 @@ std::string element_type(const Reader& reader, const SPIRType& block) {
     }
 }
 
-/// What each 32-bit word of a type is: 'f' a float, 'u' anything else.
+/// Appends a letter for each 32-bit word of a type: 'f' a float, 'u' anything else.
 void append_words(const Reader& reader, const SPIRType& type, std::string& words) {
     if (!type.array.empty()) {
         const SPIRType& element = reader.spirv.get_type(type.parent_type);
@@ -121,7 +134,7 @@ void append_words(const Reader& reader, const SPIRType& type, std::string& words
         }
     } else if (type.basetype == SPIRType::Struct) {
         for (std::uint32_t i = 0; i < type.member_types.size(); ++i) {
-            // std430 may leave room between members.
+            // std430 may leave gaps between members.
             words.resize(reader.spirv.type_struct_member_offset(type, i) / 4, 'u');
             append_words(reader, reader.spirv.get_type(type.member_types[i]), words);
         }
@@ -142,7 +155,7 @@ std::string element_words(const Reader& reader, const SPIRType& block) {
     return words;
 }
 
-/// The included headers that C++ includes as well: what kernels work with, not their own text.
+/// The included headers that C++ includes as well, without the kernels' own text.
 std::vector<std::string> shared_headers(const Reader& reader) {
     std::vector<std::string> headers;
     for (const Source& source : reader.sources) {
@@ -217,13 +230,20 @@ void read_buffers(const Reader& reader, Reflection& result) {
         }
         const SPIRType& block = reader.spirv.get_type(buffer->base_type_id);
         if (block.basetype == SPIRType::Image) {
-            result.bindings.push_back({buffer->name, Access::read, true, "uvec4", "uuuu"});
+            result.bindings.push_back({.name = buffer->name,
+                                       .group = reader.group({"utextureBuffer", buffer->name}),
+                                       .access = Access::read,
+                                       .texels = true,
+                                       .type = "uvec4",
+                                       .words = "uuuu"});
             continue;
         }
         const auto last = static_cast<std::uint32_t>(block.member_types.size() - 1);
-        result.bindings.push_back({reader.spirv.get_member_name(block.self, last),
-                                   access_of(reader, *buffer), false, element_type(reader, block),
-                                   element_words(reader, block)});
+        result.bindings.push_back({.name = reader.spirv.get_member_name(block.self, last),
+                                   .group = reader.group({"buffer", buffer->name, "{"}),
+                                   .access = access_of(reader, *buffer),
+                                   .type = element_type(reader, block),
+                                   .words = element_words(reader, block)});
         add_record(reader, block, result);
     }
 }
@@ -277,7 +297,7 @@ void read_constants(const Reader& reader, Reflection& result) {
         const std::string name = reader.spirv.get_name(found.id);
         const spirv_cross::SPIRConstant& constant = reader.spirv.get_constant(found.id);
         const SPIRType& type = reader.spirv.get_type(constant.constant_type);
-        Constant entry{name, found.constant_id, "", ""};
+        Constant entry{name, reader.group({name, "="}), found.constant_id, "", ""};
         switch (type.basetype) {
         case SPIRType::Boolean:
             entry.type = "bool";
@@ -333,33 +353,47 @@ bool uses_subgroups(const Compiler& spirv) {
     });
 }
 
-/// The names become members of one C++ struct.
+/// Names become members of C++ structs: the kernel's, its constants', and those of its groups,
+/// which are members themselves.
 void check_names(const Reader& reader, const Reflection& result) {
-    std::vector<std::string> taken{
-        "info", "arguments", "constants", "Constants",
-        std::filesystem::path(reader.sources.front().path).stem().string()};
-    const auto take = [&](const std::string& name) {
-        if (!is_cpp_name(name) || std::find(taken.begin(), taken.end(), name) != taken.end()) {
+    std::map<std::string, std::set<std::string>> taken; // by struct
+    const auto take = [&](const std::string& structure, const std::string& name) {
+        if (!is_cpp_name(name) || !taken[structure].insert(name).second) {
             fail("{}the name '{}' cannot be a member of the kernel's C++ struct: it is a keyword "
-                 "or taken; "
-                 "choose another",
+                 "or taken; choose another",
                  error_at(reader.sources, {name}), name);
         }
-        taken.push_back(name);
     };
+    std::set<std::string> groups;
     for (const Binding& binding : result.bindings) {
-        take(binding.name);
+        groups.insert(binding.group);
+        take("bindings " + binding.group, binding.name);
+    }
+    for (const Constant& constant : result.constants) {
+        groups.insert(constant.group);
+        take("constants " + constant.group, constant.name);
+    }
+    groups.erase("");
+    for (const std::string& group : groups) {
+        take("bindings ", group);
+        take("constants ", group);
     }
     if (result.push) {
-        take(result.push_name);
+        take("bindings ", result.push_name);
     }
-    taken.clear();
-    for (const Constant& constant : result.constants) {
-        take(constant.name);
+    for (const char* name : {"info", "arguments", "constants", "Constants"}) {
+        take("bindings ", name);
     }
+    take("bindings ", std::filesystem::path(reader.sources.front().path).stem().string());
 }
 
 } // namespace
+
+std::string group_of(const std::string& path) {
+    constexpr std::string_view ending = "_bindings.glsl";
+    const std::string file = std::filesystem::path(path).filename().string();
+    return file.ends_with(ending) ? file.substr(0, file.size() - ending.size()) : "";
+}
 
 Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories) {
     try {
@@ -374,6 +408,7 @@ Reflection reflect(const Compiled& compiled, const std::vector<std::string>& inc
         check_names(reader, result);
         result.uses_subgroups = uses_subgroups(spirv);
         result.headers = shared_headers(reader);
+        annotate(compiled.sources, include_directories, result);
         return result;
     } catch (const spirv_cross::CompilerError& error) {
         fail("{}:1: error: cannot reflect the SPIR-V: {}", compiled.sources.front().path,

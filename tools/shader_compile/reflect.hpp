@@ -10,7 +10,7 @@ namespace argand::shader_compile {
 struct Member {
     std::string name;
     std::uint32_t offset;       ///< bytes
-    std::uint32_t array_stride; ///< bytes, 0 if it is not an array
+    std::uint32_t array_stride; ///< bytes; 0: the member is no array
 };
 
 /// A GLSL struct that a header under shared/ declares, as the GPU lays it out.
@@ -22,15 +22,23 @@ struct Record {
 };
 
 struct Binding {
-    std::string name; ///< of the block's last member
+    std::string name;  ///< of the block's last member
+    std::string group; ///< NAME if NAME_bindings.glsl declares it; else empty
     Access access;
     bool texels = false; ///< a utextureBuffer
     std::string type;    ///< of its elements, in C++; "void" if C++ does not see the type
     std::string words;   ///< of an element: 'f' for each float, 'u' for each other 32-bit word
+
+    // From annotations, see annotations.hpp.
+    std::string unordered_head;   ///< a C++ expression; empty: the order is fixed
+    std::string unordered_stride; ///< a C++ expression
+    bool incidental = false;
+    int refers_to = -1; ///< number of the binding into which this one has indices
 };
 
 struct Constant {
     std::string name;
+    std::string group; ///< NAME if NAME_bindings.glsl declares it; else empty
     std::uint32_t id;
     std::string type;  ///< in C++
     std::string value; ///< default, as a C++ literal
@@ -41,16 +49,23 @@ struct Reflection {
     std::optional<Record> push;
     std::string push_name;           ///< of the push constant block's one member
     std::vector<Constant> constants; ///< in the order of their ids
-    std::vector<Record> records; ///< elements of the storage buffers that C++ sees too, each once
-    std::vector<std::string>
-        headers; ///< all included headers under shared/, as C++ includes them, but shared/kernels/
+    std::vector<Record> records;     ///< elements of storage buffers that C++ also sees, each once
+    /// All included headers under shared/ except shared/kernels/, as C++ includes them.
+    std::vector<std::string> headers;
+    /// Headers of the constants that annotations name.
+    std::vector<std::string> constant_headers;
     std::array<std::uint32_t, 3> local_size;
     bool uses_subgroups;
 };
 
-/// Reads the interface of a kernel from its SPIR-V (with names). `include_directories`: how the
-/// shared headers' paths become what C++ includes. Throws Error "file:line: error: ..." for what
-/// Argand's devices do not take.
+/// The NAME of a file NAME_bindings.glsl, empty for other files. What such a file declares is one
+/// struct in C++, NameBindings, which the kernels that include the file have as the member NAME;
+/// its specialization constants are NameConstants.
+std::string group_of(const std::string& path);
+
+/// Reads a kernel's interface from its SPIR-V, which still has names, and its annotations. Throws
+/// Error "file:line: error: ..." for an interface that Argand's devices do not support.
+/// include_directories: the paths of shared headers in C++ are relative to these.
 Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories);
 
 } // namespace argand::shader_compile

@@ -8,8 +8,12 @@ layout(set = 0, binding = 0) readonly buffer Boxes { vec4 boxes[]; };
 layout(set = 0, binding = 1) readonly buffer Distances { uint distances[]; };    // see code_distances.comp
 layout(set = 0, binding = 2) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 3) readonly buffer Counts { uint counts[]; };
+// Which of two children comes first to their parent.
+//@ incidental(ends)
 layout(set = 0, binding = 4) coherent buffer Ends { uint ends[]; };
+//@ holds(nodes, LbvhNode)
 layout(set = 0, binding = 5) coherent buffer Nodes { uvec4 nodes[]; };
+//@ holds(costs, ForestCost)
 layout(set = 0, binding = 6) coherent buffer Costs { uvec4 costs[]; };
 layout(set = 0, binding = 7) writeonly buffer Parents { uint parents[]; };
 layout(push_constant) uniform Push { AccelParams params; };

@@ -1,24 +1,7 @@
-// The tree and the rays. TEXELS (0 or 1) says through what the tree is read.
-#include "shared/accel_records.h"
+// What the kernels that trace rays share. They define TEXELS (0 or 1) first.
 #include "shared/geometry_records.h"
 #include "shared/intersect.h"
+#include "accel/traverse_bindings.glsl"
 
-layout(constant_id = 0) const bool resume = false;  // go on with suspended rays
-
-#if TEXELS
-layout(set = 0, binding = 0) uniform utextureBuffer nodes;
-layout(set = 0, binding = 1) uniform utextureBuffer triangles;
-#define NODES(i) texelFetch(nodes, int(i))
-#define TRIANGLES(i) uintBitsToFloat(texelFetch(triangles, int(i)))
-#else
-layout(set = 0, binding = 0) readonly buffer Nodes { uvec4 nodes[]; };
-layout(set = 0, binding = 1) readonly buffer Triangles { vec4 triangles[]; };
-#define NODES(i) nodes[i]
-#define TRIANGLES(i) triangles[i]
-#endif
-layout(set = 0, binding = 2) readonly buffer Rays { vec4 rays[]; };
-layout(set = 0, binding = 3) readonly buffer Active { uint active_rays[]; };
-layout(set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
-layout(set = 0, binding = 5) buffer Suspended { uint suspended[]; };
-layout(set = 0, binding = 6) buffer Unfinished { uint unfinished[]; };
+layout(constant_id = 0) const bool resume = false;  // goes on with suspended rays
 layout(push_constant) uniform Push { TraceParams params; };

@@ -8,6 +8,10 @@ layout(set = 0, binding = 0) readonly buffer Active { uint active_slots[]; };
 layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 2) readonly buffer Asks { uint asks[]; };
 layout(set = 0, binding = 3) readonly buffer Queries { QueryRecord queries[]; };
+// Which entry of the table a cell of queries gets depends on who comes first; its owner does not.
+//@ incidental(table)
+//@ incidental(owners)
+//@ refers(sources, owners)
 layout(set = 0, binding = 4) coherent buffer Table { uint table[]; };
 layout(set = 0, binding = 5) coherent buffer Owners { uint owners[]; };
 layout(set = 0, binding = 6) writeonly buffer Sources { uint sources[]; };

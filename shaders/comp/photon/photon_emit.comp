@@ -1,7 +1,7 @@
 #version 460
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
-#include "scene.glsl"
+#include "scene_bindings.glsl"
 #include "shared/differential_record.h"
 #include "shared/light_differential.h"
 #include "shared/lights.h"

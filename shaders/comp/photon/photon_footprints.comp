@@ -10,6 +10,7 @@ layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 4) writeonly buffer Footprints { uvec4 footprints[]; };
 layout(set = 0, binding = 5) writeonly buffer Shares { uint shares[]; };
+//@ unordered(area_places, 0, 1)
 layout(set = 0, binding = 6) writeonly buffer AreaPlaces { uint area_places[]; };
 layout(push_constant) uniform Push { FootprintParams params; };
 

@@ -1,5 +1,5 @@
-// The scene's buffers, at the first binding numbers of every kernel that shades; a kernel's own begin at
-// FIRST_OWN_BINDING (9).
+// The scene's buffers, which are the first of every kernel that shades. The kernel's own begin at
+// binding 7, and its specialization constants end before 16.
 #include "shared/geometry_records.h"
 #include "shared/light_record.h"
 #include "shared/material_record.h"
@@ -14,7 +14,7 @@ layout(set = 0, binding = 4) readonly buffer Materials { MaterialRecord material
 layout(set = 0, binding = 5) readonly buffer Lights { LightRecord lights[]; };
 layout(set = 0, binding = 6) readonly buffer LightChoices { LightChoice light_choices[]; };
 
-// What the scene has (engine/plan/plan.hpp); without it buffers may be empty.
-layout(constant_id = 16) const bool smooth_normals = true;      // else `normals` is not read
-layout(constant_id = 17) const bool several_lights = true;      // else `light_choices` is not
-layout(constant_id = 18) const uint light_kinds = 31u;          // 1u << light_*
+// Features of the scene (engine/plan/plan.hpp). Buffers that are not read may be empty.
+layout(constant_id = 16) const bool smooth_normals = true;      // false: `normals` is not read
+layout(constant_id = 17) const bool several_lights = true;      // false: `light_choices` is not read
+layout(constant_id = 18) const uint light_kinds = 31u;          // a bit 1u << light_* for each kind
