@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t code_bits = 30;
 
-/// See lbvh_fit.comp.
+/// See `fences` in lbvh_fit.comp.
 bool needs_fences(const Device& device) {
     return device.info().driver.find("llvmpipe") == std::string::npos;
 }
@@ -30,8 +30,18 @@ void dispatch_count(Device& device, const Kernel& kernel, const Count& count) {
     }
 }
 
-void fit(Device& device, const Lbvh& bvh, const Buffer& boxes, const Buffer& distances,
-         const Count& count, bool for_rays, bool in_order) {
+/// What the tree is built over. It refers to the buffers.
+struct Leaves {
+    const Buffer& boxes;
+    const Buffer& distances; ///< see code_distances()
+    const Count& count;
+    bool in_order; ///< the boxes are in the order of their codes
+};
+
+/// Writes the nodes of a tree with a known order, and what only trees for rays have.
+void fit(Device& device, const Lbvh& bvh, const Leaves& leaves) {
+    const auto& [boxes, distances, count, in_order] = leaves;
+    const bool for_rays = static_cast<bool>(bvh.costs);
     const Buffer ends = device.scratch("lbvh: ends", std::max<std::uint64_t>(count.bound, 1) *
                                                          sizeof(std::uint32_t));
     device.fill(ends, lbvh_end);
@@ -79,7 +89,8 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
                                        .params = params},
                    count);
     radix_sort_pairs(device, codes, bvh.order, count, code_bits);
-    fit(device, bvh, boxes, code_distances(device, codes, count, false), count, for_rays, false);
+    const Buffer distances = code_distances(device, codes, count, false);
+    fit(device, bvh, {boxes, distances, count, false});
     return bvh;
 }
 
@@ -101,7 +112,7 @@ Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& dist
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
     Lbvh bvh{.order = order, .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
     if (count.bound > 0) {
-        fit(device, bvh, boxes, distances, count, false, true);
+        fit(device, bvh, {boxes, distances, count, true});
     }
     return bvh;
 }

@@ -15,17 +15,17 @@ struct Lbvh {
     Buffer parents; ///< uint per inner node, see lbvh_fit.comp; only for rays
 };
 
-/// Records only. boxes: BoxRecord each; 30-bit Morton codes of their centres in their common
-/// bounds; equal codes are told apart by their place in the order. The root is node 0, or 1 (the
-/// leaf) where there is one box.
+/// Builds a hierarchy over boxes (BoxRecord), sorted by the 30-bit Morton codes of their centres in
+/// their common bounds. Equal codes are told apart by their place in the order. The root is node 0,
+/// or node 1 (a leaf) if there is only one box. Records only.
 Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays = false);
 
-/// How far each of some sorted codes is from the next one, a uint each in scratch memory
-/// (code_distance of shared/morton.h). wide: codes of 64 bits, low word first.
+/// The distance of each sorted code from the next one (code_distance of shared/morton.h), a uint
+/// each in scratch memory. wide: codes of 64 bits, low word first; else of 32 bits.
 Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide);
 
-/// As build_lbvh, over boxes in the order of some codes, so far from each other. `order` holds what
-/// the leaves' nodes shall refer to; it becomes Lbvh::order.
+/// As build_lbvh, over boxes in the order of codes with these distances. order: a uint per box to
+/// which the node of its leaf refers; it becomes Lbvh::order.
 Lbvh build_lbvh_in_order(Device& device, const Buffer& boxes, const Buffer& distances,
                          const Buffer& order, const Count& count);
 

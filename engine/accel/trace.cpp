@@ -19,10 +19,7 @@ struct Work {
     Device& device;
     const TriangleBvh& bvh;
     const Traversal& traversal;
-    const Buffer& rays;
-    const Buffer& active;
-    const Buffer& results;
-    const Count& count;
+    const RayBatch& batch;
 };
 
 using RunKernel = void (*)(const Work& work, const TraceParams& params, bool resume,
@@ -34,23 +31,23 @@ template <class Kernel>
 void run(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
     const Kernel kernel{{.nodes = work.bvh.nodes,
                          .triangles = work.bvh.triangles,
-                         .rays = work.rays,
-                         .active_rays = work.active,
-                         .counts = counts_or(work.count, work.active),
+                         .rays = work.batch.rays,
+                         .active_rays = work.batch.active,
+                         .counts = counts_or(work.batch.count, work.batch.active),
                          .suspended = work.traversal.suspended,
                          .unfinished = work.traversal.unfinished},
-                        work.results,
+                        work.batch.results,
                         params,
                         {.resume = resume}};
     if (!resume && params.count.on_device != 0) {
-        dispatch_indirect(work.device, kernel, work.count.buffer, work.count.index);
+        dispatch_indirect(work.device, kernel, work.batch.count.buffer, work.batch.count.index);
     } else {
         dispatch(work.device, kernel, threads);
     }
 }
 
 TraceParams make_params(const Work& work) {
-    return {.count = count_record(work.count),
+    return {.count = count_record(work.batch.count),
             .first = 0,
             .root = work.bvh.triangle_count == 0   ? lbvh_end
                     : work.bvh.triangle_count == 1 ? 1u
@@ -60,28 +57,30 @@ TraceParams make_params(const Work& work) {
             .last = 0};
 }
 
+/// Records the dispatch of all rays, and one that resumes the suspended ones.
 void record(const Work& work, RunKernel run_kernel) {
     TraceParams params = make_params(work);
-    // No node is visited twice, so few triangles cannot use up the steps.
+    // A ray visits no node twice, so it cannot use up its steps in a small tree.
     const bool may_suspend = 2ull * work.bvh.triangle_count > params.step_limit;
     if (may_suspend) {
         work.device.fill(
             BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
     }
-    run_kernel(work, params, false, work.count.bound);
+    run_kernel(work, params, false, work.batch.count.bound);
     if (may_suspend) {
         params.last = 1;
         run_kernel(work, params, true, params.slot_count);
     }
 }
 
-// As many rays at a time as there are slots, until each is done.
+/// Traces as many rays at a time as there are slots, and resumes them until all are done.
 void run_to_the_end(const Work& work, RunKernel run_kernel) {
     TraceParams params = make_params(work);
-    std::uint64_t count = work.count.bound;
-    if (work.count.on_device()) {
-        count = std::min<std::uint64_t>(
-            count, download<std::uint32_t>(work.device, work.count.buffer, 1, work.count.index)[0]);
+    std::uint64_t count = work.batch.count.bound;
+    if (work.batch.count.on_device()) {
+        count = std::min<std::uint64_t>(count, download<std::uint32_t>(work.device,
+                                                                       work.batch.count.buffer, 1,
+                                                                       work.batch.count.index)[0]);
     }
     params.count.on_device = 0;
     for (std::uint64_t first = 0; first < count; first += params.slot_count) {
@@ -123,18 +122,18 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
     return traversal;
 }
 
-void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
-                   const Buffer& active, const Buffer& hits, const Count& count) {
-    trace({device, bvh, traversal, rays, active, hits, count},
-          read_as_texels(device, bvh.nodes, bvh.triangles) ? run<kernels::trace_closest_texels>
-                                                           : run<kernels::trace_closest>);
+void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal,
+                   const RayBatch& batch) {
+    trace({device, bvh, traversal, batch}, read_as_texels(device, bvh.nodes, bvh.triangles)
+                                               ? run<kernels::trace_closest_texels>
+                                               : run<kernels::trace_closest>);
 }
 
-void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
-               const Buffer& active, const Buffer& occluded, const Count& count) {
-    trace({device, bvh, traversal, rays, active, occluded, count},
-          read_as_texels(device, bvh.nodes, bvh.triangles) ? run<kernels::trace_any_texels>
-                                                           : run<kernels::trace_any>);
+void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal,
+               const RayBatch& batch) {
+    trace({device, bvh, traversal, batch}, read_as_texels(device, bvh.nodes, bvh.triangles)
+                                               ? run<kernels::trace_any_texels>
+                                               : run<kernels::trace_any>);
 }
 
 } // namespace argand

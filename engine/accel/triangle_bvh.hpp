@@ -12,36 +12,42 @@ struct TriangleBvh {
     std::uint32_t triangle_count = 0;
 };
 
-/// Builds the structure on the device. positions: vec4 (xyz) per vertex; triangles: uvec4 (three
-/// vertices, material) per triangle. No triangle is fine: then nothing is ever hit. Records only.
+/// Builds the structure on the device; records only. positions: vec4 (xyz) per vertex; triangles:
+/// uvec4 (three vertices, material) per triangle. Without triangles rays hit nothing. Throws Error
+/// for more than max_ray_nodes triangles.
 TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Buffer& triangles,
                                std::uint32_t count);
 
-/// Working memory of traversal. A ray that uses up a dispatch's share of steps is put aside and
-/// gone on with in the next dispatch of the same call; `unfinished` (uint, the caller clears it)
-/// counts rays that were still not done after it: their results are wrong, and the caller repeats
-/// its work with `careful` set, where each call waits for the device and goes on until every ray is
-/// done. Only degenerate scenes ever need that.
+/// Working memory of traversal. A ray that uses up its steps in one dispatch is suspended, and the
+/// next dispatch of the same call resumes it. `unfinished` counts rays that are not done then
+/// either. Their results are wrong, and the caller has to repeat its work with `careful` set. Only
+/// degenerate scenes need that.
 struct Traversal {
-    Buffer unfinished;
+    Buffer unfinished;       ///< one uint, which the caller clears
     Buffer suspended;        ///< see suspended_head in shared/accel_records.h
-    std::uint32_t slots = 0; ///< rays that can be put aside
-    /// Boxes and triangles that a ray visits in one dispatch; lavapipe ends loops after 65,535
-    /// iterations.
+    std::uint32_t slots = 0; ///< rays that can be suspended at a time
+    /// Boxes and triangles that a ray visits in one dispatch, at most. Lavapipe ends loops after
+    /// 65,535 iterations.
     std::uint32_t step_limit = 16384;
-    bool careful = false;
+    bool careful = false; ///< each call waits for the device, and resumes rays until all are done
 };
 Traversal make_traversal(Device& device, std::uint64_t max_rays);
 
-/// For each i < count and r = active[i]: hits[r] (HitRecord) = the closest hit of rays[r]
-/// (RayRecord). Of hits at one distance the triangle that comes first in the scene counts. Records
-/// only, unless `careful`.
-void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
-                   const Buffer& active, const Buffer& hits, const Count& count);
+/// The rays active[i] for i < count, and where their results go. It refers to the buffers.
+struct RayBatch {
+    const Buffer& rays;    ///< RayRecord
+    const Buffer& active;  ///< uint: indices of rays
+    const Buffer& results; ///< an element per ray, at the ray's index
+    Count count;
+};
 
-/// For each i < count and r = active[i]: occluded[r] (uint) = 1 if anything lies on rays[r], else
-/// 0; rays with t_max < 0 give 1. Records only, unless `careful`.
-void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const Buffer& rays,
-               const Buffer& active, const Buffer& occluded, const Count& count);
+/// Finds the closest hit of each ray; results: HitRecord. Of hits at one distance, the triangle
+/// that comes first in the scene counts. Records only, unless the traversal is careful.
+void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal,
+                   const RayBatch& batch);
+
+/// Finds whether anything lies on each ray; results: uint, 1 or 0. Rays with t_max < 0 give 1.
+/// Records only, unless the traversal is careful.
+void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const RayBatch& batch);
 
 } // namespace argand

@@ -85,7 +85,7 @@ public:
                  std::uint32_t count_index, const Count& count) override {
         const auto work = [&](Device& device, Side side) {
             argand::compact(device, side_of(flags, side), side_of(values, side), side_of(out, side),
-                            side_of(counts, side), count_index, side_of(count, side));
+                            {side_of(counts, side), count_index}, side_of(count, side));
         };
         run(compact_stage, work, {words(out), words(counts)});
     }

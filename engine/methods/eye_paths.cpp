@@ -78,7 +78,7 @@ void add_direct_light(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                       const Count& active) {
     {
         const StageScope stage(device, "trace shadow rays");
-        trace_any(device, scene.bvh, w.traversal, w.shadow_rays, w.active, w.occluded, active);
+        trace_any(device, scene.bvh, w.traversal, {w.shadow_rays, w.active, w.occluded, active});
     }
     const StageScope stage(device, "shade");
     dispatch_indirect(device,
@@ -93,7 +93,7 @@ void add_direct_light(Device& device, const DeviceScene& scene, EyeWorkspace& w,
 /// Makes the paths that continue the active ones.
 void advance(Device& device, EyeWorkspace& w, const Count& active) {
     const StageScope stage(device, "compact");
-    compact(device, w.alive, w.active, w.next_active, w.counts, 1, active);
+    compact(device, w.alive, w.active, w.next_active, {w.counts, 1}, active);
     device.copy(BufferView(w.counts, 4, 4), BufferView(w.counts, 0, 4));
     std::swap(w.active, w.next_active);
 }
@@ -108,7 +108,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         const Count active(w.counts, 0, slots);
         {
             const StageScope stage(device, "trace eye rays");
-            trace_closest(device, scene.bvh, w.traversal, w.rays, w.active, w.hits, active);
+            trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
         }
         shade(device, scene, w, batch, lookup != nullptr);
         if (scene.plan.needs(Feature::direct_light)) {

@@ -74,8 +74,8 @@ void answer_round(Device& device, const EyeQueries& queries, const ActivePaths& 
     find_sources(device, queries, paths, round);
     {
         const StageScope stage(device, "compact");
-        compact(device, queries.chosen, paths.slots, queries.slots, paths.counts, counts_of_queries,
-                Count(paths.counts, 0, paths.most));
+        compact(device, queries.chosen, paths.slots, queries.slots,
+                {paths.counts, counts_of_queries}, Count(paths.counts, 0, paths.most));
     }
     lookup.estimator.estimate(lookup.map,
                               {.points = queries.points,

@@ -9,32 +9,28 @@
 namespace argand {
 
 void compact(Device& device, const Buffer& flags, const Buffer& values, const Buffer& out,
-             const Buffer& counts, std::uint32_t count_index, const Count& count) {
+             const WordAt& total, const Count& count) {
     check_room("compacting", flags, count, sizeof(uint));
     check_room("compacting", values, count, sizeof(uint));
     if (Primitives* primitives = device.primitives()) {
-        primitives->compact(flags, values, out, counts, count_index, count);
+        primitives->compact(flags, values, out, total.buffer, total.index, count);
         return;
     }
-    const Variant variant = variant_of(device.info());
-    const PartsRecord parts = variant_parts(variant, count);
-    const Buffer sums = device.scratch("compact: kept of parts", parts.parts * sizeof(uint));
-    if (parts.parts > 1) {
-        reduce_parts(device, flags, sums, 0, count, parts, reduce_op_count);
-    }
+    const Division division = divide(device, count);
+    const Buffer sums =
+        reduce_each_part(device, "compact: kept of parts", flags, division, reduce_op_count);
     for_variant<kernels::compact_parts_serial, kernels::compact_parts_subgroup,
-                kernels::compact_parts_shared>(
-        variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-            dispatch(device,
-                     Kernel{.flags = flags,
-                            .values = values,
-                            .counts = counts_or(count, flags),
-                            .part_sums = sums,
-                            .kept = out,
-                            .totals = counts,
-                            .params = {count_record(count), parts, count_index}},
-                     threads);
-        });
+                kernels::compact_parts_shared>(division, [&]<class Kernel>(std::uint64_t threads) {
+        dispatch(device,
+                 Kernel{.flags = flags,
+                        .values = values,
+                        .counts = counts_or(count, flags),
+                        .part_sums = sums,
+                        .kept = out,
+                        .totals = total.buffer,
+                        .params = {count_record(count), division.parts, total.index}},
+                 threads);
+    });
 }
 
 } // namespace argand

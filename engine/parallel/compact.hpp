@@ -5,10 +5,16 @@
 
 namespace argand {
 
-/// Writes the values[i] whose flags[i] is not 0 to `out`, in their order, and their number to
-/// counts[count_index]. `values` and `out` are different buffers; `counts` may be the buffer that
-/// the count is read from, at another index. Records only.
+/// A uint of a buffer. It refers to the buffer.
+struct WordAt {
+    const Buffer& buffer;
+    std::uint32_t index; ///< in uints
+};
+
+/// Writes the values[i] (uint) whose flags[i] (uint) is not 0 to `out`, in their order, and their
+/// number to `total`. `values` and `out` are different buffers; `total` may lie in the buffer from
+/// which the count is read, at another index. Records only.
 void compact(Device& device, const Buffer& flags, const Buffer& values, const Buffer& out,
-             const Buffer& counts, std::uint32_t count_index, const Count& count);
+             const WordAt& total, const Count& count);
 
 } // namespace argand

@@ -9,6 +9,7 @@ namespace argand {
 
 namespace {
 
+/// Parts of about so many elements, their sizes multiples of `grain`.
 PartsRecord parts_of(std::uint64_t bound, std::uint64_t elements_a_part, std::uint64_t most,
                      std::uint32_t grain) {
     const std::uint64_t wanted = (bound + elements_a_part - 1) / elements_a_part;
@@ -23,20 +24,20 @@ Variant variant_of(const DeviceInfo& info) {
                                      : Variant::shared;
 }
 
-PartsRecord group_parts(const Count& count) { return parts_of(count.bound, 2048, 1024, 64); }
+Division divide_among_groups(const Device& device, const Count& count) {
+    return {count, variant_of(device.info()), parts_of(count.bound, 2048, 1024, 64)};
+}
 
-PartsRecord variant_parts(Variant variant, const Count& count) {
-    if (variant != Variant::serial) {
-        return group_parts(count);
+Division divide(const Device& device, const Count& count) {
+    Division division = divide_among_groups(device, count);
+    if (division.variant == Variant::serial) {
+        // One lane handles a few elements in less time than a second dispatch takes. More elements
+        // go to two groups of eight lanes at least, for devices deal groups to cores.
+        PartsRecord parts = parts_of(count.bound, 8192, 512, 16);
+        parts.parts = (parts.parts + 15) / 16 * 16;
+        division.parts = count.bound <= 4096 ? PartsRecord{1, 16} : parts;
     }
-    // A second dispatch costs more than one lane needs for a few elements; beyond that, two groups
-    // of eight lanes at least, for groups are dealt to cores.
-    if (count.bound <= 4096) {
-        return {1, 16};
-    }
-    PartsRecord parts = parts_of(count.bound, 8192, 512, 16);
-    parts.parts = (parts.parts + 15) / 16 * 16;
-    return parts;
+    return division;
 }
 
 CountRecord count_record(const Count& count) {
@@ -47,14 +48,24 @@ const Buffer& counts_or(const Count& count, const Buffer& bound_anyway) {
     return count.on_device() ? count.buffer : bound_anyway;
 }
 
-void reduce_parts(Device& device, const Buffer& in, const Buffer& results, uint first_out,
-                  const Count& count, PartsRecord parts, uint op) {
+void reduce_parts(Device& device, const Buffer& in, const Division& division, const Buffer& results,
+                  uint first_out, uint op) {
+    const PartsRecord parts = division.parts;
     dispatch(device,
              kernels::reduce_parts{.in_elements = in,
-                                   .counts = counts_or(count, in),
+                                   .counts = counts_or(division.count, in),
                                    .results = results,
-                                   .params = {count_record(count), parts, op, first_out}},
+                                   .params = {count_record(division.count), parts, op, first_out}},
              groups_of<kernels::reduce_parts>(parts.parts));
+}
+
+Buffer reduce_each_part(Device& device, const char* name, const Buffer& in,
+                        const Division& division, uint op) {
+    Buffer results = device.scratch(name, division.parts.parts * sizeof(uint));
+    if (division.parts.parts > 1) {
+        reduce_parts(device, in, division, results, 0, op);
+    }
+    return results;
 }
 
 void check_room(const char* doing, const Buffer& buffer, const Count& count, std::uint64_t bytes) {

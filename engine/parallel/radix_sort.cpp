@@ -22,7 +22,7 @@ namespace argand {
 
 namespace {
 
-/// The buffers of one side of a pass.
+/// The input or the output of a pass.
 struct Elements {
     Buffer keys;
     Buffer values; ///< empty: keys only
@@ -30,7 +30,7 @@ struct Elements {
 
 PartsRecord sort_parts(Variant variant, const Count& count) {
     if (variant == Variant::serial) {
-        // Lanes enough for 16 cores, but not so few elements each that histograms outweigh them.
+        // Enough lanes for 16 cores, but each with enough elements to outweigh its histogram.
         const std::uint64_t lanes = std::clamp<std::uint64_t>(count.bound / 8192, 16, 128);
         return {static_cast<uint>((lanes + 15) / 16 * 16), 16};
     }
@@ -38,8 +38,8 @@ PartsRecord sort_parts(Variant variant, const Count& count) {
     return {static_cast<uint>(groups), sort_tile};
 }
 
-/// Counts each part's digits, turns the counts into places, and moves the elements there: least
-/// significant digit first, each pass stable.
+/// Sorts by the least significant digit first, in stable passes. A pass counts each part's digits,
+/// turns the counts into places, and moves the elements there.
 template <class Serial, class Subgroup, class Shared>
 void sort(Device& device, const Elements& elements, const Count& count, std::uint32_t bits,
           std::uint32_t key_words) {
@@ -56,6 +56,7 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
     }
     const Variant variant = variant_of(device.info());
     const PartsRecord parts = sort_parts(variant, count);
+    const Division division{count, variant, parts};
     const Buffer histograms =
         device.scratch("sort: histograms", std::uint64_t(parts.parts) * sort_digits * sizeof(uint));
     const std::uint64_t key_bytes = count.bound * key_words * sizeof(uint);
@@ -67,8 +68,8 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
     Elements from = elements;
     Elements to = spare;
     if (passes % 2 == 1) {
-        // The last pass is to end in the caller's buffers, where what follows the last element
-        // stays as it is.
+        // The last pass has to end in the caller's buffers, where words behind the last element
+        // stay as they are.
         device.copy(BufferView(elements.keys, 0, key_bytes), spare.keys);
         if (elements.values) {
             device.copy(BufferView(elements.values, 0, value_bytes), spare.values);
@@ -86,7 +87,7 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
                                 .key_words = key_words};
         for_variant<kernels::sort_histogram_serial, kernels::sort_histogram_group,
                     kernels::sort_histogram_group>(
-            variant, parts, [&]<class Kernel>(std::uint64_t threads) {
+            division, [&]<class Kernel>(std::uint64_t threads) {
                 dispatch(device,
                          Kernel{.keys = from.keys,
                                 .counts = counts_or(count, from.keys),
@@ -95,27 +96,26 @@ void sort(Device& device, const Elements& elements, const Count& count, std::uin
                          threads);
             });
         exclusive_scan(device, histograms, histograms, std::uint64_t(parts.parts) * sort_digits);
-        for_variant<Serial, Subgroup, Shared>(
-            variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-                Kernel kernel = [&] {
-                    if constexpr (requires(Kernel k) { k.values; }) {
-                        return Kernel{.keys = from.keys,
-                                      .counts = counts_or(count, from.keys),
-                                      .offsets = histograms,
-                                      .sorted_keys = to.keys,
-                                      .values = from.values,
-                                      .sorted_values = to.values,
-                                      .params = params};
-                    } else {
-                        return Kernel{.keys = from.keys,
-                                      .counts = counts_or(count, from.keys),
-                                      .offsets = histograms,
-                                      .sorted_keys = to.keys,
-                                      .params = params};
-                    }
-                }();
-                dispatch(device, kernel, threads);
-            });
+        for_variant<Serial, Subgroup, Shared>(division, [&]<class Kernel>(std::uint64_t threads) {
+            Kernel kernel = [&] {
+                if constexpr (requires(Kernel k) { k.values; }) {
+                    return Kernel{.keys = from.keys,
+                                  .counts = counts_or(count, from.keys),
+                                  .offsets = histograms,
+                                  .sorted_keys = to.keys,
+                                  .values = from.values,
+                                  .sorted_values = to.values,
+                                  .params = params};
+                } else {
+                    return Kernel{.keys = from.keys,
+                                  .counts = counts_or(count, from.keys),
+                                  .offsets = histograms,
+                                  .sorted_keys = to.keys,
+                                  .params = params};
+                }
+            }();
+            dispatch(device, kernel, threads);
+        });
         std::swap(from, to);
     }
 }

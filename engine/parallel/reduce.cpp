@@ -9,7 +9,8 @@ namespace argand {
 
 namespace {
 
-constexpr PartsRecord one_part{1, 16};
+/// All of the elements as one part.
+Division one_part(const Count& count) { return {count, Variant::shared, {1, 16}}; }
 
 void reduce(Device& device, const Buffer& in, const Buffer& out, std::uint32_t out_index,
             const Count& count, uint op) {
@@ -18,24 +19,25 @@ void reduce(Device& device, const Buffer& in, const Buffer& out, std::uint32_t o
         primitives->reduce(in, out, out_index, count, op);
         return;
     }
-    const PartsRecord parts = group_parts(count);
-    if (parts.parts == 1) {
-        reduce_parts(device, in, out, out_index, count, parts, op);
+    const Division division = divide_among_groups(device, count);
+    if (division.parts.parts == 1) {
+        reduce_parts(device, in, division, out, out_index, op);
         return;
     }
-    const Buffer results = device.scratch("reduce: parts", parts.parts * sizeof(uint));
-    reduce_parts(device, in, results, 0, count, parts, op);
-    reduce_parts(device, results, out, out_index, parts.parts, one_part, op);
+    const Buffer results = reduce_each_part(device, "reduce: parts", in, division, op);
+    const Count parts = division.parts.parts;
+    reduce_parts(device, results, one_part(parts), out, out_index, op);
 }
 
-void reduce_box_parts(Device& device, const Buffer& boxes, const Buffer& results, uint first_out,
-                      const Count& count, PartsRecord parts) {
-    dispatch(device,
-             kernels::reduce_box{.corners = boxes,
-                                 .counts = counts_or(count, boxes),
-                                 .results = results,
-                                 .params = {count_record(count), parts, first_out}},
-             groups_of<kernels::reduce_box>(parts.parts));
+void reduce_box_parts(Device& device, const Buffer& boxes, const Division& division,
+                      const Buffer& results, uint first_out) {
+    dispatch(
+        device,
+        kernels::reduce_box{.corners = boxes,
+                            .counts = counts_or(division.count, boxes),
+                            .results = results,
+                            .params = {count_record(division.count), division.parts, first_out}},
+        groups_of<kernels::reduce_box>(division.parts.parts));
 }
 
 } // namespace
@@ -62,15 +64,16 @@ void reduce_box(Device& device, const Buffer& boxes, const Buffer& out, std::uin
         primitives->reduce_box(boxes, out, out_index, count);
         return;
     }
-    const PartsRecord parts = group_parts(count);
-    if (parts.parts == 1) {
-        reduce_box_parts(device, boxes, out, out_index, count, parts);
+    const Division division = divide_among_groups(device, count);
+    const Count parts = division.parts.parts;
+    if (parts.bound == 1) {
+        reduce_box_parts(device, boxes, division, out, out_index);
         return;
     }
     const Buffer results =
-        device.scratch("reduce: boxes of parts", parts.parts * sizeof(BoxRecord));
-    reduce_box_parts(device, boxes, results, 0, count, parts);
-    reduce_box_parts(device, results, out, out_index, parts.parts, one_part);
+        device.scratch("reduce: boxes of parts", parts.bound * sizeof(BoxRecord));
+    reduce_box_parts(device, boxes, division, results, 0);
+    reduce_box_parts(device, results, one_part(parts), out, out_index);
 }
 
 } // namespace argand

@@ -13,8 +13,8 @@ namespace argand {
 
 namespace {
 
-/// Reduces each part, then scans the parts, each from the sum of those before it: two dispatches
-/// whatever the count, and no group waits for another.
+/// Sums up each part, then scans the parts, each from the sum of those before it. That takes two
+/// dispatches, whatever the count, and no group waits for another.
 void scan(Device& device, const Buffer& in, const Buffer& out, const Count& count, bool inclusive) {
     check_room("scanning", in, count, sizeof(uint));
     check_room("scanning", out, count, sizeof(uint));
@@ -25,24 +25,20 @@ void scan(Device& device, const Buffer& in, const Buffer& out, const Count& coun
         primitives->scan(in, out, count, inclusive);
         return;
     }
-    const Variant variant = variant_of(device.info());
-    const PartsRecord parts = variant_parts(variant, count);
-    const Buffer sums = device.scratch("scan: sums of parts", parts.parts * sizeof(uint));
-    if (parts.parts > 1) {
-        reduce_parts(device, in, sums, 0, count, parts, reduce_op_sum);
-    }
+    const Division division = divide(device, count);
+    const Buffer sums =
+        reduce_each_part(device, "scan: sums of parts", in, division, reduce_op_sum);
     for_variant<kernels::scan_parts_serial, kernels::scan_parts_subgroup,
-                kernels::scan_parts_shared>(
-        variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-            dispatch(device,
-                     Kernel{.in_elements = in,
-                            .counts = counts_or(count, in),
-                            .part_sums = sums,
-                            .out_fours = out,
-                            .out_elements = out,
-                            .params = {count_record(count), parts, inclusive ? 1u : 0u}},
-                     threads);
-        });
+                kernels::scan_parts_shared>(division, [&]<class Kernel>(std::uint64_t threads) {
+        dispatch(device,
+                 Kernel{.in_elements = in,
+                        .counts = counts_or(count, in),
+                        .part_sums = sums,
+                        .out_fours = out,
+                        .out_elements = out,
+                        .params = {count_record(count), division.parts, inclusive ? 1u : 0u}},
+                 threads);
+    });
 }
 
 } // namespace
@@ -67,8 +63,8 @@ void segmented_scan(Device& device, const Buffer& in, const Buffer& heads, const
         primitives->segmented_scan(in, heads, out, count);
         return;
     }
-    const Variant variant = variant_of(device.info());
-    const PartsRecord parts = variant_parts(variant, count);
+    const Division division = divide(device, count);
+    const PartsRecord parts = division.parts;
     const Buffer totals = device.scratch("scan: totals of parts", parts.parts * 2 * sizeof(uint));
     if (parts.parts > 1) {
         dispatch(device,
@@ -80,17 +76,16 @@ void segmented_scan(Device& device, const Buffer& in, const Buffer& heads, const
                  groups_of<kernels::segment_totals>(parts.parts));
     }
     for_variant<kernels::segmented_scan_serial, kernels::segmented_scan_group,
-                kernels::segmented_scan_group>(
-        variant, parts, [&]<class Kernel>(std::uint64_t threads) {
-            dispatch(device,
-                     Kernel{.in_elements = in,
-                            .heads = heads,
-                            .counts = counts_or(count, in),
-                            .part_totals = totals,
-                            .out_elements = out,
-                            .params = {count_record(count), parts}},
-                     threads);
-        });
+                kernels::segmented_scan_group>(division, [&]<class Kernel>(std::uint64_t threads) {
+        dispatch(device,
+                 Kernel{.in_elements = in,
+                        .heads = heads,
+                        .counts = counts_or(count, in),
+                        .part_totals = totals,
+                        .out_elements = out,
+                        .params = {count_record(count), parts}},
+                 threads);
+    });
 }
 
 } // namespace argand

@@ -93,7 +93,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         const Count active(w.counters, counter_active, batch.count);
         {
             const StageScope stage(device, "trace photons");
-            trace_closest(device, scene.bvh, w.traversal, w.rays, w.active, w.hits, active);
+            trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
         }
         const StageScope stage(device, "scatter photons");
         dispatch_indirect(device,
@@ -117,7 +117,8 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                             .scene = scene.constants(),
                                             .material_features = plan.material_features()}},
                           w.counters, counter_active);
-        compact(device, w.alive, w.active, w.next_active, w.counters, counter_next_active, active);
+        compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
+                active);
         std::swap(w.active, w.next_active);
         const bool stored = bounce > 0 && bounce <= batch.bounces;
         dispatch(device,
@@ -255,7 +256,7 @@ void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& 
                                              .params = {.leaf_size = map.leaf_size}},
                       w.counters, counter_stored);
     const Buffer compacted = device.scratch("photon map leaves", w.capacity * 4);
-    compact(device, w.heads, w.order, compacted, w.counters, counter_leaves, photons);
+    compact(device, w.heads, w.order, compacted, {w.counters, counter_leaves}, photons);
     const std::uint64_t leaf_count =
         download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
     const std::uint64_t allocated = std::max<std::uint64_t>(leaf_count, 1);

@@ -119,10 +119,10 @@ TEST_P(Trace, LeavesOtherRaysAlone) {
         device.fill(hits, 0xabcdef01u);
         Traversal working = tracer.traversal(rays.size(), {.careful = careful});
         // Four of the five, and the device alone knows that.
-        trace_closest(
-            device, tracer.bvh, working, upload(device, "rays", rays),
-            upload(device, "active", active), hits,
-            Count(upload(device, "counts", std::vector<std::uint32_t>{1, 2, 4}), 2, active.size()));
+        trace_closest(device, tracer.bvh, working,
+                      {upload(device, "rays", rays), upload(device, "active", active), hits,
+                       Count(upload(device, "counts", std::vector<std::uint32_t>{1, 2, 4}), 2,
+                             active.size())});
         const std::vector<HitRecord> found = download<HitRecord>(device, hits, rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool chosen = i == 7 || i == 999 || i == 0 || i == 500;

@@ -39,8 +39,9 @@ struct Tracer {
         Traversal working = traversal(rays.size(), options);
         const Buffer hits =
             device.allocate("hits", std::max<std::size_t>(rays.size(), 1) * sizeof(HitRecord));
-        trace_closest(device, bvh, working, upload(device, "rays", rays),
-                      upload(device, "active", everyone(rays.size())), hits, rays.size());
+        trace_closest(device, bvh, working,
+                      {upload(device, "rays", rays),
+                       upload(device, "active", everyone(rays.size())), hits, rays.size()});
         unfinished = download<std::uint32_t>(device, working.unfinished, 1)[0];
         return download<HitRecord>(device, hits, rays.size());
     }
@@ -57,8 +58,9 @@ struct Tracer {
         Traversal working = traversal(rays.size(), options);
         const Buffer occluded = device.allocate("occluded", std::max<std::size_t>(rays.size(), 1) *
                                                                 sizeof(std::uint32_t));
-        trace_any(device, bvh, working, upload(device, "rays", rays),
-                  upload(device, "active", everyone(rays.size())), occluded, rays.size());
+        trace_any(device, bvh, working,
+                  {upload(device, "rays", rays), upload(device, "active", everyone(rays.size())),
+                   occluded, rays.size()});
         EXPECT_EQ(download<std::uint32_t>(device, working.unfinished, 1)[0], 0u);
         return download<std::uint32_t>(device, occluded, rays.size());
     }

@@ -34,7 +34,7 @@ protected:
         const Buffer out = upload(device, "out", Elements(values.size(), untouched));
         const Buffer counts = upload(device, "counts", Elements{untouched, untouched});
         compact(device, upload(device, "flags", flags), upload(device, "values", values), out,
-                counts, 1, count);
+                {counts, 1}, count);
         const Elements totals = download<std::uint32_t>(device, counts, 2);
         EXPECT_EQ(totals[0], untouched);
         return {download<std::uint32_t>(device, out, values.size()), totals[1]};

@@ -50,6 +50,11 @@ template <class T> std::string member_of(const T& item) {
     return item.group.empty() ? item.name : item.group + "." + item.name;
 }
 
+std::ptrdiff_t count_of_group(const Reflection& interface, const std::string& group) {
+    return std::count_if(interface.bindings.begin(), interface.bindings.end(),
+                         [&](const Binding& binding) { return binding.group == group; });
+}
+
 struct Declaration {
     std::string type, name, comment;
 };
@@ -79,7 +84,9 @@ std::vector<Declaration> binding_members(const Reflection& interface) {
                                fmt::format("binding {}", i)});
         } else if (groups.insert(binding.group).second) {
             members.push_back({group_type(binding.group, "Bindings"), binding.group,
-                               fmt::format("binding {} and those that follow", i)});
+                               fmt::format("bindings {} to {}", i,
+                                           static_cast<std::ptrdiff_t>(i) +
+                                               count_of_group(interface, binding.group) - 1)});
         }
     }
     return members;
@@ -161,8 +168,7 @@ void emit_bindings(Out out, const Kernel& kernel) {
 /// A group has the same members in all kernels, whatever macros they define before they include it.
 void emit_group_checks(Out out, const Reflection& interface) {
     for (const std::string& group : groups_of(interface)) {
-        const auto count = std::count_if(interface.bindings.begin(), interface.bindings.end(),
-                                         [&](const Binding& b) { return b.group == group; });
+        const auto count = count_of_group(interface, group);
         fmt::format_to(out,
                        "static_assert(sizeof({0}) == {1} * sizeof(BufferView), \"{2}_bindings.glsl "
                        "declares other buffers here\");\n",

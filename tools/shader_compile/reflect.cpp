@@ -357,6 +357,8 @@ bool uses_subgroups(const Compiler& spirv) {
 /// which are members themselves.
 void check_names(const Reader& reader, const Reflection& result) {
     std::map<std::string, std::set<std::string>> taken; // by struct
+    taken["bindings "] = {"info", "arguments", "constants", "Constants",
+                          std::filesystem::path(reader.sources.front().path).stem().string()};
     const auto take = [&](const std::string& structure, const std::string& name) {
         if (!is_cpp_name(name) || !taken[structure].insert(name).second) {
             fail("{}the name '{}' cannot be a member of the kernel's C++ struct: it is a keyword "
@@ -381,10 +383,6 @@ void check_names(const Reader& reader, const Reflection& result) {
     if (result.push) {
         take("bindings ", result.push_name);
     }
-    for (const char* name : {"info", "arguments", "constants", "Constants"}) {
-        take("bindings ", name);
-    }
-    take("bindings ", std::filesystem::path(reader.sources.front().path).stem().string());
 }
 
 } // namespace

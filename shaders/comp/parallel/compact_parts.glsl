@@ -1,19 +1,9 @@
 // Body of compact_parts_subgroup and compact_parts_shared.
 #include "parallel/group_scan.glsl"
 layout(local_size_x = GROUP_SIZE) in;
-#include "shared/parallel_records.h"
+#include "parallel/compact.glsl"
 
-layout(set = 0, binding = 0) readonly buffer Flags { uvec4 flags[]; };
-layout(set = 0, binding = 1) readonly buffer Values { uvec4 values[]; };
-layout(set = 0, binding = 2) readonly buffer Counts { uint counts[]; };
-layout(set = 0, binding = 3) readonly buffer PartSums { uint part_sums[]; };
-layout(set = 0, binding = 4) writeonly buffer Out { uint kept[]; };
-layout(set = 0, binding = 5) writeonly buffer Totals { uint totals[]; };
-layout(push_constant) uniform Push { CompactParams params; };
-#include "parallel/parts.glsl"
-#include "parallel/sum_before.glsl"
-
-// One part per group; the last one also knows the total.
+// One part per group; the last group also knows the total.
 void main() {
     uint lane = scan_order();
     uint part = GROUP_INDEX;
@@ -21,22 +11,15 @@ void main() {
     uint kept_before = sum_before(part, lane);
     for (uint tile = range.x; tile < range.y; tile += 4u * GROUP_SIZE) {
         uint i = tile + 4u * lane;
-        uvec4 keep = uvec4(0u);
+        uvec4 flagged = uvec4(0u);
         if (i < range.y) {
-            keep = uvec4(notEqual(flags[i / 4u], uvec4(0u)));
-            keep *= uvec4(lessThan(uvec4(0u, 1u, 2u, 3u), uvec4(range.y - i)));
+            flagged = first_of(uvec4(notEqual(flags[i / 4u], uvec4(0u))), range.y - i, 0u);
         }
         uint total;
-        uint mine = keep.x + keep.y + keep.z + keep.w;
+        uint mine = flagged.x + flagged.y + flagged.z + flagged.w;
         uint to = kept_before + group_exclusive_sum(mine, total);
         if (mine > 0u) {
-            uvec4 four = values[i / 4u];
-            for (uint k = 0u; k < 4u; ++k) {
-                if (keep[k] != 0u) {
-                    kept[to] = four[k];
-                    ++to;
-                }
-            }
+            keep_flagged(flagged, values[i / 4u], to);
         }
         kept_before += total;
     }

@@ -28,7 +28,7 @@ void main() {
             four = uvec4(notEqual(four, uvec4(0u)));
         }
         if (range.y - i < 4u) {
-            four = mix(uvec4(identity), four, lessThan(uvec4(0u, 1u, 2u, 3u), uvec4(range.y - i)));
+            four = first_of(four, range.y - i, identity);
         }
         value = combine(value, combine(combine(four.x, four.y), combine(four.z, four.w)));
     }

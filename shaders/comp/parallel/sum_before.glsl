@@ -1,4 +1,6 @@
-// Sum of part_sums[0 .. part), by a whole group.
+// Sum of part_sums[0 .. part), by a whole group, or by one lane where there is no GROUP_SIZE.
+#ifdef GROUP_SIZE
+
 uint sum_before(uint part, uint lane) {
     uint value = 0u;
     for (uint i = lane; i < part; i += GROUP_SIZE) {
@@ -8,3 +10,15 @@ uint sum_before(uint part, uint lane) {
     group_exclusive_sum(value, total);
     return total;
 }
+
+#else
+
+uint sum_before(uint part) {
+    uint sum = 0u;
+    for (uint i = 0u; i < part; ++i) {
+        sum += part_sums[i];
+    }
+    return sum;
+}
+
+#endif

@@ -87,7 +87,9 @@ void bench_compact(const Bench& bench, const std::vector<std::uint32_t>& data, c
     bench.add("compact", 14,
               median_device_seconds(
                   bench.device, nothing,
-                  [&] { compact(bench.device, device_flags, in, out, counts, 0, bench.n); }),
+                  [&] {
+                      compact(bench.device, device_flags, in, out, {counts, 0}, bench.n);
+                  }),
               "std::copy_if", median_host_seconds(nothing, [&] {
                   std::copy_if(data.begin(), data.end(), host.begin(),
                                [](std::uint32_t x) { return (x >> 16 & 1u) != 0; });

@@ -48,7 +48,7 @@ struct RayBench {
         const Buffer uploaded = upload(device, "bench rays", records(rays));
         const Buffer occluded = device.allocate("bench occluded", n * sizeof(std::uint32_t));
         const double seconds = median_device_seconds(device, nothing, [&] {
-            trace_any(device, bvh, traversal, uploaded, active, occluded, n);
+            trace_any(device, bvh, traversal, {uploaded, active, occluded, n});
         });
         return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::occluded_name,
                          peer.occluded_rate(rays));
@@ -60,7 +60,7 @@ struct RayBench {
         const Buffer uploaded = upload(device, "bench rays", records(rays));
         const Buffer hits = device.allocate("bench hits", n * sizeof(HitRecord));
         const double seconds = median_device_seconds(device, nothing, [&] {
-            trace_closest(device, bvh, traversal, uploaded, active, hits, n);
+            trace_closest(device, bvh, traversal, {uploaded, active, hits, n});
         });
         found = download<HitRecord>(device, hits, n);
         return with_peer(make_row(name, n, seconds, "rays/s"), EmbreePeer::closest_name,

@@ -1,13 +1,13 @@
 #include "shared/kernels/count.h"
 
-CONSTANT real triangle_cost = real(0.5); // of a node's
+CONSTANT real triangle_cost = real(0.5); // of testing a triangle, relative to a node
 
 FN real half_area(vec3 low, vec3 high) {
     vec3 size = max(high - low, vec3(real(0.0)));
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-// The costs of an inner node from those of its children.
+// The costs of an inner node, computed from those of its children (Ylitie et al. 2017, section 4).
 FN ForestCost join(ForestCost left, ForestCost right, real area) {
     real one_three = left.one + right.three;
     real two_two = left.two + right.two;
@@ -28,99 +28,138 @@ FN ForestCost join(ForestCost left, ForestCost right, real area) {
     return cost;
 }
 
+// A node with its subtree, from which an invocation climbs towards the root.
+struct Subtree {
+    uint first, last;   // its leaves
+    uint before, after; // how far the codes at its ends are from their neighbours outside
+    uint place;         // of its root among the nodes
+    uint child;         // the left child, or the box of a leaf
+    uint right_child;   // 0 for a leaf
+    vec3 low, high;
+    ForestCost cost; // only for rays
+};
+
+FN Subtree leaf_subtree(uint leaf) {
+    Subtree tree;
+    tree.first = leaf;
+    tree.last = leaf;
+    tree.before = leaf > 0u ? distances[leaf - 1u] : no_neighbour;
+    tree.after = distances[leaf];
+    tree.place = 2u * leaf + 1u;
+    tree.child = order[leaf];
+    tree.right_child = 0u;
+    uint box = in_order ? leaf : tree.child;
+    tree.low = vec3(boxes[2u * box]);
+    tree.high = vec3(boxes[2u * box + 1u]);
+    tree.cost.one = tree.cost.two = tree.cost.three =
+        triangle_cost * half_area(tree.low, tree.high);
+    tree.cost.split = 0u;
+    return tree;
+}
+
+FN void write_node(Subtree tree) {
+    // The node that follows is the right child of the node split after `last`: a leaf if its own
+    // split is farther.
+    uint escape = lbvh_end;
+    if (tree.after != no_neighbour) {
+        uint next = tree.last + 1u;
+        uint beyond = distances[next];
+        escape = 2u * next + (tree.after < beyond ? 1u : 0u);
+    }
+    nodes[2u * tree.place] = uvec4(float_bits(tree.low), tree.child);
+    nodes[2u * tree.place + 1u] = uvec4(float_bits(tree.high), escape);
+}
+
+// Of an inner node, its costs, and itself as the parent of its children.
+FN void write_cost_and_parents(Subtree tree, bool root) {
+    costs[tree.place >> 1u] =
+        uvec4(float_bits(vec3(tree.cost.one, tree.cost.two, tree.cost.three)), tree.cost.split);
+    if (root) {
+        parents[0] = lbvh_end;
+    }
+    if ((tree.child & 1u) == 0u) {
+        parents[tree.child >> 1u] = tree.place;
+    }
+    if ((tree.right_child & 1u) == 0u) {
+        parents[tree.right_child >> 1u] = tree.place + 1u;
+    }
+}
+
+// The costs of a node that another invocation wrote; `leaf`: it is one.
+FN ForestCost written_cost(uint place, bool leaf, vec3 low, vec3 high) {
+    ForestCost cost;
+    cost.one = triangle_cost * half_area(low, high);
+    cost.two = cost.three = cost.one;
+    cost.split = 0u;
+    if (!leaf) {
+        vec3 read = bits_float(uvec3(costs[place]));
+        cost = ForestCost(read.x, read.y, read.z, 0u);
+    }
+    return cost;
+}
+
+// Makes the subtree that of its parent. other: the end of the sibling's leaves that is farther
+// away.
+FN void join_sibling(INOUT(Subtree) tree, uint other, bool is_left) {
+    uint next = is_left ? tree.last + 1u : tree.first - 1u;
+    uint sibling = 2u * next + (next == other ? 1u : 0u);
+    vec3 low = bits_float(uvec3(nodes[2u * sibling]));
+    vec3 high = bits_float(uvec3(nodes[2u * sibling + 1u]));
+    if (for_rays) {
+        ForestCost cost = written_cost(next, next == other, low, high);
+        real area = half_area(min(tree.low, low), max(tree.high, high));
+        if (is_left) {
+            tree.cost = join(tree.cost, cost, area);
+        } else {
+            tree.cost = join(cost, tree.cost, area);
+        }
+    }
+    tree.low = min(tree.low, low);
+    tree.high = max(tree.high, high);
+    tree.child = is_left ? tree.place : sibling;
+    tree.right_child = is_left ? sibling : tree.place;
+    if (is_left) {
+        tree.last = other;
+        tree.after = distances[tree.last];
+    } else {
+        tree.first = other;
+        tree.before = tree.first > 0u ? distances[tree.first - 1u] : no_neighbour;
+    }
+}
+
 // Builds the hierarchy from the leaves up, as Apetrei 2014 ("Fast and simple agglomerative LBVH
 // construction"), but with the node numbers of Karras 2012 (see LbvhNode): a node that covers
 // first..last is the left child of the node split after `last`, or the right child of the node
 // split before `first`, whichever splits leaves that are closer. The invocation that comes second
-// to a parent has both its children and goes on with it.
+// to a parent has both children and continues with the parent.
 FN void main() {
     uint leaf = THREAD_INDEX;
-    uint count = ELEMENT_COUNT;
-    if (leaf >= count) {
+    if (leaf >= ELEMENT_COUNT) {
         return;
     }
-    uint first = leaf;
-    uint last = leaf;
-    uint before = leaf > 0u ? distances[leaf - 1u] : no_neighbour;
-    uint after = distances[leaf];
-    uint child = order[leaf];
-    uint box = in_order ? leaf : child;
-    vec3 low = vec3(boxes[2u * box]);
-    vec3 high = vec3(boxes[2u * box + 1u]);
-    uint right_child = 0u;
-    uint place = 2u * leaf + 1u;
-    ForestCost cost;
-    if (for_rays) {
-        cost.one = cost.two = cost.three = triangle_cost * half_area(low, high);
-    }
+    Subtree tree = leaf_subtree(leaf);
     bool going = true;
     while (going) {
-        bool root = before == no_neighbour && after == no_neighbour;
-        bool is_left = after < before;
-        if (first != last) {
-            place = root ? 0u : 2u * (is_left ? last : first);
+        bool root = tree.before == no_neighbour && tree.after == no_neighbour;
+        bool is_left = tree.after < tree.before;
+        bool inner = tree.first != tree.last;
+        if (inner) {
+            tree.place = root ? 0u : 2u * (is_left ? tree.last : tree.first);
         }
-        // What follows is the right child of the node split after `last`: a leaf if its own split
-        // is farther.
-        uint escape = lbvh_end;
-        if (after != no_neighbour) {
-            uint next = last + 1u;
-            uint beyond = distances[next];
-            escape = 2u * next + (after < beyond ? 1u : 0u);
-        }
-        nodes[2u * place] = uvec4(float_bits(low), child);
-        nodes[2u * place + 1u] = uvec4(float_bits(high), escape);
-        if (for_rays && first != last) {
-            costs[place >> 1u] =
-                uvec4(float_bits(vec3(cost.one, cost.two, cost.three)), cost.split);
-            if (root) {
-                parents[0] = lbvh_end;
-            }
-            if ((child & 1u) == 0u) {
-                parents[child >> 1u] = place;
-            }
-            if ((right_child & 1u) == 0u) {
-                parents[right_child >> 1u] = place + 1u;
-            }
+        write_node(tree);
+        if (for_rays && inner) {
+            write_cost_and_parents(tree, root);
         }
         uint other = lbvh_end;
         if (!root) {
-            MEMORY_FENCE(); // the node above is seen before its end is
-            other = atomicExchange(ends[is_left ? last : first - 1u], is_left ? first : last);
+            MEMORY_FENCE(); // whoever sees the end sees the node too
+            other = atomicExchange(ends[is_left ? tree.last : tree.first - 1u],
+                                   is_left ? tree.first : tree.last);
         }
         going = other != lbvh_end;
         if (going) {
             MEMORY_FENCE(); // the sibling was written before its end was
-            uint next = is_left ? last + 1u : first - 1u;
-            uint sibling = 2u * next + (next == other ? 1u : 0u);
-            vec3 sibling_low = bits_float(uvec3(nodes[2u * sibling]));
-            vec3 sibling_high = bits_float(uvec3(nodes[2u * sibling + 1u]));
-            if (for_rays) {
-                ForestCost sibling_cost;
-                sibling_cost.one = triangle_cost * half_area(sibling_low, sibling_high);
-                sibling_cost.two = sibling_cost.three = sibling_cost.one;
-                if (next != other) {
-                    vec3 read = bits_float(uvec3(costs[next]));
-                    sibling_cost = ForestCost(read.x, read.y, read.z, 0u);
-                }
-                real area = half_area(min(low, sibling_low), max(high, sibling_high));
-                if (is_left) {
-                    cost = join(cost, sibling_cost, area);
-                } else {
-                    cost = join(sibling_cost, cost, area);
-                }
-            }
-            low = min(low, sibling_low);
-            high = max(high, sibling_high);
-            child = is_left ? place : sibling;
-            right_child = is_left ? sibling : place;
-            if (is_left) {
-                last = other;
-                after = distances[last];
-            } else {
-                first = other;
-                before = first > 0u ? distances[first - 1u] : no_neighbour;
-            }
+            join_sibling(tree, other, is_left);
         }
     }
 }

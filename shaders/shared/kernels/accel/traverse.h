@@ -73,27 +73,118 @@ FN uvec4 meet_children(Ray ray, uvec4 a, uvec4 b, uvec2 c, real t_max) {
                  max(high_left, high_right));
 }
 
+// Where a ray is in the tree; its stack apart.
+struct Walk {
+    uint ray;
+    uint node;     // lbvh_end: done
+    uint siblings; // that wait beside the node: see ray_stack_size
+    uint height;   // of the stack
+};
+
+FN Walk new_walk(uint ray) {
+    Walk walk;
+    walk.ray = ray;
+    walk.node = params.root;
+    walk.siblings = 0u;
+    walk.height = 0u;
+    return walk;
+}
+
+FN Walk suspended_walk(uint slot) {
+    Walk walk;
+    walk.ray = suspended[slot];
+    walk.node = suspended[slot + 1u];
+    walk.siblings = suspended[slot + 2u];
+    walk.height = suspended[slot + 3u];
+    return walk;
+}
+
+// Counts a ray that is not done, and saves where it is, but for its stack. slot: that it has, or 0.
+// Returns its slot, or 0 if there is none.
+FN uint suspend(Walk walk, uint slot) {
+    if (!resume && params.last == 0u) {
+        uint mine = atomicAdd(suspended[0], 1u);
+        slot = mine < params.slot_count ? suspended_head + mine * suspended_stride : 0u;
+    }
+    slot = params.last != 0u ? 0u : slot;
+    if (slot == 0u) {
+        atomicAdd(unfinished[0], 1u);
+    } else {
+        atomicAdd(suspended[1], 1u);
+        suspended[slot] = walk.ray;
+        suspended[slot + 1u] = walk.node;
+        suspended[slot + 2u] = walk.siblings;
+        suspended[slot + 3u] = walk.height;
+    }
+    return slot;
+}
+
+FN Ray load_ray(vec4 origin, uint ray) {
+    uvec4 all = NODES(0u);
+    vec3 low = bits_float(uvec3(all));
+    vec3 high =
+        low + real(255.0) * bits_float((uvec3(all.w, all.w >> 8u, all.w >> 16u) & 255u) << 23u);
+    return make_ray(vec3(origin), vec3(rays[2u * ray + 1u]), low, high);
+}
+
+FN uint child_at(uvec4 children, uint which) {
+    return which < 2u ? (which == 0u ? children.x : children.y)
+                      : (which == 2u ? children.z : children.w);
+}
+
+// The children of a node that wait while the nearest is visited, as one word, see ray_stack_size.
+// met: see meet_children; at least two.
+FN uint waiting_children(uint node, uvec4 met) {
+    return (node << 7u) | ((met.y & 3u) << 2u) | ((met.z & 3u) << 4u) | ((met.w & 3u) << 6u) |
+           (met.w != missed ? 3u : (met.z != missed ? 2u : 1u));
+}
+
+FN bool meet_triangle(Ray ray, uint place, INOUT(HitRecord) hit) {
+    vec4 a = TRIANGLES(place);
+    vec3 b = vec3(TRIANGLES(place + 1u));
+    vec3 c = vec3(TRIANGLES(place + 2u));
+    real t, u, v;
+    bool met = intersect_triangle(ray.shear, ray.origin, vec3(a), b, c, real(0.0), hit.t, t, u, v);
+    if (met) {
+        // Of triangles at one distance the first in the scene counts, whatever the order of
+        // traversal.
+        uint triangle = float_bits(a.w);
+        if (t < hit.t || triangle < hit.triangle) {
+            hit = HitRecord(triangle, t, u, v);
+        }
+    }
+    return met;
+}
+
+// Goes to the nearest of the children that wait beside the node; without one the ray is done.
+// place: of the node, to read something that is in the cache.
+FN void next_sibling(INOUT(Walk) walk, uint place) {
+    bool more = (walk.siblings & 3u) != 0u;
+    uint from = more ? 4u * (walk.siblings >> 8u) : place;
+    walk.node = lbvh_end;
+    if (more) {
+        uvec4 children = NODES(from + 3u);
+        walk.node = child_at(children, (walk.siblings >> 2u) & 3u);
+        walk.siblings =
+            (walk.siblings & ~255u) | ((walk.siblings >> 2u) & 60u) | ((walk.siblings & 3u) - 1u);
+    }
+}
+
 FN void main() {
     uint thread = THREAD_INDEX;
     uint slot = 0u;
-    uint ray_index;
-    uint node = params.root;
-    uint siblings = 0u; // that wait beside the node: see ray_stack_size
+    Walk walk;
     uint stack[ray_stack_size + 1u];
-    uint height = 0u;
     if (resume) {
         if (thread >= min(suspended[0], params.slot_count)) {
             return;
         }
         slot = suspended_head + thread * suspended_stride;
-        ray_index = suspended[slot];
-        node = suspended[slot + 1u];
-        siblings = suspended[slot + 2u];
-        height = suspended[slot + 3u];
-        if (node == lbvh_end) {
+        walk = suspended_walk(slot);
+        if (walk.node == lbvh_end) {
             return;
         }
-        for (uint i = 0u; i < height; ++i) {
+        for (uint i = 0u; i < walk.height; ++i) {
             stack[i] = suspended[slot + 4u + i];
         }
     } else {
@@ -101,34 +192,29 @@ FN void main() {
         if (i >= ELEMENT_COUNT) {
             return;
         }
-        ray_index = active_rays[i];
+        walk = new_walk(active_rays[i]);
     }
-    vec4 origin = rays[2u * ray_index];
-    vec3 direction = vec3(rays[2u * ray_index + 1u]);
-    uvec4 all = NODES(0u);
-    vec3 low = bits_float(uvec3(all));
-    vec3 high =
-        low + real(255.0) * bits_float((uvec3(all.w, all.w >> 8u, all.w >> 16u) & 255u) << 23u);
-    Ray ray = make_ray(vec3(origin), direction, low, high);
+    vec4 origin = rays[2u * walk.ray];
+    Ray ray = load_ray(origin, walk.ray);
     HitRecord hit = HitRecord(no_triangle, origin.w, real(0.0), real(0.0));
     if (resume) {
-        load_result(ray_index, hit);
+        load_result(walk.ray, hit);
     }
     if (!(origin.w >= real(0.0))) {
-        node = lbvh_end;
+        walk.node = lbvh_end;
     }
 
     uint steps_left = params.step_limit;
-    while (node != lbvh_end && steps_left > 0u) {
+    while (walk.node != lbvh_end && steps_left > 0u) {
         --steps_left;
         bool pop = true;
         bool push = false;
-        uint next_siblings = siblings;
-        bool inner = (node & 1u) == 0u;
-        // CPUs that emulate lanes read for those too that do not take a branch: let that be what is
-        // in the cache.
-        uint place = inner ? 2u * node : 0u;
-        uint triangle_place = inner ? 0u : 3u * (node >> 1u);
+        uint next_siblings = walk.siblings;
+        bool inner = (walk.node & 1u) == 0u;
+        // CPUs that emulate lanes also read for lanes that do not take a branch: let them read what
+        // is in the cache.
+        uint place = inner ? 2u * walk.node : 0u;
+        uint triangle_place = inner ? 0u : 3u * (walk.node >> 1u);
         if (inner) {
             uvec4 met = meet_children(ray, NODES(place), NODES(place + 1u),
                                       uvec2(NODES(place + 2u)), hit.t);
@@ -136,77 +222,37 @@ FN void main() {
             if (met.x != missed) {
                 pop = false;
                 if (met.y != missed) {
-                    push = (siblings & 3u) != 0u;
-                    next_siblings = (node << 7u) | ((met.y & 3u) << 2u) | ((met.z & 3u) << 4u) |
-                                    ((met.w & 3u) << 6u) |
-                                    (met.w != missed ? 3u : (met.z != missed ? 2u : 1u));
+                    push = (walk.siblings & 3u) != 0u;
+                    next_siblings = waiting_children(walk.node, met);
                 }
-                uint first = met.x & 3u;
-                node = first < 2u ? (first == 0u ? children.x : children.y)
-                                  : (first == 2u ? children.z : children.w);
+                walk.node = child_at(children, met.x & 3u);
             }
-        } else {
-            vec4 a = TRIANGLES(triangle_place);
-            vec3 b = vec3(TRIANGLES(triangle_place + 1u));
-            vec3 c = vec3(TRIANGLES(triangle_place + 2u));
-            real t, u, v;
-            if (intersect_triangle(ray.shear, ray.origin, vec3(a), b, c, real(0.0), hit.t, t, u,
-                                   v)) {
-                // Of triangles at one distance the first in the scene counts, whatever the order of
-                // traversal.
-                uint triangle = float_bits(a.w);
-                if (t < hit.t || triangle < hit.triangle) {
-                    hit = HitRecord(triangle, t, u, v);
-                }
-                if (ANY_HIT != 0) {
-                    next_siblings = 0u;
-                    height = 0u;
-                }
-            }
+        } else if (meet_triangle(ray, triangle_place, hit) && ANY_HIT != 0) {
+            next_siblings = 0u;
+            walk.height = 0u;
         }
         // Written whether or not it counts: CPUs that emulate lanes mispredict what only some of
         // them write.
-        stack[height] = siblings;
-        height += push ? 1u : 0u;
-        siblings = next_siblings;
+        stack[walk.height] = walk.siblings;
+        walk.height += push ? 1u : 0u;
+        walk.siblings = next_siblings;
         if (pop) {
-            node = lbvh_end;
-            if ((siblings & 3u) == 0u && height > 0u) {
-                --height;
-                siblings = stack[height];
+            if ((walk.siblings & 3u) == 0u && walk.height > 0u) {
+                --walk.height;
+                walk.siblings = stack[walk.height];
             }
-            bool more = (siblings & 3u) != 0u;
-            uint from = more ? 4u * (siblings >> 8u) : place;
-            if (more) {
-                uvec4 children = NODES(from + 3u);
-                uint which = (siblings >> 2u) & 3u;
-                node = which < 2u ? (which == 0u ? children.x : children.y)
-                                  : (which == 2u ? children.z : children.w);
-                siblings = (siblings & ~255u) | ((siblings >> 2u) & 60u) | ((siblings & 3u) - 1u);
-            }
+            next_sibling(walk, place);
         }
     }
 
-    store_result(ray_index, hit);
+    store_result(walk.ray, hit);
     if (resume) {
-        suspended[slot + 1u] = node;
+        suspended[slot + 1u] = walk.node;
     }
-    if (node != lbvh_end) {
-        if (!resume && params.last == 0u) {
-            uint mine = atomicAdd(suspended[0], 1u);
-            slot = mine < params.slot_count ? suspended_head + mine * suspended_stride : 0u;
-        }
-        if (slot == 0u || params.last != 0u) {
-            atomicAdd(unfinished[0], 1u);
-        } else {
-            atomicAdd(suspended[1], 1u);
-            suspended[slot] = ray_index;
-            suspended[slot + 1u] = node;
-            suspended[slot + 2u] = siblings;
-            suspended[slot + 3u] = height;
-            for (uint i = 0u; i < height; ++i) {
-                suspended[slot + 4u + i] = stack[i];
-            }
+    if (walk.node != lbvh_end) {
+        slot = suspend(walk, slot);
+        for (uint i = 0u; slot != 0u && i < walk.height; ++i) {
+            suspended[slot + 4u + i] = stack[i];
         }
     }
 }

@@ -4,7 +4,7 @@
 // Whether some material of the scene has any of these lobes.
 FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
 
-// How the shading normal changes along one of a photon's differentials.
+// The change of the shading normal along one of a photon's differentials.
 FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
     if (!smooth_normals) {
         return vec3(real(0.0));
@@ -15,27 +15,86 @@ FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
                                  vec2(hit.u, hit.v), surface.shading_normal, offset);
 }
 
-// The differential, transferred to the hit, after scattering from direction `incoming` to
-// `outgoing`.
-FN void scatter_differential(INOUT(PhotonDifferential) d, HitRecord hit, Surface surface,
-                             Frame frame, BsdfSample s, real survival, vec3 incoming,
-                             vec3 outgoing) {
+// A photon where it meets a surface.
+struct Arrival {
+    HitRecord hit;
+    Surface surface;
+    Frame frame;    // about the shading normal
+    vec3 direction; // in which it travels
+    vec3 flux;
+    real shading; // cosine with the shading normal over that with the geometric one
+    uint depth;   // how often it was scattered before
+};
+
+FN Arrival arrive(HitRecord hit, vec3 direction, PhotonPathRecord path) {
+    Arrival a;
+    a.hit = hit;
+    a.surface = load_surface(hit, direction);
+    a.frame = make_frame(a.surface.shading_normal);
+    a.direction = direction;
+    a.flux = vec3(path.flux_r, path.flux_g, path.flux_b);
+    // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that
+    // with the shading normal (Veach 1997, §5.3).
+    real cosine = -dot(direction, a.surface.geometric_normal);
+    a.shading = cosine > real(0.0) ? to_local(a.frame, -direction).z / cosine : real(1.0);
+    a.depth = path.state & photon_depth_mask;
+    return a;
+}
+
+// How a photon leaves the surface that it met.
+struct Departure {
+    BsdfSample sampled;
+    vec3 flux; // before roulette
+    vec3 direction;
+};
+
+// lobes: of which one is sampled; u: in [0,1).
+FN Departure depart(Arrival a, MaterialRecord m, uint lobes, vec4 u) {
+    Departure d;
+    d.flux = vec3(real(0.0));
+    d.direction = a.direction;
+    vec3 wo = to_local(a.frame, -a.direction);
+    bool scatters = bsdf_sample(m, wo, a.surface.front, lobes, u, d.sampled);
+    if (has(LOBE_PASS) && scatters && d.sampled.lobe == LOBE_PASS) {
+        d.flux = a.flux * d.sampled.weight;
+    } else if (scatters) {
+        vec3 wi = to_world(a.frame, d.sampled.wi);
+        real cosine = dot(wi, a.surface.geometric_normal);
+        if ((d.sampled.wi.z > real(0.0)) == (cosine > real(0.0)) && d.sampled.wi.z != real(0.0)) {
+            d.flux = a.flux * d.sampled.weight * (a.shading * cosine / d.sampled.wi.z);
+            d.direction = wi;
+        }
+    }
+    return d;
+}
+
+// Probability with which roulette lets a photon continue: it keeps the flux of a photon about
+// equal.
+FN real survival_probability(Arrival a, Departure d) {
+    return min(max_component(d.flux) / max_component(a.flux),
+               a.depth < 64u ? real(1.0) : real(0.95));
+}
+
+// Turns the photon's differential, transferred to the hit, into that of its way onwards.
+FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure out_of,
+                             real survival) {
+    BsdfSample s = out_of.sampled;
     roulette_differential(d, s.probability * survival);
     real emitted = real(1.0) / batch.inverse_total;
     if (s.lobe == LOBE_DIFFUSE) {
-        d = reemitted_differential(d, frame, outgoing, emitted, reemission);
+        d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
     } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {
-        vec3 n = surface.shading_normal;
-        vec3 dn_du = normal_change(hit, surface, d.dp_du);
-        vec3 dn_dv = normal_change(hit, surface, d.dp_dv);
+        vec3 n = a.surface.shading_normal;
+        vec3 dn_du = normal_change(a.hit, a.surface, d.dp_du);
+        vec3 dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
         if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
             // The pdf is of all lobes together.
-            gloss_differential(d, incoming, outgoing, n, dn_du, dn_dv, emitted,
+            gloss_differential(d, a.direction, out_of.direction, n, dn_du, dn_dv, emitted,
                                s.pdf / s.probability);
         } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
-            reflect_differential(d, incoming, n, dn_du, dn_dv);
+            reflect_differential(d, a.direction, n, dn_du, dn_dv);
         } else if (has(LOBE_TRANSMIT)) {
-            refract_differential(d, incoming, n, dn_du, dn_dv, inversesqrt(s.eta_scale));
+            refract_differential(d, a.direction, n, dn_du, dn_dv, inversesqrt(s.eta_scale));
         }
     }
 }
@@ -43,6 +102,50 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, HitRecord hit, Surface
 FN uvec4 units_of(vec3 flux) {
     return uvec4(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
                  flux_units(flux.z, batch.flux_unit), 0u);
+}
+
+// Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
+// scheduling. Returns whether the photon may be stored.
+FN bool reserve(uint store, uint depth) {
+    bool stores = depth > 0u && depth <= batch.bounces;
+    if (stores && store >= batch.capacity) {
+        atomicAdd(counters[counter_overflow], 1u);
+        stores = false;
+    }
+    if (stores) {
+        photons[store].normal = no_photon;
+    }
+    return stores;
+}
+
+FN void store_photon(uint store, Arrival a, bool caustic) {
+    vec3 p = a.surface.position;
+    photons[store] =
+        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(a.surface.geometric_normal, caustic),
+                     a.flux.x * a.shading, a.flux.y * a.shading, a.flux.z * a.shading,
+                     pack_photon_direction(-a.direction, a.depth));
+}
+
+// The random numbers of a photon's scattering. Those of the first one lie in one set of four with
+// those of the direction of emission, see photon_emit.h.
+FN vec4 scattering_random(uint slot, uint depth) {
+    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth, quasi_random);
+    if (depth == 0u) {
+        vec4 with_emission = photon_random4(batch.seed, batch.first + slot, 0u, quasi_random);
+        u.y = with_emission.z;
+        u.z = with_emission.w;
+    }
+    return u;
+}
+
+// Writes the ray and the state with which a photon continues.
+FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, bool followed_so_far) {
+    vec3 origin = offset_ray_origin(a.surface.position, a.surface.error, a.surface.geometric_normal,
+                                    direction);
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
+                           direction.z, 0u);
+    paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z,
+                                   (a.depth + 1u) | (followed_so_far ? photon_followed : 0u));
 }
 
 FN void main() {
@@ -54,99 +157,51 @@ FN void main() {
     PhotonPathRecord path = paths[slot];
     HitRecord hit = hits[slot];
     vec3 direction = vec3(rays[slot].direction_x, rays[slot].direction_y, rays[slot].direction_z);
-    vec3 flux = vec3(path.flux_r, path.flux_g, path.flux_b);
-    uint depth = path.state & photon_depth_mask;
-    alive[i] = 0u;
-
-    // Every photon has a slot for what it may leave behind, in an order that does not depend on
-    // scheduling.
-    bool stores = depth > 0u && depth <= batch.bounces;
     uint store = counters[counter_stored_slots] + i;
-    if (stores && store >= batch.capacity) {
-        atomicAdd(counters[counter_overflow], 1u);
-        stores = false;
-    }
-    if (stores) {
-        photons[store].normal = no_photon;
-    }
-
+    bool stores = reserve(store, path.state & photon_depth_mask);
+    alive[i] = 0u;
     if (hit.triangle == no_triangle) {
-        ledgers[slot].escaped += units_of(flux);
+        ledgers[slot].escaped += units_of(vec3(path.flux_r, path.flux_g, path.flux_b));
         return;
     }
-    Surface surface = load_surface(hit, direction);
-    MaterialRecord m = load_material(triangles[hit.triangle].w);
-    Frame frame = make_frame(surface.shading_normal);
-    vec3 wo = to_local(frame, -direction);
-    // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that
-    // with the shading normal (Veach 1997, §5.3).
-    real geometric_in = -dot(direction, surface.geometric_normal);
-    real arriving = geometric_in > real(0.0) ? wo.z / geometric_in : real(1.0);
 
+    Arrival a = arrive(hit, direction, path);
+    MaterialRecord m = load_material(triangles[hit.triangle].w);
     uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     uint estimated = bsdf_lobes(m) & ~followed;
     PhotonDifferential d;
     if (footprints) {
         d = load_differential(differentials[slot]);
-        transfer_differential(d, direction, hit.t, surface.geometric_normal);
+        transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
     }
+    bool only_followed = (path.state & photon_followed) != 0u;
     if (stores && estimated != 0u) {
-        bool caustic = followed_paths && (path.state & photon_followed) != 0u;
-        photons[store] = PhotonRecord(surface.position.x, surface.position.y, surface.position.z,
-                                      pack_photon_normal(surface.geometric_normal, caustic),
-                                      flux.x * arriving, flux.y * arriving, flux.z * arriving,
-                                      pack_photon_direction(-direction, depth));
+        store_photon(store, a, followed_paths && only_followed);
         if (footprints) {
             offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
         }
     }
-    if (depth >= batch.bounces) {
-        ledgers[slot].cut += units_of(flux);
+    if (a.depth >= batch.bounces) {
+        ledgers[slot].cut += units_of(a.flux);
         return;
     }
 
-    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth, quasi_random);
-    if (depth == 0u) {
-        vec4 with_emission =
-            photon_random4(batch.seed, batch.first + slot, 0u, quasi_random); // see photon_emit.h
-        u.y = with_emission.z;
-        u.z = with_emission.w;
-    }
-    BsdfSample s;
-    vec3 scattered = vec3(real(0.0));
-    vec3 outgoing = direction;
-    bool scatters = bsdf_sample(m, wo, surface.front, followed | estimated, u, s);
-    if (has(LOBE_PASS) && scatters && s.lobe == LOBE_PASS) {
-        scattered = flux * s.weight;
-    } else if (scatters) {
-        vec3 wi = to_world(frame, s.wi);
-        real geometric_out = dot(wi, surface.geometric_normal);
-        if ((s.wi.z > real(0.0)) == (geometric_out > real(0.0)) && s.wi.z != real(0.0)) {
-            scattered = flux * s.weight * (arriving * geometric_out / s.wi.z);
-            outgoing = wi;
-        }
-    }
-    // Roulette keeps the flux of what goes on about equal.
-    real survival =
-        min(max_component(scattered) / max_component(flux), depth < 64u ? real(1.0) : real(0.95));
-    if (!(max_component(flux) > real(0.0)) || !(u.w < survival)) {
-        ledgers[slot].absorbed += units_of(flux);
+    vec4 u = scattering_random(slot, a.depth);
+    Departure out_of = depart(a, m, followed | estimated, u);
+    real survival = survival_probability(a, out_of);
+    if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
+        ledgers[slot].absorbed += units_of(a.flux);
         return;
     }
-    scattered /= survival;
+    vec3 flux = out_of.flux / survival;
     // What roulette adds to one photon it takes from another: absorption is a difference, and can
     // be negative.
-    ledgers[slot].absorbed += units_of(flux) - units_of(scattered);
+    ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
     if (footprints) {
-        scatter_differential(d, hit, surface, frame, s, survival, direction, outgoing);
+        scatter_differential(d, a, out_of, survival);
         differentials[slot] = differential_record(d);
     }
-    vec3 origin =
-        offset_ray_origin(surface.position, surface.error, surface.geometric_normal, outgoing);
-    rays[slot] =
-        RayRecord(origin.x, origin.y, origin.z, far_away, outgoing.x, outgoing.y, outgoing.z, 0u);
-    bool stays_followed = (path.state & photon_followed) != 0u && (s.lobe & followed) != 0u;
-    paths[slot] = PhotonPathRecord(scattered.x, scattered.y, scattered.z,
-                                   (depth + 1u) | (stays_followed ? photon_followed : 0u));
+    continue_path(slot, a, out_of.direction, flux,
+                  only_followed && (out_of.sampled.lobe & followed) != 0u);
     alive[i] = 1u;
 }
