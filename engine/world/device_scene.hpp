@@ -9,7 +9,7 @@
 
 namespace argand {
 
-/// A scene on a device, in the layout that shading kernels read (shaders/comp/scene.glsl).
+/// A scene on a device, in the layout that shading kernels read (shaders/comp/scene_bindings.glsl).
 struct DeviceScene {
     Buffer scene;         ///< one SceneRecord
     Buffer positions;     ///< vec4 per vertex

@@ -30,7 +30,7 @@ TEST(EveryKind, IsInThePlanForEverything) {
 
 TEST(EveryKind, IsInTheKernelsByDefault) {
     EXPECT_EQ(default_of("material_features.glsl", "material_features"), MATERIAL_ALL);
-    EXPECT_EQ(default_of("scene.glsl", "light_kinds"), all_light_kinds);
+    EXPECT_EQ(default_of("scene_bindings.glsl", "light_kinds"), all_light_kinds);
 }
 
 } // namespace
