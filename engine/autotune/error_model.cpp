@@ -7,19 +7,19 @@
 namespace argand {
 
 double noise_after(const ErrorModel& model, double passes) {
-    const double wide = std::min(model.wide, passes) / passes;
+    const double initial = std::min(model.initial_passes, passes) / passes;
     const double growth = std::pow(passes, model.law.noise_growth);
-    return (model.fixed + model.density * (wide + (1 - wide) * growth)) / passes;
+    return (model.fixed + model.density * (initial + (1 - initial) * growth)) / passes;
 }
 
-double bias_share(const ErrorLaw& law, double passes, double wide) {
-    const double share = std::min(wide, passes) / passes;
-    const double amplitude = share + (1 - share) * std::pow(passes, -0.5 * law.bias_fall);
+double bias_share(const ErrorLaw& law, double passes, double initial_passes) {
+    const double initial = std::min(initial_passes, passes) / passes;
+    const double amplitude = initial + (1 - initial) * std::pow(passes, -0.5 * law.bias_fall);
     return amplitude * amplitude;
 }
 
 Estimate bias_after(const ErrorModel& model, double passes) {
-    return scaled(model.bias, bias_share(model.law, passes, model.wide));
+    return scaled(model.bias, bias_share(model.law, passes, model.initial_passes));
 }
 
 double error_after(const ErrorModel& model, double passes) {
@@ -34,7 +34,7 @@ double passes_for(const ErrorModel& model, double error) {
     if (!(error_after(model, most) <= error)) {
         return std::numeric_limits<double>::infinity();
     }
-    // E falls with n: halve the interval of log n.
+    // E(n) decreases: bisect in log n.
     double low = 1, high = most;
     while (high > 1.001 * low) {
         const double middle = std::sqrt(low * high);

@@ -5,36 +5,41 @@
 
 namespace argand {
 
-/// relMSE of a picture of n passes. Widths of estimation shrink as n^(-1/6) (photon/radius.hpp),
-/// areas as n^(-1/3), and noise of density estimation grows with one over the area. Squared bias
-/// falls as n^(-2/3) where it goes with the area, on smooth surfaces, and as n^(-1/6) along edges,
-/// in bands as wide as the widths. Together about n^(-1/3), as measured (docs/results/targets.md):
+/// relMSE of a picture of n passes, with the exponents of photon mapping:
 ///   E(n) = (fixed + density n^(1/3)) / n + bias n^(-1/3).
-/// The first `wide` passes are at the widths for one pass instead; their noise and bias are part of
-/// the mean of all.
+/// Bandwidths of density estimation shrink as n^(-1/6) (photon/radius.hpp) and the areas of the
+/// kernels as n^(-1/3); the noise of density estimation grows with one over that area. Squared bias
+/// falls as n^(-2/3) on smooth surfaces, where bias is proportional to the area, and as n^(-1/6)
+/// along edges, in bands one bandwidth across. Together this is about n^(-1/3), as measured
+/// (docs/results/targets.md).
+/// A render that continues a pilot made its first `initial_passes` passes with the initial
+/// bandwidth, that of a render of one pass. Their noise and bias are part of the mean.
 struct ErrorModel {
-    double fixed = 0;   ///< variance of one pass that widths do not change: eye paths, direct light
-    double density = 0; ///< variance of one pass at the widths for one pass: photons
-    Estimate bias{0, 0}; ///< squared, at the widths for one pass
-    double estimated =
-        0; ///< part of the variance of one pass, at the widths for one, that is in estimated light
-    double wide = 0; ///< passes that were made before it was known how many there will be
-    ErrorLaw law = photon_mapping_law;
+    double fixed = 0;   ///< variance of one pass that no bandwidth changes: eye paths, direct light
+    double density = 0; ///< variance of one pass at the initial bandwidth: photons
+    Estimate bias{0, 0};  ///< squared, at the initial bandwidth
+    double estimated = 0; ///< variance of one pass in estimated light, at the initial bandwidth
+    double initial_passes = 0;         ///< passes at the initial bandwidth
+    ErrorLaw law = photon_mapping_law; ///< the exponents of n
 };
 
+/// Variance of the mean of `passes` passes.
 double noise_after(const ErrorModel& model, double passes);
-/// Squared bias after so many passes, the first `wide` at the widths for one, over that at the
-/// widths for one.
-double bias_share(const ErrorLaw& law, double passes, double wide = 0);
+/// Squared bias after `passes` passes, divided by that of one pass. The first `initial_passes` of
+/// them have the initial bandwidth.
+double bias_share(const ErrorLaw& law, double passes, double initial_passes = 0);
+/// Squared bias of the mean of `passes` passes.
 Estimate bias_after(const ErrorModel& model, double passes);
+/// relMSE of the mean of `passes` passes.
 double error_after(const ErrorModel& model, double passes);
 
-/// Passes, at least 1 and not rounded, after which the error is at most `error`; infinite beyond
-/// 10^9.
+/// Number of passes, at least 1 and not rounded, after which the error is at most `error`. Infinite
+/// beyond 10^9 passes.
 double passes_for(const ErrorModel& model, double error);
 
-/// The model, but for bias, from the variance of one pass at the widths for one pass and for
-/// `passes` > 1. Without negative terms: estimates may be.
+/// Fits the noise of the model, without bias, to the variance of one pass at the initial bandwidth
+/// and at the bandwidth for `passes` > 1 passes. Clamps negative terms, which noisy variances may
+/// yield, to 0.
 ErrorModel fit_noise(double variance_at_one, double variance_at_passes, double passes,
                      const ErrorLaw& law = photon_mapping_law);
 

@@ -11,15 +11,16 @@ namespace argand {
 
 namespace {
 
-// Squared bias of density estimation over what is left of it in smoothed pictures, in this
-// project's scenes, and its spread.
+// Smoothing divides the squared bias of density estimation by about this factor; the spread is its
+// relative standard deviation. Measured in this project's scenes.
 constexpr double lost_by_smoothing = 2.5, spread_of_loss = 0.5;
 
-// Of two pictures the brighter is not believed beyond so many times the darker: noise seldom is as
-// large, bright dots are.
+// Clamps the brighter of two images to this multiple of the darker one, which rejects fireflies.
+// Ordinary noise is seldom as large.
 constexpr float most_over_darker = 1.2f;
 
-/// The error is told from the means of 8 × 8 tiles, for neighbouring pixels share photons.
+/// The mean of all values. Its error follows from the means of 8 × 8 tiles of the image, because
+/// neighbouring pixels share photons and are not independent.
 Estimate mean_of_tiles(const std::vector<double>& values, int width, int height) {
     constexpr int side = 8;
     std::array<double, side * side> sums{}, counts{};
@@ -55,7 +56,7 @@ Estimate posterior(double usual, double factor, std::span<const Estimate> estima
         return {0, 0};
     }
     constexpr int steps = 1000;
-    constexpr double unusual = 0.05; // one in twenty
+    constexpr double unusual = 0.05; // weight of the uniform part of the prior
     const double range = std::log(1e4), deviation = std::log(factor);
     std::array<double, 2 * steps + 1> shifts{}, logs{};
     for (std::size_t i = 0; i < shifts.size(); ++i) {
@@ -66,7 +67,7 @@ Estimate posterior(double usual, double factor, std::span<const Estimate> estima
                            unusual / (2 * range));
         const double value = usual * std::exp(shifts[i]);
         for (const Estimate& estimate : estimates) {
-            // One that claims to be exact is not to fall between two steps.
+            // The lower bound keeps a very exact estimate from falling between two steps.
             const double off = (value - estimate.value) / std::max(estimate.error, 0.01 * value);
             logs[i] -= 0.5 * off * off;
         }
@@ -83,7 +84,8 @@ Estimate posterior(double usual, double factor, std::span<const Estimate> estima
     return {value, value * std::sqrt(std::max(squares / weights - mean * mean, 0.0))};
 }
 
-std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const Image& reference) {
+std::array<Estimate, 2> squared_difference(const ImagePair& a, const ImagePair& b,
+                                           const Image& reference) {
     const auto difference = [&](auto smooth) {
         return mean_of_tiles(
             rel_products(smooth(a[0]), smooth(b[0]), smooth(a[1]), smooth(b[1]), reference),
@@ -118,11 +120,11 @@ Image smoothed(const Image& image) {
     return result;
 }
 
-Image guess_from(const Pair& pictures) {
-    Image guess = pictures[0];
+Image guess_from(const ImagePair& images) {
+    Image guess = images[0];
     for (std::size_t i = 0; i < guess.pixels.size(); ++i) {
-        const glm::vec3 a = glm::max(pictures[0].pixels[i], 0.0f),
-                        b = glm::max(pictures[1].pixels[i], 0.0f);
+        const glm::vec3 a = glm::max(images[0].pixels[i], 0.0f),
+                        b = glm::max(images[1].pixels[i], 0.0f);
         guess.pixels[i] = glm::min(glm::sqrt(a) * glm::sqrt(b), most_over_darker * glm::min(a, b));
     }
     return guess;

@@ -8,10 +8,10 @@
 
 namespace argand {
 
-/// Two pictures of the same with independent noise.
-using Pair = std::array<Image, 2>;
+/// Two images of the same scene with independent noise.
+using ImagePair = std::array<Image, 2>;
 
-/// A number and its standard error; infinite: nothing is known of it.
+/// A number and its standard error. An infinite error means that nothing is known of the number.
 struct Estimate {
     double value = 0;
     double error = std::numeric_limits<double>::infinity();
@@ -21,24 +21,26 @@ inline Estimate scaled(const Estimate& estimate, double by) {
     return {by * estimate.value, by * estimate.error};
 }
 
-/// What a positive number is likely to be that usually is `usual`, up to a factor of `factor` (one
-/// standard deviation of its logarithm), but one time in twenty anything from a 10,000th to 10,000
-/// times it, after independent estimates of it with normal errors (Bayes): the mean of its
-/// logarithm.
+/// Bayesian estimate of a positive number: the exponential of the posterior mean of its logarithm,
+/// with standard error. The prior is log-normal around `usual`, with a standard deviation of
+/// log(`factor`); one time in twenty it is uniform in the logarithm from 1/10,000 to 10,000 times
+/// `usual`. `estimates` are independent estimates of the number with normal errors.
 Estimate posterior(double usual, double factor, std::span<const Estimate> estimates);
 
-/// Mean over the pixels of (a[0] − b[0])(a[1] − b[1]), divided as in relMSE by what follows from
-/// `reference`: the squared difference of what a and b are pictures of. First from the pictures as
-/// they are; then from smoothed ones, without most of the noise of single pixels, times what
-/// smoothing takes from the bias of density estimation.
-std::array<Estimate, 2> squared_difference(const Pair& a, const Pair& b, const Image& reference);
+/// Estimates the squared difference of the images that the pairs `a` and `b` show without noise:
+/// the mean over the pixels of (a[0] − b[0])(a[1] − b[1]), divided as in relMSE by a denominator
+/// computed from `reference`. The first estimate uses the images as they are. The second uses
+/// smoothed images, which have lost most of the noise of single pixels, and makes up for the bias
+/// of density estimation that smoothing removes.
+std::array<Estimate, 2> squared_difference(const ImagePair& a, const ImagePair& b,
+                                           const Image& reference);
 
 /// The mean over 3 × 3 pixels.
 Image smoothed(const Image& image);
 
-/// What relMSE divides by, as far as two pictures tell: the root of the product of the two. Their
-/// mean would take the bright dots that few paths or photons make for bright places, and the errors
-/// there for small ones; so no more than 1.2 times the darker of the two.
-Image guess_from(const Pair& pictures);
+/// Guesses the true image, for the denominator of relMSE: the geometric mean of the two images, at
+/// most 1.2 times the darker one. Their mean would take fireflies for bright places, and the errors
+/// there for small ones.
+Image guess_from(const ImagePair& images);
 
 } // namespace argand

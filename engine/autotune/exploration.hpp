@@ -7,29 +7,29 @@
 
 namespace argand {
 
-/// What the user has chosen nevertheless.
-struct Chosen {
+/// Which settings the user has given. Autotuning keeps them.
+struct UserSet {
     bool method = false, samples = false, photons = false;
 };
 
-/// Which pilots there are to be, one after the other.
+/// Decides which pilots to run, one after the other.
 struct Exploration {
     const Pilots& pilots; ///< so far
     const RenderSettings& base;
-    const Chosen& chosen;
-    const Aim& aim;
-    bool path_is_true; ///< paths from the eye find all light
+    const UserSet& user_set;
+    const Target& target;
+    bool path_is_unbiased; ///< paths from the eye find all light
 
-    /// Nothing: no other is worth its time.
-    std::optional<RenderSettings> next() const;
+    /// Settings of the next pilot. Nothing if no further pilot is worth its time.
+    std::optional<RenderSettings> next_pilot() const;
 
-    /// After which the next one may end early.
-    double most_seconds() const;
+    /// Seconds after which the next pilot may end early.
+    double pilot_time_limit() const;
 
 private:
     RenderSettings of_method(const std::string& method) const;
     std::string first_method() const;
-    bool is_worth(const MethodInfo& method) const;
+    bool is_worth_trying(const MethodInfo& method) const;
     bool has_time(double share) const;
 };
 

@@ -13,51 +13,53 @@ namespace argand {
 
 namespace {
 
-// Squared bias over the variance of estimated light, of one pass at the widths for one pass, in
-// this project's scenes, and up to what factor (docs/results/targets.md).
+// Squared bias of one pass at the initial bandwidth, divided by the variance of its estimated
+// light, and the factor by which it usually varies. Measured in this project's scenes
+// (docs/results/targets.md).
 constexpr double usual_bias = 0.17, spread_of_bias = 2.5;
 
-double variance_of(const Pair& pictures, const Image& guess) {
-    return rel_variance(pictures, guess, guess);
+double variance_of(const ImagePair& images, const Image& guess) {
+    return rel_variance(images, guess, guess);
 }
 
-/// What the pass after so many others adds to the mean of all.
-Image part_of(const Image& mean, const Image& before, double others) {
+/// The image of the last pass alone, from the means with and without it. others: the number of
+/// passes before it.
+Image last_pass_of(const Image& mean, const Image& before, double others) {
     return others > 0 ? weighted_mean(mean, others + 1, before, -others) : mean;
 }
 
 } // namespace
 
-std::optional<PassPlan> PilotCourse::operator()(const PictureSoFar& so_far) {
+std::optional<PassPlan> PilotControl::operator()(const PictureSoFar& so_far) {
     if (so_far.passes > 0) {
         add(so_far);
     } else {
         seconds_before_ = seconds_since(start_);
     }
-    const bool may_end = so_far.passes > 0 && so_far.passes <= wide_passes;
+    const bool may_end = so_far.passes > 0 && so_far.passes <= initial_pilot_passes;
     if (so_far.passes == pilot_passes || (may_end && is_enough_(pilot_))) {
         return std::nullopt;
     }
-    return PassPlan{.expected = so_far.passes < wide_passes ? 1.0 : narrow_passes,
+    return PassPlan{.expected = so_far.passes < initial_pilot_passes ? 1.0 : reduced_for_passes,
                     .stream = static_cast<std::uint32_t>(so_far.passes % 2)};
 }
 
-/// Takes a pass's pictures. Those that are lacking so far are taken for like what there is.
-void PilotCourse::add(const PictureSoFar& so_far) {
+/// Adds the images of a pass. Images that are still missing repeat the existing ones.
+void PilotControl::add(const PictureSoFar& so_far) {
     const std::vector<Layer> layers = so_far.layers();
     const Image &mean = layers.front().image, estimated = estimated_light(layers);
     const auto others = static_cast<double>(so_far.passes - 1);
-    const bool is_narrow = so_far.passes > wide_passes;
+    const bool is_reduced = so_far.passes > initial_pilot_passes;
     const std::size_t stream = (so_far.passes - 1) % 2;
-    PilotPictures& pictures = is_narrow ? pilot_.narrow : pilot_.wide;
-    pictures.whole[stream] = part_of(mean, before_, others);
-    pictures.estimated[stream] = part_of(estimated, estimated_before_, others);
+    PilotImages& images = is_reduced ? pilot_.reduced : pilot_.initial;
+    images.whole[stream] = last_pass_of(mean, before_, others);
+    images.estimated[stream] = last_pass_of(estimated, estimated_before_, others);
     if (so_far.passes == 1) {
-        pictures.whole[1] = pictures.whole[0];
-        pictures.estimated[1] = pictures.estimated[0];
+        images.whole[1] = images.whole[0];
+        images.estimated[1] = images.estimated[0];
     }
-    if (!is_narrow) {
-        pilot_.narrow = pilot_.wide;
+    if (!is_reduced) {
+        pilot_.reduced = pilot_.initial;
     }
     before_ = mean;
     estimated_before_ = estimated;
@@ -65,7 +67,7 @@ void PilotCourse::add(const PictureSoFar& so_far) {
     pilot_.seconds = seconds_since(start_);
     pilot_.seconds_per_pass =
         (pilot_.seconds - seconds_before_) / static_cast<double>(pilot_.passes - passes_before_);
-    if (!is_narrow) {
+    if (!is_reduced) {
         seconds_before_ = pilot_.seconds;
         passes_before_ = pilot_.passes;
     }
@@ -76,10 +78,10 @@ Image best_guess(std::span<const Pilot> pilots) {
     double least = std::numeric_limits<double>::infinity();
     for (const Pilot& pilot : pilots) {
         const auto half = [&](std::size_t i) {
-            return smoothed(mean_of(pilot.wide.whole[i], pilot.narrow.whole[i]));
+            return smoothed(mean_of(pilot.initial.whole[i], pilot.reduced.whole[i]));
         };
         const Image guess = guess_from({half(0), half(1)});
-        const double variance = variance_of(pilot.narrow.whole, guess);
+        const double variance = variance_of(pilot.reduced.whole, guess);
         if (variance < least || best.pixels.empty()) {
             least = variance;
             best = guess;
@@ -98,36 +100,38 @@ Image estimated_light(std::span<const Layer> layers) {
     return estimated;
 }
 
-ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
+ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& guess) {
     if (pilot.passes < 2) {
         return {.fixed = std::numeric_limits<double>::infinity()};
     }
     const ErrorLaw& law = pilot.method->law;
-    const double wide = variance_of(pilot.wide.whole, guess);
+    const double initial = variance_of(pilot.initial.whole, guess);
     if (pilot.method->abilities.unbiased) {
-        return {.fixed = 0.5 * (wide + variance_of(pilot.narrow.whole, guess)),
+        return {.fixed = 0.5 * (initial + variance_of(pilot.reduced.whole, guess)),
                 .density = 0,
                 .bias = {0, 0},
                 .law = law};
     }
-    const double estimated = variance_of(pilot.wide.estimated, guess);
-    const double growth = variance_of(pilot.narrow.estimated, guess) - estimated;
-    ErrorModel model = fit_noise(wide, wide + growth, narrow_passes, law);
-    // The bias at a narrower width is a share of that at a wide one, and so is their difference.
-    const double narrow_share = bias_share(law, narrow_passes), lost = 1 - std::sqrt(narrow_share);
+    const double estimated = variance_of(pilot.initial.estimated, guess);
+    const double growth = variance_of(pilot.reduced.estimated, guess) - estimated;
+    ErrorModel model = fit_noise(initial, initial + growth, reduced_for_passes, law);
+    // The bias at the reduced bandwidth is a fixed share of that at the initial one, and so is the
+    // difference of the two.
+    const double reduced_share = bias_share(law, reduced_for_passes),
+                 lost = 1 - std::sqrt(reduced_share);
     std::vector<Estimate> estimates;
-    const auto add = [&](const Pair& a, const Pair& b, double scale) {
+    const auto add = [&](const ImagePair& a, const ImagePair& b, double scale) {
         for (const Estimate& estimate : squared_difference(a, b, guess)) {
             estimates.push_back(scaled(estimate, scale));
         }
     };
     if (pilot.passes == pilot_passes) {
-        add(pilot.wide.estimated, pilot.narrow.estimated, 1 / (lost * lost));
+        add(pilot.initial.estimated, pilot.reduced.estimated, 1 / (lost * lost));
     }
     if (truth) {
-        add(pilot.wide.estimated, *truth, 1);
+        add(pilot.initial.estimated, *truth, 1);
         if (pilot.passes == pilot_passes) {
-            add(pilot.narrow.estimated, *truth, 1 / narrow_share);
+            add(pilot.reduced.estimated, *truth, 1 / reduced_share);
         }
     }
     model.bias = posterior(usual_bias * estimated, spread_of_bias, estimates);
@@ -135,9 +139,10 @@ ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess) {
     return model;
 }
 
-Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth,
-                 const Image& guess) {
-    return posterior(usual_bias * model.estimated * bias_share(model.law, passes, model.wide),
+Estimate bias_of(const ImagePair& estimated, const ErrorModel& model, double passes,
+                 const ImagePair& truth, const Image& guess) {
+    return posterior(usual_bias * model.estimated *
+                         bias_share(model.law, passes, model.initial_passes),
                      spread_of_bias, squared_difference(estimated, truth, guess));
 }
 

@@ -11,45 +11,49 @@
 
 namespace argand {
 
-/// Passes for whose widths of estimation a pilot's later pictures are.
-inline constexpr double narrow_passes = 8;
+/// The second half of a pilot uses the bandwidth of a render of this many passes.
+inline constexpr double reduced_for_passes = 8;
 
-struct PilotPictures {
-    Pair whole, estimated; ///< all light; that which is estimated from photons
+struct PilotImages {
+    ImagePair whole;     ///< all light
+    ImagePair estimated; ///< the light that is estimated from photons
 };
 
-/// Passes of a whole pilot.
+/// Passes of a complete pilot.
 inline constexpr std::uint64_t pilot_passes = 4;
-inline constexpr std::uint64_t wide_passes = pilot_passes / 2;
+/// The first passes of a pilot, which use the initial bandwidth: that of a render of one pass.
+inline constexpr std::uint64_t initial_pilot_passes = pilot_passes / 2;
 
-/// A few passes of some settings, to learn what they cost and how far from the truth they are. Half
-/// of them are at the widths of estimation for one pass, half at those for `narrow_passes`; all are
-/// alike if the method has no such widths.
+/// A few passes of some settings, which measure their cost and their error. The first half of the
+/// passes uses the initial bandwidth, the second half the reduced bandwidth for
+/// `reduced_for_passes`. All passes are alike if the method has no bandwidth.
 struct Pilot {
     const MethodInfo* method; ///< of the settings
     RenderSettings settings;  ///< of one pass
-    std::uint64_t passes =
-        0; ///< fewer than all: it took too long; 2: no narrow ones; 1: one picture is all there is
-    PilotPictures wide, narrow;
-    double seconds_per_pass =
-        0; ///< of the narrow ones, or the second one, or the first, which loads kernels
-    double seconds = 0; ///< that it took
+    /// Fewer than `pilot_passes` if it took too long. With 2, `reduced` repeats `initial`; with 1,
+    /// all images are the same one.
+    std::uint64_t passes = 0;
+    PilotImages initial, reduced;
+    /// Measured over the reduced passes, or else the second pass, or else the first, which also
+    /// loads kernels.
+    double seconds_per_pass = 0;
+    double seconds = 0; ///< of the whole pilot
 };
 
-/// Asked after each wide pass whether the pilot so far is enough.
+/// Asked after each initial pass whether the pilot may end here.
 using IsEnough = std::function<bool(const Pilot& so_far)>;
 
-/// Decides on a pilot's passes, and takes their pictures.
-class PilotCourse {
+/// Controls the passes of a pilot, and collects their images.
+class PilotControl {
 public:
-    PilotCourse(const MethodInfo& method, const RenderSettings& settings, IsEnough is_enough)
+    PilotControl(const MethodInfo& method, const RenderSettings& settings, IsEnough is_enough)
         : is_enough_(std::move(is_enough)), pilot_{.method = &method, .settings = settings},
           start_(Clock::now()) {}
 
-    /// Nothing once the pilot is whole, or enough.
+    /// The next pass. Nothing once the pilot is complete, or enough.
     std::optional<PassPlan> operator()(const PictureSoFar& so_far);
 
-    /// What the passes so far have told.
+    /// The pilot with the passes made so far.
     Pilot take() && { return std::move(pilot_); }
 
 private:
@@ -58,26 +62,28 @@ private:
     IsEnough is_enough_;
     Pilot pilot_;
     Clock::time_point start_;
-    double seconds_before_ = 0; ///< before the passes whose time counts
+    double seconds_before_ = 0; ///< at the start of the passes that are timed
     std::uint64_t passes_before_ = 0;
     Image before_, estimated_before_;
 };
 
-/// What relMSE divides by, as far as it is known: guess_from() the least noisy pilot, smoothed.
+/// The best guess of the true image, for the denominator of relMSE: guess_from() the least noisy
+/// pilot, smoothed.
 Image best_guess(std::span<const Pilot> pilots);
 
-/// The light that photon mapping estimates from photons, and the only one that has bias: all but
-/// direct light.
+/// The light that a method estimates from photons, the only light that has bias: all but direct
+/// light.
 Image estimated_light(std::span<const Layer> layers);
 
-/// The pilot's model. Squared bias from what is usual, from the difference of the two widths, and
-/// from the estimated light without bias, if it is known (else null), each as far as its noise lets
-/// it tell. Infinite variance from one pass.
-ErrorModel model_of(const Pilot& pilot, const Pair* truth, const Image& guess);
+/// Fits the pilot's error model. The squared bias combines three sources, each weighted by its
+/// uncertainty: the bias that is usual, the difference between the two bandwidths, and the
+/// difference from `truth`, estimated light without bias (null if it is unknown). The variance is
+/// infinite if the pilot has one pass only.
+ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& guess);
 
-/// Squared bias of estimated light after so many passes: from what is usual, and from the same
-/// light without bias.
-Estimate bias_of(const Pair& estimated, const ErrorModel& model, double passes, const Pair& truth,
-                 const Image& guess);
+/// Squared bias of estimated light after `passes` passes, from the bias that is usual and from the
+/// difference from `truth`, the same light without bias.
+Estimate bias_of(const ImagePair& estimated, const ErrorModel& model, double passes,
+                 const ImagePair& truth, const Image& guess);
 
 } // namespace argand

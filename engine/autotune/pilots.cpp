@@ -10,22 +10,25 @@ namespace argand {
 
 namespace {
 
-// To the error, up to which narrow passes of the pilot would be too much of the work.
+// In a render of at most this many passes, the pilot's passes at the reduced bandwidth would take
+// too large a share of the time.
 constexpr double few_passes = 24;
 
 bool is_path(const Pilot& pilot) { return pilot.method->abilities.unbiased; }
 
-bool takes_few_passes(const Pilot& pilot, const Aim& aim) {
-    return pilot.passes > 1 && aim.error &&
-           passes_for(model_of(pilot, nullptr, best_guess({&pilot, 1})), *aim.error) <= few_passes;
+bool takes_few_passes(const Pilot& pilot, const Target& target) {
+    return pilot.passes > 1 && target.error &&
+           passes_for(model_of(pilot, nullptr, best_guess({&pilot, 1})), *target.error) <=
+               few_passes;
 }
 
 } // namespace
 
-RenderResult Pilots::run(const RenderSettings& settings, double seconds, const GoOn& go_on) {
-    std::optional<PilotCourse> pilot; // until it is complete
-    pilot.emplace(aim_.methods.at(settings.method), settings, [&](const Pilot& so_far) {
-        return so_far.seconds > seconds || takes_few_passes(so_far, aim_);
+RenderResult Pilots::run(const RenderSettings& settings, double seconds,
+                         const Continuation& continuation) {
+    std::optional<PilotControl> pilot; // empty once the pilot is complete
+    pilot.emplace(target_.methods.at(settings.method), settings, [&](const Pilot& so_far) {
+        return so_far.seconds > seconds || takes_few_passes(so_far, target_);
     });
     OnPass next;
     RenderResult result =
@@ -36,16 +39,16 @@ RenderResult Pilots::run(const RenderSettings& settings, double seconds, const G
                 }
                 add(std::move(*pilot).take());
                 pilot.reset();
-                next = go_on();
+                next = continuation();
             }
             return next ? next(so_far) : std::nullopt;
         });
-    // There may be no random numbers for more passes.
+    // The render may have ended by itself, because there are no random numbers for more passes.
     if (pilot && !result.statistics.interrupted) {
         add(std::move(*pilot).take());
     }
     if (!next) {
-        look_ahead(false);
+        rank_candidates(false);
     }
     return result;
 }
@@ -63,15 +66,15 @@ bool Pilots::improve_truth(double seconds) {
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
-    PilotCourse course(*path->method, more, [](const Pilot&) { return false; });
-    if (render_(more, std::ref(course)).statistics.interrupted) {
+    PilotControl control(*path->method, more, [](const Pilot&) { return false; });
+    if (render_(more, std::ref(control)).statistics.interrupted) {
         return false;
     }
-    const Pilot pilot = std::move(course).take();
+    const Pilot pilot = std::move(control).take();
     add_truth(pilot);
     seconds_ += pilot.seconds;
-    learn();
-    look_ahead(false);
+    fit_models();
+    rank_candidates(false);
     return true;
 }
 
@@ -82,7 +85,7 @@ std::size_t Pilots::count(const std::string& method) const {
 }
 
 bool Pilots::last_is_best() const {
-    const RenderSettings &last = pilots_.back().settings, &best = prospects_.front().settings;
+    const RenderSettings &last = pilots_.back().settings, &best = candidates_.front().settings;
     return last.method == best.method && last.samples == best.samples &&
            last.photons == best.photons;
 }
@@ -93,11 +96,11 @@ void Pilots::add(Pilot pilot) {
     }
     seconds_ += pilot.seconds;
     pilots_.push_back(std::move(pilot));
-    learn();
-    look_ahead(true);
+    fit_models();
+    rank_candidates(true);
 }
 
-void Pilots::learn() {
+void Pilots::fit_models() {
     const Image guess = best_guess(pilots_);
     models_.clear();
     for (const Pilot& pilot : pilots_) {
@@ -105,28 +108,30 @@ void Pilots::learn() {
     }
 }
 
-void Pilots::look_ahead(bool last_goes_on) {
-    prospects_.clear();
+void Pilots::rank_candidates(bool last_continues) {
+    candidates_.clear();
     for (std::size_t i = 0; i < pilots_.size(); ++i) {
-        const bool goes_on = last_goes_on && i + 1 == pilots_.size();
+        const bool continues_pilot = last_continues && i + 1 == pilots_.size();
         if (!is_path(pilots_[i]) || with_path_) {
-            prospects_.push_back(prospect_of(pilots_[i], models_[i], aim_, seconds_, goes_on));
+            candidates_.push_back(
+                candidate_for(pilots_[i], models_[i], target_, seconds_, continues_pilot));
         }
     }
-    std::sort(prospects_.begin(), prospects_.end(),
-              [&](const Prospect& a, const Prospect& b) { return is_better(a, b, aim_); });
+    std::sort(candidates_.begin(), candidates_.end(),
+              [&](const Candidate& a, const Candidate& b) { return is_better(a, b, target_); });
 }
 
-/// By its samples; its wide and narrow pictures are alike.
+/// Adds the images of a pilot of `path` to the truth, weighted by their samples. Its initial and
+/// reduced passes are alike, as it has no bandwidth.
 void Pilots::add_truth(const Pilot& path) {
-    if (path.passes < wide_passes) {
+    if (path.passes < initial_pilot_passes) {
         return;
     }
     const double samples = static_cast<double>(path.passes) * path.settings.samples;
-    const Pair &a = path.wide.estimated, &b = path.narrow.estimated;
-    const Pair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
-    truth_ = truth_ ? Pair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
-                           weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}
+    const ImagePair &a = path.initial.estimated, &b = path.reduced.estimated;
+    const ImagePair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
+    truth_ = truth_ ? ImagePair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
+                                weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}
                     : more;
     truth_samples_ += samples;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "autotune/prospect.hpp"
+#include "autotune/candidate.hpp"
 
 #include <functional>
 #include <optional>
@@ -9,57 +9,61 @@
 
 namespace argand {
 
-/// Renders the settings' samples and photons again and again, as argand::render with `on_pass`.
+/// Renders passes of these settings, as argand::render does with `on_pass`.
 using RenderPasses =
     std::function<RenderResult(const RenderSettings& settings, const OnPass& on_pass)>;
 
-/// Asked when a pilot is complete for what goes on from its passes; nothing: they are thrown away.
-using GoOn = std::function<OnPass()>;
+/// Called when a pilot is complete. Returns the control of further passes that continue from the
+/// pilot's, or null to throw its passes away.
+using Continuation = std::function<OnPass()>;
 
-/// Pilots of one scene, and what follows from all of them.
+/// Runs pilots of one scene and ranks the candidates that follow from them.
 class Pilots {
 public:
-    /// with_path: path is one of the ways; without, it only tells the others' bias.
-    Pilots(const RenderPasses& render, const Aim& aim, bool with_path)
-        : render_(render), aim_(aim), with_path_(with_path) {}
+    /// with_path: `path` is a candidate. Otherwise it only measures the bias of other methods.
+    Pilots(const RenderPasses& render, const Target& target, bool with_path)
+        : render_(render), target_(target), with_path_(with_path) {}
 
-    /// Runs one more, which ends early after so many seconds, and what goes on from it. While
-    /// `go_on` is asked, the prospects are such that the last pilot goes on.
-    RenderResult run(const RenderSettings& settings, double seconds, const GoOn& go_on);
+    /// Runs one more pilot, which ends early after `seconds`, and the passes that continue from it.
+    /// While `continuation` is called, the candidates assume that the last pilot continues.
+    RenderResult run(const RenderSettings& settings, double seconds,
+                     const Continuation& continuation);
 
-    /// More samples of path, which tell the others' bias, for so many seconds. Returns false if it
-    /// was interrupted.
+    /// Spends `seconds` on more samples of `path`, to measure the bias of the other methods better.
+    /// Returns false if it was interrupted.
     bool improve_truth(double seconds);
 
-    /// The estimated light without bias, once path has run.
-    const std::optional<Pair>& truth() const { return truth_; }
+    /// Estimated light without bias, once `path` has run.
+    const std::optional<ImagePair>& truth() const { return truth_; }
 
-    /// How many have run.
+    /// Number of pilots of this method so far.
     std::size_t count(const std::string& method) const;
     const Pilot& last() const { return pilots_.back(); }
+    /// Whether the last pilot has the settings of the best candidate.
     bool last_is_best() const;
 
-    /// That all have taken, and one on average.
+    /// Time of all pilots.
     double seconds() const { return seconds_; }
+    /// Mean time of a pilot.
     double seconds_each() const { return seconds_ / static_cast<double>(pilots_.size()); }
 
-    /// Best first; one for each pilot, but for path where it is no way.
-    const std::vector<Prospect>& prospects() const { return prospects_; }
+    /// Best first: one for each pilot, except those of `path` where it is no candidate.
+    const std::vector<Candidate>& candidates() const { return candidates_; }
 
 private:
     void add(Pilot pilot);
-    void learn();
-    void look_ahead(bool last_goes_on);
+    void fit_models();
+    void rank_candidates(bool last_continues);
     void add_truth(const Pilot& path);
 
     const RenderPasses& render_;
-    const Aim& aim_;
+    const Target& target_;
     bool with_path_;
-    std::optional<Pair> truth_;
+    std::optional<ImagePair> truth_;
     double truth_samples_ = 0, seconds_ = 0;
     std::vector<Pilot> pilots_;
-    std::vector<ErrorModel> models_; ///< of each
-    std::vector<Prospect> prospects_;
+    std::vector<ErrorModel> models_; ///< of each pilot
+    std::vector<Candidate> candidates_;
 };
 
 } // namespace argand

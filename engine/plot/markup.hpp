@@ -5,7 +5,8 @@
 
 namespace argand {
 
-/// Text as HTML and XML want it, in an element or a quoted attribute.
+/// Escapes text for an element or a quoted attribute of HTML or XML. Replaces control characters,
+/// which XML does not allow, with question marks.
 inline std::string escaped(std::string_view text) {
     std::string safe;
     for (const char c : text) {
@@ -23,7 +24,7 @@ inline std::string escaped(std::string_view text) {
             safe += "&quot;";
             break;
         default:
-            safe += c;
+            safe += static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t' ? '?' : c;
         }
     }
     return safe;

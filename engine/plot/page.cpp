@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace argand {
 
@@ -29,9 +29,10 @@ constexpr const char* style =
     "figure img { width: 192px; image-rendering: pixelated } figcaption { font-size: 12px; "
     "max-width: 392px }\n";
 
-constexpr double displayed_mean = 0.2; // of the reference's linear luminance
+// Mean linear luminance at which the reference is displayed.
+constexpr double displayed_mean = 0.2;
 
-/// Exposure in stops at which the picture is neither dark nor white.
+/// Exposure in stops that brings the image's mean luminance to `displayed_mean`.
 float exposure_of(const Image& image) {
     double sum = 0;
     for (const glm::vec3& pixel : image.pixels) {
@@ -41,8 +42,8 @@ float exposure_of(const Image& image) {
     return mean > 0 ? static_cast<float>(std::log2(displayed_mean / mean)) : 0;
 }
 
-std::string embedded(const Image& image, float exposure, const char* what) {
-    return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", what,
+std::string embedded(const Image& image, float exposure, const char* alt) {
+    return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", alt,
                        base64(png_bytes(image, exposure, "tradeoff.html")));
 }
 
@@ -54,15 +55,23 @@ std::string or_dash(const std::optional<double>& value) {
     return value ? fmt::format("{:.3g}", *value) : "–";
 }
 
+/// One row of the table of settings.
 std::string row(const Measurement& m, bool on_front) {
     constexpr double mebibyte = 1 << 20;
-    return fmt::format(
-        "<tr{}><td>{}</td><td>{} {}</td><td>{:.3g}</td><td>{}</td><td>{:.1f}</td><td>{:.3g} ± "
-        "{:.1g}</td>"
-        "<td>{}</td><td>{}</td><td>{:.4f}</td><td><code>{}</code></td></tr>\n",
-        on_front ? " class=\"front\"" : "", m.method, m.knob, m.value, m.wall_seconds,
-        or_dash(m.device_seconds), static_cast<double>(m.peak_bytes) / mebibyte, m.rel_mse.mean,
-        m.rel_mse.deviation, or_dash(m.bias), or_dash(m.variance), m.ssim.mean, escaped(m.options));
+    const std::string cells[] = {
+        m.method,
+        m.knob + " " + m.value,
+        fmt::format("{:.3g}", m.wall_seconds),
+        or_dash(m.device_seconds),
+        fmt::format("{:.1f}", static_cast<double>(m.peak_bytes) / mebibyte),
+        fmt::format("{:.3g} ± {:.1g}", m.rel_mse.mean, m.rel_mse.deviation),
+        or_dash(m.bias),
+        or_dash(m.variance),
+        fmt::format("{:.4f}", m.ssim.mean),
+        fmt::format("<code>{}</code>", escaped(m.options)),
+    };
+    return fmt::format("<tr{}><td>{}</td></tr>\n", on_front ? " class=\"front\"" : "",
+                       fmt::join(cells, "</td><td>"));
 }
 
 std::string table(const std::vector<Measurement>& measurements,
@@ -114,13 +123,39 @@ std::string about(const Results& results) {
                 : std::string("reference: given");
     text += results.reference_error
                 ? fmt::format(", relMSE of their mean {:.2g}.", *results.reference_error)
-                : std::string(", its own error not known: it counts as the settings'.");
+                : std::string(", whose own error is unknown and counts as the settings'.");
     for (const Failure& failure : results.failures) {
         text += fmt::format("<br>Not rendered: <code>{}</code>: {}.", escaped(failure.options),
                             escaped(failure.why));
     }
-    return text + (results.complete ? "</p>\n"
-                                    : " <strong>Not all settings are measured yet.</strong></p>\n");
+    return text + (results.complete
+                       ? "</p>\n"
+                       : " <strong>Some settings are not measured yet.</strong></p>\n");
+}
+
+constexpr const char* how_to_read =
+    "<p>Each point is one setting of <code>argand render</code>: further left is faster, further "
+    "down is more accurate. Points on the Pareto front are outlined: no measured setting is both "
+    "faster and more accurate. Point at one to see its setting. The bar at a point is ± the "
+    "standard deviation of one seed. Below the orange line errors are smaller than the reference's "
+    "own error: points there are about as accurate as the reference, and cannot be ranked; those "
+    "at the lower edge may lie anywhere below.</p>\n";
+
+constexpr const char* how_to_read_pictures =
+    "<h2>On the front</h2>\n<p>The picture, and its error: red where it is too bright, blue where "
+    "it is too dark, black where it is right.</p>\n";
+
+/// The whole page.
+std::string page(const std::filesystem::path& folder, const Results& results,
+                 const Reference& reference, const Plot& plot) {
+    const std::vector<std::size_t> front = front_of(results);
+    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+                       "<title>Error against time</title>\n<style>\n{}</style></head><body>\n"
+                       "<h1>Error against time</h1>\n{}",
+                       style, how_to_read) +
+           to_svg(plot) + about(results) + how_to_read_pictures +
+           front_pictures(folder, results, front, reference) + "<h2>All settings</h2>\n" +
+           table(results.measurements, front) + "</body></html>\n";
 }
 
 } // namespace
@@ -131,27 +166,8 @@ void draw_results(const std::filesystem::path& folder, const Results& results) {
     }
     const Reference reference = reread_reference(reference_file(folder));
     const Plot plot = lay_out(results);
-    const std::vector<std::size_t> front = front_of(results);
-    write_png(folder / "tradeoff.png", to_image(plot));
-    const std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Error against "
-        "time</title>\n"
-        "<style>\n{}</style></head><body>\n<h1>Error against time</h1>\n"
-        "<p>Each point is one setting of <code>argand render</code>: to the left is quicker, below "
-        "is more "
-        "exact. What lies on the Pareto front is outlined: nothing measured is both quicker and "
-        "more exact. "
-        "Point at it to see what it is. The bar at a point is ± the standard deviation of one "
-        "seed. Below the "
-        "orange line errors are less than the reference's own: points there are about as exact as "
-        "it, and which "
-        "of them is best cannot be told; those at the lower edge may be anywhere below.</p>\n{}{}"
-        "<h2>On the front</h2>\n<p>The picture, and its error: red where it is too bright, blue "
-        "where it is too "
-        "dark, black where it is right.</p>\n{}<h2>All settings</h2>\n{}</body></html>\n",
-        style, to_svg(plot), about(results), front_pictures(folder, results, front, reference),
-        table(results.measurements, front));
-    write_atomically(folder / "tradeoff.html", html);
+    write_atomically(folder / "tradeoff.svg", to_svg_file(plot));
+    write_atomically(folder / "tradeoff.html", page(folder, results, reference, plot));
 }
 
 } // namespace argand

@@ -6,9 +6,10 @@
 
 namespace argand {
 
-/// Draws the results of the sweep in this folder, once its reference is there: writes the plot as
-/// `tradeoff.png` and, with a table, and pictures and errors of what lies on the front, as
-/// `tradeoff.html`, which refers to nothing outside.
+/// Draws the results of the sweep in this folder: the plot as `tradeoff.svg`, and the page
+/// `tradeoff.html` with the plot, a table of all settings, and the pictures and errors of those on
+/// the Pareto front. The page refers to nothing outside itself. Draws nothing before the folder has
+/// a reference.
 void draw_results(const std::filesystem::path& folder, const Results& results);
 
 } // namespace argand

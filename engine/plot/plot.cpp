@@ -1,7 +1,9 @@
 #include "plot/plot.hpp"
+
 #include "base/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -13,7 +15,7 @@ constexpr double left = 90, right = 170, top = 70, bottom = 70; // margins
 constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, front_color = 0x666666,
                         noise_color = 0xc04000;
 
-/// Colours that stay apart to colour-blind eyes (Okabe and Ito 2008, "Color Universal Design").
+/// Colours that colour-blind readers can tell apart (Okabe and Ito 2008, "Color Universal Design").
 constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
                                                0xd55e00, 0x56b4e9, 0xf0e442};
 
@@ -34,7 +36,7 @@ std::uint32_t color_of(const Results& results, const std::string& method) {
     return palette[static_cast<std::size_t>(place) % palette.size()];
 }
 
-/// Maps numbers to places.
+/// Maps times and errors to positions.
 struct Frame {
     LogAxis x, y;
     double width, height;
@@ -48,10 +50,11 @@ struct Frame {
     }
 };
 
-/// Whether it has a place.
+/// Whether the measurement has a position in the plot.
 bool can_be_drawn(const Measurement& m) {
     constexpr double least_seconds = 1e-30;
-    return std::isfinite(m.rel_mse.mean) && m.wall_seconds > least_seconds;
+    return std::isfinite(m.rel_mse.mean) && std::isfinite(m.wall_seconds) &&
+           m.wall_seconds > least_seconds;
 }
 
 bool is_clamped(const Results& results, const Measurement& m) {
@@ -64,10 +67,11 @@ bool any_clamped(const Results& results) {
         [&](const Measurement& m) { return can_be_drawn(m) && is_clamped(results, m); });
 }
 
-/// Where errors begin to be about as small as what they are measured with; nothing if no error
-/// comes near that.
+/// The error below which measurements are uncertain: the reference's own error, or the least error
+/// that can be measured. Nothing if the former is unknown and no measurement is below the latter.
 std::optional<double> noise_level(const Results& results) {
-    if (results.reference_error && *results.reference_error > results.least_error) {
+    if (results.reference_error && std::isfinite(*results.reference_error) &&
+        *results.reference_error > results.least_error) {
         return results.reference_error;
     }
     return any_clamped(results) ? std::optional(results.least_error) : std::nullopt;
@@ -82,10 +86,10 @@ std::string title_of(const Results& results, const Measurement& m) {
         title += fmt::format("\nsquared bias {:.2g}, variance {:.2g}", *m.bias, *m.variance);
     }
     if (is_clamped(results, m)) {
-        title += "\nno error that could be told from none: it counts as " +
-                 fmt::format("{:.2g}", results.least_error);
+        title +=
+            "\nno measurable error: it counts as " + fmt::format("{:.2g}", results.least_error);
     } else if (results.reference_error && m.rel_mse.mean < *results.reference_error) {
-        title += "\nless than the reference's own error: uncertain";
+        title += "\nbelow the reference's own error: uncertain";
     }
     return title + "\n" + m.options;
 }
@@ -94,27 +98,27 @@ void add_axes(Plot& plot, const Frame& frame) {
     using Align = PlotLabel::Align;
     for (const double tick : frame.x.ticks) {
         const Place low = frame.at(tick, frame.y.low);
-        plot.lines.push_back({low, frame.at(tick, frame.y.high), grid, 1});
+        plot.lines.push_back({LineKind::grid, low, frame.at(tick, frame.y.high), grid, 1});
         plot.labels.push_back(
             {{low.x, low.y + 18}, Align::middle, fmt::format("{:g}", tick), black});
     }
     for (const double tick : frame.y.ticks) {
         const Place low = frame.at(frame.x.low, tick);
-        plot.lines.push_back({low, frame.at(frame.x.high, tick), grid, 1});
+        plot.lines.push_back({LineKind::grid, low, frame.at(frame.x.high, tick), grid, 1});
         plot.labels.push_back({{low.x - 8, low.y}, Align::right, fmt::format("{:g}", tick), black});
     }
     const Place origin = frame.at(frame.x.low, frame.y.low);
     const Place end = frame.at(frame.x.high, frame.y.high);
-    plot.lines.push_back({origin, {end.x, origin.y}, black, 1.5});
-    plot.lines.push_back({origin, {origin.x, end.y}, black, 1.5});
+    plot.lines.push_back({LineKind::axis, origin, {end.x, origin.y}, black, 1.5});
+    plot.lines.push_back({LineKind::axis, origin, {origin.x, end.y}, black, 1.5});
     plot.labels.push_back(
         {{0.5 * (origin.x + end.x), origin.y + 44}, Align::middle, "seconds to render", black});
     plot.labels.push_back({{16, end.y - 26}, Align::left, "error (relMSE)", black});
 }
 
-/// What it is of, and which way is better.
+/// The scene, and which direction is better.
 void add_title(Plot& plot, const Results& results) {
-    constexpr std::size_t longest_name = 40; // that there is room for
+    constexpr std::size_t longest_name = 40; // bytes that fit above the plot
     std::string title = "Error against time";
     if (results.run.contains("scene")) {
         title = one_line(results.run.at("scene").get<std::string>(), longest_name) +
@@ -124,15 +128,16 @@ void add_title(Plot& plot, const Results& results) {
     plot.labels.push_back({{middle, 18}, PlotLabel::Align::middle, title, black});
     plot.labels.push_back({{middle, 42},
                            PlotLabel::Align::middle,
-                           "better is down (more exact) and to the left (quicker)",
+                           "better is down (more accurate) and to the left (faster)",
                            gray});
 }
 
 void add_noise(Plot& plot, const Results& results, const Frame& frame) {
     if (const std::optional<double> level = noise_level(results)) {
         const Place from = frame.at(frame.x.low, *level);
-        plot.lines.push_back({from, frame.at(frame.x.high, *level), noise_color, 1.5});
-        // The lower left is empty: what would be there would be the best of all.
+        plot.lines.push_back(
+            {LineKind::noise, from, frame.at(frame.x.high, *level), noise_color, 1.5});
+        // No points hide a label in the lower left, which only an ideal setting would reach.
         const bool is_noise = *level > results.least_error;
         plot.labels.push_back(
             {{from.x + 8, from.y + (is_noise ? 12 : -12)},
@@ -149,13 +154,14 @@ void add_bars(Plot& plot, const Results& results, const Frame& frame) {
         if (!can_be_drawn(m) || !(deviation > 0 && std::isfinite(deviation))) {
             continue;
         }
-        const double error = counted_error(results, m);
+        const double error = clamped_error(results, m);
         const Place high = frame.at(m.wall_seconds, error + deviation);
         const Place low = frame.at(m.wall_seconds, std::max(error - deviation, frame.y.low));
         const std::uint32_t color = color_of(results, m.method);
-        plot.lines.push_back({low, high, color, 1});
+        plot.lines.push_back({LineKind::bar, low, high, color, 1});
         for (const Place& end : {low, high}) {
-            plot.lines.push_back({{end.x - cap, end.y}, {end.x + cap, end.y}, color, 1});
+            plot.lines.push_back(
+                {LineKind::bar, {end.x - cap, end.y}, {end.x + cap, end.y}, color, 1});
         }
     }
 }
@@ -171,23 +177,65 @@ void add_legend(Plot& plot, const Results& results) {
             y += 24;
         }
     }
-    plot.lines.push_back({{x - 8, y}, {x + 8, y}, front_color, 2});
+    plot.lines.push_back({LineKind::front, {x - 8, y}, {x + 8, y}, front_color, 2});
     plot.labels.push_back({{x + 14, y}, PlotLabel::Align::left, "Pareto front", black});
 }
 
-void add_front(Plot& plot, const std::vector<Place>& front) {
-    for (std::size_t i = 1; i < front.size(); ++i) {
-        const Place corner{front[i].x, front[i - 1].y};
-        plot.lines.push_back({front[i - 1], corner, front_color, 2});
-        plot.lines.push_back({corner, front[i], front_color, 2});
+void add_front(Plot& plot, const Results& results, const Frame& frame,
+               const std::vector<std::size_t>& front) {
+    std::vector<Place> places;
+    for (const std::size_t i : front) {
+        const Measurement& m = results.measurements[i];
+        if (can_be_drawn(m)) {
+            places.push_back(frame.at(m.wall_seconds, clamped_error(results, m)));
+        }
+    }
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        const Place corner{places[i].x, places[i - 1].y};
+        plot.lines.push_back({LineKind::front, places[i - 1], corner, front_color, 2});
+        plot.lines.push_back({LineKind::front, corner, places[i], front_color, 2});
     }
 }
 
-/// The axis from a number within on.
-LogAxis cut_below(LogAxis axis, double low) {
+void add_points(Plot& plot, const Results& results, const Frame& frame,
+                const std::vector<std::size_t>& front) {
+    for (std::size_t i = 0; i < results.measurements.size(); ++i) {
+        const Measurement& m = results.measurements[i];
+        if (can_be_drawn(m)) {
+            plot.points.push_back(
+                {frame.at(m.wall_seconds, clamped_error(results, m)), color_of(results, m.method),
+                 std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
+        }
+    }
+}
+
+/// The part of the axis from `low` on.
+LogAxis truncated_below(LogAxis axis, double low) {
     axis.low = low;
     std::erase_if(axis.ticks, [&](double tick) { return tick < low; });
     return axis;
+}
+
+/// Axes that hold all measurements, their bars and the reference's own error.
+Frame frame_of(const Plot& plot, const Results& results) {
+    std::vector<double> times, errors;
+    for (const Measurement& m : results.measurements) {
+        if (can_be_drawn(m)) {
+            times.push_back(m.wall_seconds);
+            errors.push_back(clamped_error(results, m));
+            if (std::isfinite(m.rel_mse.deviation)) {
+                errors.push_back(errors.back() + m.rel_mse.deviation);
+            }
+        }
+    }
+    if (const std::optional<double> level = noise_level(results); level && !errors.empty()) {
+        errors.push_back(*level);
+    }
+    LogAxis y = log_axis(errors);
+    if (any_clamped(results)) {
+        y = truncated_below(y, results.least_error);
+    }
+    return {log_axis(times), y, static_cast<double>(plot.width), static_cast<double>(plot.height)};
 }
 
 } // namespace
@@ -207,7 +255,7 @@ LogAxis log_axis(const std::vector<double>& values) {
             round.push_back(std::stod(fmt::format("{}e{}", step, decade)));
         }
     }
-    // A round number beyond each end, so that no point lies on the border.
+    // Takes a round number beyond each end, so that no point lies on the frame.
     axis.low = *std::prev(std::lower_bound(round.begin(), round.end(), axis.low));
     axis.high = *std::upper_bound(round.begin(), round.end() - 1, axis.high);
     for (const double tick : round) {
@@ -221,46 +269,14 @@ LogAxis log_axis(const std::vector<double>& values) {
 
 Plot lay_out(const Results& results) {
     Plot plot;
-    std::vector<double> times, errors;
-    for (const Measurement& m : results.measurements) {
-        if (can_be_drawn(m)) {
-            times.push_back(m.wall_seconds);
-            errors.push_back(counted_error(results, m));
-            if (std::isfinite(m.rel_mse.deviation)) {
-                errors.push_back(errors.back() + m.rel_mse.deviation);
-            }
-        }
-    }
-    if (const std::optional<double> level = noise_level(results); level && !errors.empty()) {
-        errors.push_back(*level);
-    }
-    LogAxis y = log_axis(errors);
-    if (any_clamped(results)) {
-        y = cut_below(y, results.least_error);
-    }
-    const Frame frame{log_axis(times), y, static_cast<double>(plot.width),
-                      static_cast<double>(plot.height)};
+    const Frame frame = frame_of(plot, results);
     add_axes(plot, frame);
     add_title(plot, results);
     add_noise(plot, results, frame);
     add_bars(plot, results, frame);
     const std::vector<std::size_t> front = front_of(results);
-    std::vector<Place> steps;
-    for (const std::size_t i : front) {
-        const Measurement& m = results.measurements[i];
-        if (can_be_drawn(m)) {
-            steps.push_back(frame.at(m.wall_seconds, counted_error(results, m)));
-        }
-    }
-    add_front(plot, steps);
-    for (std::size_t i = 0; i < results.measurements.size(); ++i) {
-        const Measurement& m = results.measurements[i];
-        if (can_be_drawn(m)) {
-            plot.points.push_back(
-                {frame.at(m.wall_seconds, counted_error(results, m)), color_of(results, m.method),
-                 std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
-        }
-    }
+    add_front(plot, results, frame, front);
+    add_points(plot, results, frame, front);
     add_legend(plot, results);
     return plot;
 }

@@ -2,7 +2,6 @@
 
 #include "sweep/results.hpp"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,56 +11,60 @@ namespace argand {
 /// A logarithmic axis.
 struct LogAxis {
     double low = 0.1, high = 10;
-    std::vector<double> ticks; ///< ascending, within
+    std::vector<double> ticks; ///< ascending, within [low, high]
 };
 
-/// An axis that holds these numbers above 0, with round ends.
+/// An axis with round ends that holds these values, all above 0.
 LogAxis log_axis(const std::vector<double>& values);
 
-/// A place in a picture, in pixels from the top left.
+/// A position in the plot, in pixels from the top left.
 struct Place {
     double x = 0, y = 0;
 };
 
+/// A measured setting, or an entry of the legend.
 struct PlotPoint {
     Place place;
     std::uint32_t color = 0; ///< 0xRRGGBB, sRGB
     bool on_front = false;
-    std::string title; ///< says what it is, on several lines
+    std::string title; ///< tooltip, on several lines
 };
 
 struct PlotLabel {
-    Place place; ///< its left end, middle or right end, at mid-height
+    Place place; ///< left end, middle or right end of the text, at mid-height
     enum class Align { left, middle, right } align = Align::left;
     std::string text;
     std::uint32_t color = 0;
 };
 
+/// The parts of a plot that are made of lines.
+enum class LineKind { grid, axis, noise, bar, front };
+
 struct PlotLine {
+    LineKind kind = LineKind::grid;
     Place from, to;
     std::uint32_t color = 0;
-    double width = 1;
+    double width = 1; ///< in pixels
 };
 
-/// Error against time, both logarithmic, laid out; it is drawn as SVG or PNG from this.
+/// The layout of a plot of error against time, with logarithmic axes.
 struct Plot {
     int width = 960, height = 600;
-    std::vector<PlotLine>
-        lines; ///< grid, axes, noise, bars, front: in the order in which they are drawn
-    std::vector<PlotPoint> points;
-    std::vector<PlotLabel> labels;
+    std::vector<PlotLine> lines;   ///< in drawing order
+    std::vector<PlotPoint> points; ///< the measurements, then the legend; drawn above the lines
+    std::vector<PlotLabel> labels; ///< drawn last
 };
 
-/// A point at the time and the counted error of each measurement that has both, with a bar of ± the
-/// deviation of one seed; those that count as `least_error` lie on the lower edge. A line at the
-/// reference's own error. A front drawn in steps, as what lies above and to the right of a point is
-/// worse.
+/// Lays out a point at the time and the clamped error of each measurement for which both are
+/// finite, with a bar of ± one standard deviation of a single seed. Clamped measurements lie on the
+/// lower edge. A line marks the reference's own error. The Pareto front is drawn in steps, because
+/// everything above and to the right of one of its points is worse.
 Plot lay_out(const Results& results);
 
-/// An <svg> element, without reference to anything outside.
+/// The plot as an <svg> element for use inside an HTML page. Refers to nothing outside.
 std::string to_svg(const Plot& plot);
 
-/// The same as a picture, linear RGB.
-Image to_image(const Plot& plot);
+/// The plot as the contents of an SVG file, on a white background.
+std::string to_svg_file(const Plot& plot);
 
 } // namespace argand

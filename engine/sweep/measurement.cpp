@@ -32,7 +32,7 @@ Spread spread_of(const std::vector<double>& values) {
     return spread;
 }
 
-/// JSON has no infinity, which an error is where the reference is black and the picture is not.
+/// Null stands for infinity, which JSON lacks: the error of a picture whose reference is black.
 double number_or_infinity(const Json& json) {
     return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
 }

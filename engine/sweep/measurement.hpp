@@ -7,29 +7,30 @@
 
 namespace argand {
 
-/// Mean over the seeds and standard deviation of one of them; 0 where there is one seed.
+/// Mean over the seeds, and standard deviation of a single seed: 0 if there is only one.
 struct Spread {
     double mean = 0;
     double deviation = 0;
 };
 
-/// A setting, measured.
+/// The cost and the error of a setting.
 struct Measurement {
-    std::string key; ///< all its parameters (sweep/parameters.hpp)
+    std::string key; ///< parameter_key() of the setting
     std::string method, knob, value;
     std::string options; ///< of `argand render`
-    std::string picture; ///< file of its first seed's picture, relative to the sweep's folder
+    std::string
+        picture; ///< file with the picture of the first seed, relative to the sweep's folder
     std::uint64_t seeds = 0;
     double wall_seconds = 0;              ///< median
     std::optional<double> device_seconds; ///< median
     std::uint64_t peak_bytes = 0;
     Spread rel_mse, ssim;
-    std::optional<double> bias,
-        variance; ///< squared bias and variance, whose sum is the mean relMSE; none: one seed
+    /// Squared bias and variance, whose sum is the mean relMSE. None if there is only one seed.
+    std::optional<double> bias, variance;
 };
 
-/// Of pictures of one setting that differ in their seeds alone. The squared bias is estimated
-/// without bias, so that it may be less than 0 where there is hardly any.
+/// Measures a setting from trials that differ only in their seeds. The estimate of the squared bias
+/// is itself unbiased, so it may be negative where there is hardly any bias.
 Measurement measure(const Setting& setting, const Trials& trials, const Reference& reference);
 
 nlohmann::ordered_json to_json(const Measurement& measurement);

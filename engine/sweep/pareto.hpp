@@ -6,14 +6,14 @@
 
 namespace argand {
 
-/// What a setting costs and what it leaves.
+/// The cost of a setting in seconds, and its error.
 struct TimeAndError {
     double seconds = 0;
     double error = 0;
 };
 
-/// Indices of the points to which no other is as quick and as exact and better in one of them, the
-/// quickest first. Points that are not finite are left out; of equal ones the first stays.
+/// Indices of the non-dominated points, fastest first. Omits points that are not finite; of equal
+/// points it keeps the first.
 std::vector<std::size_t> pareto_front(std::span<const TimeAndError> points);
 
 } // namespace argand

@@ -17,12 +17,12 @@ namespace argand {
 
 namespace {
 
-// Of each picture of the pair, in the first round; later rounds double.
+// Samples per pixel of each image of the pair in the first round. Later rounds double them.
 constexpr double first_samples = 16;
-// Seeds of the reference's rounds, which no setting has.
+// Seed of the reference's first round. Settings use other seeds.
 constexpr std::uint32_t first_seed = 0x80000000u;
 
-/// relMSE of the pair's mean, from the difference of the two.
+/// relMSE of the mean of two images, from their difference.
 double own_error_of(const Image& a, const Image& b) {
     return rel_variance(std::array{a, b}, a, b) / 2;
 }
@@ -35,7 +35,7 @@ double least_error(std::span<const Image> pilots, const Reference& reference) {
     return least;
 }
 
-/// The mean of so many samples with a picture of some more.
+/// Adds an image of `samples` samples to a mean of `before` samples.
 Image with_more(const Image& mean, double before, const Image& more, double samples) {
     return before > 0 ? weighted_mean(mean, before, more, samples) : more;
 }
@@ -86,7 +86,7 @@ std::optional<Reference> render_reference(const RenderTrials& render, const Rend
         if (*reference.own_error <= reference_share * least_error(pilots, reference)) {
             return reference;
         }
-        // Twice as many, or as many as there is time for.
+        // Doubles the samples, as far as time allows.
         const double round_seconds = std::max(seconds_since(start) - before, 1e-6);
         samples =
             std::floor(samples * std::min(2.0, (seconds - seconds_since(start)) / round_seconds));
@@ -102,8 +102,7 @@ Reference read_reference(const std::vector<std::filesystem::path>& files, int wi
         const std::vector<Layer> layers = read_image(file);
         const Image* image = find_layer(layers, "");
         if (!image) {
-            fail("reading the reference '{}': it has no channels R, G, B of the whole picture",
-                 file.string());
+            fail("reading the reference '{}': it has no channels R, G, B", file.string());
         }
         if (image->width != width || image->height != height) {
             fail("reading the reference '{}': it has {} × {} pixels; give --size {}x{}",
@@ -128,12 +127,12 @@ Reference reread_reference(const std::filesystem::path& file) {
     try {
         layers = read_exr(file);
     } catch (const Error& error) {
-        fail("{}; remove it, and it is made again", error.what());
+        fail("{}; remove it to render it again", error.what());
     }
     const Image* a = find_layer(layers, "a");
     const Image* b = find_layer(layers, "b");
     if (!a || !b) {
-        fail("reading the reference '{}': it is not of a sweep; remove it, and it is made again",
+        fail("reading the reference '{}': no sweep has written it; remove it to render it again",
              file.string());
     }
     return {.a = *a, .b = *b};

@@ -9,38 +9,42 @@
 
 namespace argand {
 
-/// A setting that could not be rendered, for want of memory say.
+/// A setting that could not be rendered, for example because memory ran out.
 struct Failure {
     std::string options; ///< of `argand render`
     std::string why;
 };
 
-/// What is known of one scene, in one size, on one device, against one reference.
+/// The results of a sweep of one scene at one size, on one device, against one reference.
 struct Results {
-    nlohmann::ordered_json run;            ///< what it is of: another is not gone on with
-    std::uint64_t reference_samples = 0;   ///< per pixel; 0: not known
+    nlohmann::ordered_json run;          ///< what was measured; a sweep resumes only if it is equal
+    std::uint64_t reference_samples = 0; ///< per pixel; 0: unknown
     std::optional<double> reference_error; ///< Reference::own_error
     double least_error = rounding_error;   ///< least_error_of the reference
-    LearntWidths learnt;
+    LearntWidths learnt;                   ///< the bandwidths that each method chose
     std::vector<Measurement> measurements;
-    std::vector<Failure> failures; ///< of the last run; they are tried again in the next one
-    bool complete = false;         ///< nothing of the sweep is missing but these
+    std::vector<Failure> failures; ///< in the last run; the next one tries them again
+    bool complete = false;         ///< all settings are measured, except those that failed
 };
 
 nlohmann::ordered_json to_json(const Results& results);
-/// Reads what was written as JSON. Error if the file is no such thing.
+/// Reads results that were written as JSON. Throws Error if the file holds anything else.
 Results read_results(const std::filesystem::path& file);
 
-/// The mean relMSE as it is compared and drawn: what is below `least_error`, 0 or less included,
-/// counts as that. Infinity if it is not finite.
-double counted_error(const Results& results, const Measurement& measurement);
+/// The mean relMSE as it is compared and drawn: at least `least_error`, even where the measured one
+/// is 0 or negative. Infinity if the measured one is not finite.
+double clamped_error(const Results& results, const Measurement& measurement);
 
-/// Indices of the measurements on the Pareto front of median wall time and counted error, the
-/// quickest first.
+/// Indices of the measurements on the Pareto front of median wall time and clamped error, fastest
+/// first.
 std::vector<std::size_t> front_of(const Results& results);
 
-/// One line for each measurement below one that names the columns; what is not known or not finite
-/// is empty. Errors are as they were measured.
+/// A line that names the columns, then a line for each measurement. Values that are unknown or not
+/// finite are empty. Errors are not clamped.
 std::string to_csv(const Results& results);
+
+/// Reads the measurements that `to_csv` wrote. A sweep's CSV does not hold its run, its reference
+/// or its failures. Throws Error if the file holds anything else.
+Results read_csv(const std::filesystem::path& file);
 
 } // namespace argand

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::uint32_t, 1> pilot_seed{0x40000000u}; // which no setting has
+constexpr std::array<std::uint32_t, 1> pilot_seed{0x40000000u}; // settings use other seeds
 
 fs::path results_file(const fs::path& folder) { return folder / "tradeoff.json"; }
 
@@ -31,7 +31,7 @@ void make_folder(const fs::path& folder) {
     std::error_code failed;
     fs::create_directories(folder, failed);
     if (failed) {
-        fail("making the folder '{}': {}; name another one", folder.string(), failed.message());
+        fail("making the folder '{}': {}; choose another one", folder.string(), failed.message());
     }
 }
 
@@ -54,7 +54,8 @@ void save(const fs::path& folder, const Results& results) {
     write_json(results_file(folder), to_json(results));
 }
 
-/// Trials that tell of the host's want of memory as of the device's.
+/// Turns std::bad_alloc into Error, so that the host running out of memory is handled as the device
+/// running out of memory.
 RenderTrials without_bad_alloc(const RenderTrials& render, MethodTable methods) {
     return
         [&render, methods](const RenderSettings& settings, std::span<const std::uint32_t> seeds) {
@@ -67,11 +68,10 @@ RenderTrials without_bad_alloc(const RenderTrials& render, MethodTable methods) 
         };
 }
 
-/// Whether a render was finished.
 enum class Outcome { rendered, failed, interrupted };
 
-/// One render of a setting, whose picture is to be had without counting as measured: where it
-/// fails, for want of memory say, other settings can be measured all the same.
+/// Renders a setting once, without measuring it. If it fails, for example because memory ran out,
+/// other settings may still work.
 Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Trial& trial) {
     try {
         std::optional<Trials> pilot = render(settings, pilot_seed);
@@ -85,17 +85,17 @@ Outcome try_pilot(const RenderTrials& render, const RenderSettings& settings, Tr
     }
 }
 
-bool learns_widths(const MethodInfo& method) {
+bool learns_bandwidth(const MethodInfo& method) {
     return std::any_of(method.options.begin(), method.options.end(),
                        [](const Option& option) { return option.sweep.around != nullptr; });
 }
 
-/// What each method chooses for the base by itself, if it can be rendered; false if it was
-/// interrupted.
+/// Finds the bandwidths that each method chooses for the base, if it can be rendered. Returns false
+/// if it was interrupted.
 bool learn_widths(const TradeoffRequest& request, const RenderTrials& render,
                   LearntWidths& learnt) {
     for (const std::string& method : request.methods) {
-        if (!learns_widths(request.table.at(method)) || learnt.contains(method)) {
+        if (!learns_bandwidth(request.table.at(method)) || learnt.contains(method)) {
             continue;
         }
         RenderSettings settings = request.base;
@@ -112,11 +112,12 @@ bool learn_widths(const TradeoffRequest& request, const RenderTrials& render,
     return true;
 }
 
-/// A setting for each number of photons and samples, the most first.
+/// Settings by their numbers of photons and samples, largest first.
 using ByWork = std::map<std::pair<std::uint64_t, std::uint64_t>, RenderSettings, std::greater<>>;
 
-/// Of each method, a picture of the setting that takes the most photons and samples and can be
-/// rendered: about the least errors that there are going to be. Nothing if it was interrupted.
+/// Renders for each method the largest numbers of photons and samples that can be rendered. The
+/// errors of these pictures are about the least that the sweep will measure. Returns nothing if it
+/// was interrupted.
 std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& settings,
                                                 const RenderTrials& render) {
     std::map<std::string, ByWork> methods;
@@ -150,13 +151,13 @@ std::optional<Reference> make_reference(const TradeoffRequest& request,
                   : std::nullopt;
 }
 
-/// A setting's picture, by name so that a user finds it.
+/// File name of a setting's picture, which tells users the setting.
 std::string picture_file(const Setting& setting) {
-    const std::string turned = setting.value.empty() ? "" : "-" + setting.value;
-    return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.knob, turned);
+    const std::string value = setting.value.empty() ? "" : "-" + setting.value;
+    return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.knob, value);
 }
 
-/// Adds a measurement or a failure; false if it was interrupted.
+/// Adds a measurement or a failure to the results. Returns false if it was interrupted.
 bool measure_setting(const TradeoffRequest& request, const Setting& setting,
                      const RenderTrials& render, const Reference& reference, Results& results) {
     std::vector<std::uint32_t> seeds(request.seeds);
@@ -179,7 +180,7 @@ bool measure_setting(const TradeoffRequest& request, const Setting& setting,
     return true;
 }
 
-/// What is not the same in two runs, with both values.
+/// The keys in which two runs differ, with both values.
 std::string differences(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now) {
     const auto value = [](const nlohmann::ordered_json& run, const std::string& key) {
         if (!run.contains(key)) {
@@ -200,7 +201,8 @@ std::string differences(const nlohmann::ordered_json& before, const nlohmann::or
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// The results so far, which are those of the same run. Nothing if there are none.
+/// The results in the folder, without settings whose picture is lost. Nothing if there are none.
+/// Throws Error if they belong to another run.
 std::optional<Results> results_before(const TradeoffRequest& request,
                                       const nlohmann::ordered_json& run) {
     const fs::path file = results_file(request.folder);
@@ -209,7 +211,7 @@ std::optional<Results> results_before(const TradeoffRequest& request,
     }
     Results results = read_results(file);
     if (results.run != run) {
-        fail("going on with '{}': it is of another {}; remove the folder, or name another with -o",
+        fail("resuming '{}': it is of another {}; remove the folder, or choose another with -o",
              file.string(), differences(results.run, run));
     }
     std::erase_if(results.measurements,

@@ -13,7 +13,7 @@ namespace {
 constexpr int warm_up_side = 16;
 constexpr std::uint64_t warm_up_photons = 2'000;
 
-/// The same kernels in a render of little work.
+/// Settings for a quick render that uses the same kernels.
 RenderSettings warm_up(RenderSettings settings) {
     settings.width = std::min(settings.width, warm_up_side);
     settings.height = std::min(settings.height, warm_up_side);
@@ -23,14 +23,14 @@ RenderSettings warm_up(RenderSettings settings) {
 }
 
 std::optional<Trial> render_once(Device& device, const Scene& scene, const RenderSettings& settings,
-                                 const std::function<bool()>& go_on, MethodTable methods) {
+                                 const std::function<bool()>& keep_going, MethodTable methods) {
     device.reset_stage_times();
     const Clock::time_point start = Clock::now();
     RenderResult result = render(
-        device, scene, settings, [&](double) { return go_on(); }, nullptr, methods);
+        device, scene, settings, [&](double) { return keep_going(); }, nullptr, methods);
     Trial trial;
     trial.wall_seconds = seconds_since(start);
-    if (result.statistics.interrupted || !go_on()) {
+    if (result.statistics.interrupted || !keep_going()) {
         return std::nullopt;
     }
     if (device.info().features.timestamps) {
@@ -47,17 +47,17 @@ std::optional<Trial> render_once(Device& device, const Scene& scene, const Rende
 } // namespace
 
 RenderTrials trials_on_device(const OpenDevice& open, const Scene& scene,
-                              const std::function<bool()>& go_on, MethodTable methods) {
+                              const std::function<bool()>& keep_going, MethodTable methods) {
     return [=, &scene](RenderSettings settings,
                        std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
         const std::unique_ptr<Device> device = open();
-        if (!render_once(*device, scene, warm_up(settings), go_on, methods)) {
+        if (!render_once(*device, scene, warm_up(settings), keep_going, methods)) {
             return std::nullopt;
         }
         Trials trials;
         for (const std::uint32_t seed : seeds) {
             settings.seed = seed;
-            std::optional<Trial> trial = render_once(*device, scene, settings, go_on, methods);
+            std::optional<Trial> trial = render_once(*device, scene, settings, keep_going, methods);
             if (!trial) {
                 return std::nullopt;
             }

@@ -6,7 +6,7 @@
 namespace argand {
 namespace {
 
-TEST(ErrorModel, PassesForAnErrorAreTheFewest) {
+TEST(ErrorModel, FindsTheFewestPassesForAnError) {
     const ErrorModel model{.fixed = 0.05, .density = 0.01, .bias = {0.002, 0}};
     for (const double error : {0.05, 0.01, 0.002, 0.001}) {
         const double passes = passes_for(model, error);
@@ -18,8 +18,8 @@ TEST(ErrorModel, PassesForAnErrorAreTheFewest) {
     EXPECT_EQ(passes_for({.fixed = 0, .density = 0, .bias = {0, 0}}, 1e-9), 1);
 }
 
-TEST(ErrorModel, NoiseIsSplitByHowItGrowsAsWidthsShrink) {
-    // At the widths for 8 passes areas are half as large.
+TEST(ErrorModel, SplitsNoiseByItsGrowthAsBandwidthsShrink) {
+    // Kernels at the bandwidth for 8 passes have half the area.
     const ErrorModel model = fit_noise(0.03 + 0.01, 0.03 + 0.02, 8);
     EXPECT_NEAR(model.fixed, 0.03, 1e-12);
     EXPECT_NEAR(model.density, 0.01, 1e-12);
@@ -28,11 +28,13 @@ TEST(ErrorModel, NoiseIsSplitByHowItGrowsAsWidthsShrink) {
     EXPECT_EQ(fit_noise(0.04, 10, 8).fixed, 0);
 }
 
-TEST(ErrorModel, FirstPassesAreAtTheWidthsForOne) {
-    const ErrorModel model{.fixed = 0.03, .density = 0.01, .bias = {0.002, 0.001}, .wide = 2};
+TEST(ErrorModel, FirstPassesHaveTheInitialBandwidth) {
+    const ErrorModel model{
+        .fixed = 0.03, .density = 0.01, .bias = {0.002, 0.001}, .initial_passes = 2};
     EXPECT_NEAR(noise_after(model, 2), (0.03 + 0.01) / 2, 1e-12);
     EXPECT_EQ(bias_after(model, 2).value, 0.002);
-    // Of eight passes two are wide; the widths for eight let 1 / sqrt(2) of the bias remain.
+    // Two of eight passes have the initial bandwidth. That for eight passes leaves 1 / sqrt(2) of
+    // the bias.
     EXPECT_NEAR(noise_after(model, 8), (2 * 0.04 + 6 * 0.05) / 64, 1e-12);
     const double share = 0.25 + 0.75 / std::sqrt(2);
     EXPECT_NEAR(bias_after(model, 8).value, 0.002 * share * share, 1e-12);

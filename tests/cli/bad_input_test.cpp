@@ -191,7 +191,7 @@ TEST_F(BadInput, ErrorsThatCannotBeAimedAt) {
     expect_failure("render '" + asset("ring.glb") +
                        "' --size 8x8 --target-error 0.01 --method path",
                    failure, "leave --method out");
-    expect_failure(scene + "--target-error 1e-9", failure, "ask for more error");
+    expect_failure(scene + "--target-error 1e-9", failure, "allow a larger error");
 }
 
 TEST_F(BadInput, PicturesThatCannotBeCompared) {

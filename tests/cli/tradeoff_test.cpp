@@ -25,7 +25,7 @@ TEST_F(Tradeoff, MeasuresAndGoesOn) {
     EXPECT_EQ(second.out, first.out);
     EXPECT_EQ(read_text(file("sweep/tradeoff.csv")), csv);
     expect_failure(on_scene + " --seeds 3", 1,
-                   "another seeds (2, now 3); remove the folder, or name another with -o");
+                   "another seeds (2, now 3); remove the folder, or choose another with -o");
     const Outcome patient = argand(on_scene + " --seeds 2 --reference-seconds 7");
     EXPECT_EQ(patient.out, first.out) << patient.error;
     std::filesystem::remove(file("sweep/reference.exr"));
@@ -70,6 +70,23 @@ TEST_F(Tradeoff, WhatIsAsExactAsTheReferenceIsDrawn) {
     EXPECT_EQ(count("<circle"), 4 + 1u) << "and the legend's";
     EXPECT_GE(count("<tr class=\"front\">"), 1u);
     EXPECT_EQ(count("below: within the reference's noise"), 1u);
+}
+
+TEST_F(Tradeoff, Replots) {
+    const std::string on_scene = fmt::format("tradeoff '{}' ", asset("cornell_area.glb"));
+    write_text(file("old.csv"),
+               "method,knob,value,wall_seconds,device_seconds,peak_bytes,relMSE,relMSE_deviation,"
+               "SSIM,SSIM_deviation,squared_bias,variance,seeds,on_front,options\n"
+               "path,spp,4,1.5,,1000,0.01,0.001,0.9,0,,,2,1,--method path --spp 4\n");
+    const Outcome plotted = argand(on_scene + "--replot old.csv");
+    ASSERT_EQ(plotted.exit_code, 0) << plotted.error;
+    EXPECT_EQ(plotted.out, "old.svg: 1 settings plotted\n");
+    const std::string svg = read_text(file("old.svg"));
+    EXPECT_THAT(svg, HasSubstr("cornell_area.glb: error against time"));
+    EXPECT_THAT(svg, HasSubstr("--method path --spp 4</title>"));
+    write_text(file("bad.csv"), "a,b\n1,2\n");
+    expect_failure(on_scene + "--replot bad.csv", 1, "bad.csv': it is not a table");
+    expect_failure(on_scene + "--replot missing.csv", 1, "missing.csv");
 }
 
 TEST_F(Tradeoff, BadInput) {

@@ -26,7 +26,7 @@ TEST_F(PageTest, OfASweepInTwoPartsIsThatOfAWholeOne) {
         FakeRenderer first(static_cast<int>(stop)), second;
         draw_results(scratch_ / folder, run(first, scene_, request(folder)));
         EXPECT_EQ(page(folder, run(second, scene_, request(folder))), expected) << stop;
-        EXPECT_EQ(text(folder + "/tradeoff.png"), text("whole/tradeoff.png")) << stop;
+        EXPECT_EQ(text(folder + "/tradeoff.svg"), text("whole/tradeoff.svg")) << stop;
     }
 }
 
@@ -63,7 +63,7 @@ TEST_F(PageTest, RefersToNothingOutside) {
 
 TEST_F(PageTest, OfOneSeedAndABlackScene) {
     const std::string html = page("dark", run_on_a_black_scene(request("dark")));
-    EXPECT_THAT(html, HasSubstr("no error that could be told from none"));
+    EXPECT_THAT(html, HasSubstr("no measurable error"));
     EXPECT_FALSE(std::regex_search(html, std::regex("\\b(nan|inf)\\b")));
 }
 

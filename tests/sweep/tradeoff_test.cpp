@@ -144,7 +144,7 @@ TEST_F(TradeoffTest, AReferenceThatIsLostIsMadeAgain) {
     EXPECT_EQ(text("a/tradeoff.csv"), csv);
     write_text(scratch_ / "a/reference.exr", before.substr(0, before.size() / 2));
     EXPECT_THAT(error_of([&] { run(second, scene_, request("a")); }),
-                HasSubstr("remove it, and it is made again"));
+                HasSubstr("remove it to render it again"));
 }
 
 TEST_F(TradeoffTest, AGivenReferenceThatIsLostIsReadAgain) {
@@ -174,8 +174,9 @@ TEST_F(TradeoffTest, DoesNotMixRuns) {
     run(renderer, scene_, request("a"));
     TradeoffRequest other = request("a");
     other.seeds = 3;
-    EXPECT_THAT(error_of([&] { run(renderer, scene_, other); }),
-                HasSubstr("another seeds (2, now 3); remove the folder, or name another with -o"));
+    EXPECT_THAT(
+        error_of([&] { run(renderer, scene_, other); }),
+        HasSubstr("another seeds (2, now 3); remove the folder, or choose another with -o"));
     other = request("a");
     other.run["scene"] = "another.glb";
     other.run["build"] = "b";

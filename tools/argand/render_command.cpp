@@ -1,6 +1,6 @@
 #include "commands.hpp"
 
-#include "autotune/aim.hpp"
+#include "autotune/autotune.hpp"
 #include "backend_options.hpp"
 #include "base/atomic_write.hpp"
 #include "base/clock.hpp"
@@ -40,10 +40,10 @@ struct RenderOptions {
     const MethodInfo& method() const { return methods.at(settings.method); }
 };
 
-/// A render, and what was chosen for it, if Argand chose.
+/// A render, and how it was autotuned, if it was.
 struct Rendered {
     RenderResult result;
-    std::optional<AimedRender> aimed;
+    std::optional<AutotunedRender> tuned;
 };
 
 std::size_t find_camera(const Scene& scene, const std::string& choice) {
@@ -67,12 +67,12 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
 }
 
 /// Whether Argand is to choose the method or the numbers of photons and samples.
-bool is_aimed(const RenderOptions& options, const CLI::App& command) {
+bool is_autotuned(const RenderOptions& options, const CLI::App& command) {
     return options.target_error || (options.settings.budget && !is_given(command, "--method"));
 }
 
 /// Throws UsageError on options that fix what Argand is asked to choose.
-void check_aimed(const RenderOptions& options, const CLI::App& command) {
+void check_autotuned(const RenderOptions& options, const CLI::App& command) {
     const MethodTable methods = options.methods;
     if (is_given(command, "--method")) {
         if (!options.method().abilities.resumable) {
@@ -104,8 +104,8 @@ void check_aimed(const RenderOptions& options, const CLI::App& command) {
 
 void check(const RenderOptions& options, const CLI::App& command) {
     check_methods({options.settings.method}, options.methods);
-    if (is_aimed(options, command)) {
-        check_aimed(options, command);
+    if (is_autotuned(options, command)) {
+        check_autotuned(options, command);
     }
     check_method_options(command, options.method(), options.methods);
     std::vector<std::string> files{options.scene};
@@ -127,7 +127,7 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
         progress->update(done);
         return !interrupted();
     };
-    if (!is_aimed(options, command)) {
+    if (!is_autotuned(options, command)) {
         progress.emplace("rendering", options.quiet);
         return {render(device, scene, options.settings, on_progress, nullptr, options.methods),
                 std::nullopt};
@@ -135,20 +135,20 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
     // How long pilots take shows only as they run.
     progress.emplace("trying methods", options.quiet);
     bool picked_one = false;
-    const Aim aim{.error = options.target_error,
-                  .seconds = options.settings.budget,
-                  .methods = options.methods};
-    const Chosen chosen{.method = is_given(command, "--method"),
-                        .samples = is_given(command, "--spp"),
-                        .photons = is_given(command, "--photons")};
+    const Target target{.error = options.target_error,
+                        .seconds = options.settings.budget,
+                        .methods = options.methods};
+    const UserSet user_set{.method = is_given(command, "--method"),
+                           .samples = is_given(command, "--spp"),
+                           .photons = is_given(command, "--photons")};
     const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
         return render(
             device, scene, settings,
             [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass,
             options.methods);
     };
-    AimedRender aimed =
-        render_aimed(passes, scene, options.settings, chosen, aim, [&](const AimedRender& picked) {
+    AutotunedRender tuned = autotune(
+        passes, scene, options.settings, user_set, target, [&](const AutotunedRender& picked) {
             progress.reset();
             if (!options.quiet) {
                 fmt::print(stderr, "argand: picked {}\n", describe_pick(picked));
@@ -156,10 +156,10 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
             progress.emplace("rendering", options.quiet);
             picked_one = true;
         });
-    options.settings = aimed.settings;
-    options.settings.budget = aim.seconds;
-    RenderResult result = std::move(aimed.result);
-    return {std::move(result), std::move(aimed)};
+    options.settings = tuned.settings;
+    options.settings.budget = target.seconds;
+    RenderResult result = std::move(tuned.result);
+    return {std::move(result), std::move(tuned)};
 }
 
 /// Notes for the user on a render that took so many `seconds`.
@@ -169,8 +169,8 @@ std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& 
     const RenderSettings& settings = options.settings;
     const std::uint64_t passes = rendered.result.statistics.passes;
     std::vector<std::string> notes;
-    if (rendered.aimed) {
-        notes.push_back(describe_outcome(*rendered.aimed));
+    if (rendered.tuned) {
+        notes.push_back(describe_outcome(*rendered.tuned));
     }
     if (settings.budget && seconds > clearly_more * *settings.budget) {
         notes.push_back(
@@ -222,7 +222,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     const std::vector<std::string> notes = notes_on(options, rendered, times.render);
     if (result.statistics.samples == 0) {
         fail("rendering '{}': interrupted {}; nothing is written", options.scene,
-             rendered.aimed && rendered.aimed->prospects.empty()
+             rendered.tuned && rendered.tuned->candidates.empty()
                  ? "while methods were tried"
                  : "before the first pass was finished");
     }
@@ -243,8 +243,8 @@ void render_file(RenderOptions& options, const CLI::App& command) {
         for (const std::string& note : notes) {
             report["notes"].push_back(note);
         }
-        if (rendered.aimed) {
-            report["aim"] = aim_report(*rendered.aimed, options.methods);
+        if (rendered.tuned) {
+            report["aim"] = autotune_report(*rendered.tuned, options.methods);
         }
         write_json(options.report, report);
     }

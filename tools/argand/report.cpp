@@ -138,10 +138,10 @@ Json render_report(const RenderReport& render) {
     return report;
 }
 
-Json aim_report(const AimedRender& render, MethodTable methods) {
-    const Aim& aim = render.aim;
+Json autotune_report(const AutotunedRender& render, MethodTable methods) {
+    const Target& target = render.target;
     Json ways = Json::array();
-    for (const Prospect& p : render.prospects) {
+    for (const Candidate& p : render.candidates) {
         ways.push_back({{"method", p.settings.method},
                         {"spp_a_pass", p.settings.samples},
                         {"photons_a_pass", methods.at(p.settings.method).abilities.photon_map
@@ -152,13 +152,13 @@ Json aim_report(const AimedRender& render, MethodTable methods) {
                         {"relMSE", p.error},
                         {"squared_bias", bias_after(p.model, p.passes).value}});
     }
-    return {{"target_error", aim.error ? Json(*aim.error) : Json()},
-            {"budget", aim.seconds ? Json(*aim.seconds) : Json()},
+    return {{"target_error", target.error ? Json(*target.error) : Json()},
+            {"budget", target.seconds ? Json(*target.seconds) : Json()},
             {"expected", ways},
             {"pilot_seconds", render.pilot_seconds},
             {"noise", render.measured ? Json(render.measured->noise) : Json()},
             {"squared_bias", render.measured ? Json(render.measured->bias.value) : Json()},
-            {"reached", aim.error ? Json(render.reached) : Json()}};
+            {"reached", target.error ? Json(render.reached) : Json()}};
 }
 
 } // namespace argand

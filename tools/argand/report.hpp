@@ -1,6 +1,6 @@
 #pragma once
 
-#include "autotune/aim.hpp"
+#include "autotune/autotune.hpp"
 #include "device/device.hpp"
 #include "methods/method.hpp"
 
@@ -32,6 +32,6 @@ struct RenderReport {
 nlohmann::ordered_json render_report(const RenderReport& render);
 
 /// What the user asked for, what was expected of each candidate, and the result.
-nlohmann::ordered_json aim_report(const AimedRender& render, MethodTable methods);
+nlohmann::ordered_json autotune_report(const AutotunedRender& render, MethodTable methods);
 
 } // namespace argand

@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include "backend_options.hpp"
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
 #include "base/machine.hpp"
@@ -10,6 +11,7 @@
 #include "numbers.hpp"
 #include "picture_size.hpp"
 #include "plot/page.hpp"
+#include "plot/plot.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
 #include "sweep/tradeoff.hpp"
@@ -29,6 +31,7 @@ struct TradeoffOptions {
     std::string backend = "auto";
     std::string device;
     std::string reference, second_reference;
+    std::string replot;
     bool quick = false;
     bool quiet = false;
     TradeoffRequest request;
@@ -38,7 +41,7 @@ void check(const TradeoffOptions& options) {
     check_methods(options.request.methods, options.table);
     if (options.reference.empty() && !options.second_reference.empty()) {
         throw UsageError(
-            "reading --reference-2: it goes with --reference, the other picture of the pair");
+            "reading --reference-2: it requires --reference, the other picture of the pair");
     }
 }
 
@@ -57,13 +60,14 @@ void summarise(const Results& results, const std::filesystem::path& folder) {
                (folder / "tradeoff.html").string(), results.measurements.size());
 }
 
-/// Tells builds of the program apart, of which each may compute something else.
+/// Identifies this build of the program: another one may render other pictures.
 std::string build_name() {
     const std::vector<std::uint8_t> program = read_file(program_file());
     return fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(program))));
 }
 
-void run(TradeoffOptions& options) {
+/// Completes the request with everything that follows from the options.
+void read_request(TradeoffOptions& options) {
     TradeoffRequest& request = options.request;
     const PictureSize size = parse_picture_size(options.size);
     request.base.width = size.width;
@@ -79,6 +83,52 @@ void run(TradeoffOptions& options) {
         options.folder.empty()
             ? std::filesystem::path(options.scene).filename().replace_extension(".tradeoff")
             : std::filesystem::path(options.folder);
+}
+
+/// Draws the plot of a CSV file beside it, without measuring anything.
+void replot(const TradeoffOptions& options) {
+    const TradeoffRequest& request = options.request;
+    Results results = read_csv(options.replot);
+    results.run = {{"scene", std::filesystem::path(options.scene).filename().string()}};
+    if (!request.reference_files.empty()) {
+        const Reference reference =
+            read_reference(request.reference_files, request.base.width, request.base.height);
+        results.reference_error = reference.own_error;
+        results.least_error = least_error_of(reference);
+    }
+    const std::filesystem::path plot =
+        std::filesystem::path(options.replot).replace_extension(".svg");
+    write_atomically(plot, to_svg_file(lay_out(results)));
+    if (!options.quiet) {
+        fmt::print("{}: {} settings plotted\n", plot.string(), results.measurements.size());
+    }
+}
+
+/// The results of the sweep, shown as they progress.
+Results measure(const TradeoffOptions& options, const Scene& scene) {
+    const RenderTrials render =
+        trials_on_device([&] { return open_backend(options.backend, options.device, true); }, scene,
+                         [] { return !interrupted(); }, options.table);
+    std::optional<Progress> progress;
+    std::string shown;
+    return measure_tradeoff(options.request, scene, render,
+                            [&](std::string_view work, double done) {
+                                if (work != shown) {
+                                    progress.reset();
+                                    progress.emplace(std::string(work), options.quiet);
+                                    shown = work;
+                                }
+                                progress->update(done);
+                            });
+}
+
+void run(TradeoffOptions& options) {
+    read_request(options);
+    if (!options.replot.empty()) {
+        replot(options);
+        return;
+    }
+    TradeoffRequest& request = options.request;
     catch_interrupts();
     const Scene scene = load_gltf(options.scene);
     const std::vector<std::uint8_t> file = read_file(options.scene);
@@ -88,24 +138,10 @@ void run(TradeoffOptions& options) {
                    {"argand", ARGAND_VERSION},  {"build", build_name()},
                    {"backend", device.backend}, {"device", device.name},
                    {"driver", device.driver}};
-    const RenderTrials render =
-        trials_on_device([&] { return open_backend(options.backend, options.device, true); }, scene,
-                         [] { return !interrupted(); }, options.table);
-    std::optional<Progress> progress;
-    std::string shown;
-    const Results results =
-        measure_tradeoff(request, scene, render, [&](std::string_view work, double done) {
-            if (work != shown) {
-                progress.reset();
-                progress.emplace(std::string(work), options.quiet);
-                shown = work;
-            }
-            progress->update(done);
-        });
-    progress.reset();
+    const Results results = measure(options, scene);
     draw_results(request.folder, results);
     if (!results.complete) {
-        fail("measuring '{}': interrupted; {} settings are measured, and the same command goes on",
+        fail("measuring '{}': interrupted after {} settings; the same command resumes",
              options.scene, results.measurements.size());
     }
     for (const Failure& failure : results.failures) {
@@ -120,44 +156,48 @@ void run(TradeoffOptions& options) {
 
 void add_tradeoff_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand(
-        "tradeoff", "Measure error against time of every method and knob on a scene");
+        "tradeoff", "Measure error against time of all methods and their options on a scene");
     auto options = std::make_shared<TradeoffOptions>(TradeoffOptions{.table = methods});
     TradeoffRequest& request = options->request;
     request.methods = methods.names();
     request.table = methods;
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command->add_option("-o,--output", options->folder,
-                        "Folder for tradeoff.html, .png, .csv and .json, the reference and all "
-                        "pictures; what is measured "
-                        "there is not measured again (default: SCENE's name with .tradeoff)");
+                        "Folder for tradeoff.html, .svg, .csv and .json, the reference and all "
+                        "pictures; settings measured there already are skipped (default: SCENE's "
+                        "name with .tradeoff)");
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command
         ->add_option("--seeds", request.seeds,
-                     "Renders of each setting; bias and variance are told apart from 2 on")
+                     "Renders of each setting; at least 2 separate bias from variance")
         ->capture_default_str()
         ->check(integer_between(1, 1000));
     command->add_option(
         "--reference", options->reference,
-        "Picture that counts as true (.exr) (default: two renders by the method path)");
+        "Picture that counts as true (.exr) (default: two renders with the method path)");
     command->add_option(
         "--reference-2", options->second_reference,
-        "Another one with independent noise, so that the noise of neither counts as error");
+        "A second one with independent noise, so that their noise does not count as error");
     command
-        ->add_option(
-            "--reference-seconds", request.reference_seconds,
-            "Time for rendering the reference, at most about so long; one that is there stays")
+        ->add_option("--reference-seconds", request.reference_seconds,
+                     "Approximate time limit for rendering the reference; an existing one is kept")
         ->capture_default_str()
         ->check(number_between(0, 1e7));
     command
         ->add_option("--methods", request.methods,
                      fmt::format("{}", fmt::join(methods.names(), ",")))
         ->delimiter(',');
-    command->add_flag("--quick", options->quick, "Numbers of photons and samples, and widths only");
+    command->add_flag("--quick", options->quick,
+                      "Vary only numbers of photons and samples, and bandwidths");
+    command->add_option("--replot", options->replot,
+                        "Only draw the plot of this tradeoff.csv again, as .svg beside it; with "
+                        "--reference and --reference-2 it shows their noise");
     add_backend_options(*command, options->backend, options->device);
     command->add_flag("-q,--quiet", options->quiet, "Print errors only");
-    command->footer("docs/tradeoff.md says how to read the plot. An interrupted sweep goes on "
-                    "where it stopped.\n\n"
-                    "Example:\n  argand tradeoff assets/cornell_area.glb -o sweep --quick");
+    command->footer(
+        "docs/tradeoff.md explains the plot. An interrupted sweep resumes when the same "
+        "command runs again.\n\n"
+        "Example:\n  argand tradeoff assets/cornell_area.glb -o sweep --quick");
     command->callback([options] { run(*options); });
 }
 

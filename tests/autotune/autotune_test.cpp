@@ -1,4 +1,4 @@
-#include "autotune/aim.hpp"
+#include "autotune/autotune.hpp"
 #include "base/clock.hpp"
 #include "image/metrics.hpp"
 #include "support/expect_error.hpp"
@@ -17,21 +17,21 @@ namespace {
 using testing::noisy;
 using testing::true_radiance;
 
-/// Stands in for the renderer: each pass of 16 samples has noise of its own; all methods but `path`
-/// have bias as well, that shrinks as ErrorModel says, and take longer.
+/// A fake renderer. Each pass has independent noise, of the given deviation for 16 samples. All
+/// methods except `path` also have bias, which shrinks as ErrorModel predicts, and take longer.
 class FakePasses {
 public:
-    double direct_deviation = 0; // of a layer `direct`, with no bias, beside what is estimated
+    double direct_deviation = 0; // noise of the layer `direct`, which has no bias
     double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
     double path_seconds = 0.002, map_seconds = 0.004;
     std::uint64_t interrupted_after = 1'000'000;
-    std::uint64_t most_passes = 1'000'000; // of a render: there are no random numbers for more
+    std::uint64_t most_passes = 1'000'000; // of one render, as if random numbers ran out
 
     RenderPasses passes() {
         return [this](const RenderSettings& settings, const OnPass& on_pass) {
             const bool is_path = settings.method == "path";
             const double work =
-                settings.samples / 16.0; // of what pilots have in so small a picture
+                settings.samples / 16.0; // relative to a pilot's pass of so small a picture
             RenderResult result;
             const auto pixels = static_cast<std::size_t>(settings.width * settings.height);
             const Image black{settings.width, settings.height,
@@ -73,7 +73,7 @@ public:
         };
     }
 
-    std::vector<std::string> methods; ///< of all renders, the last is the picture's
+    std::vector<std::string> methods; ///< of all renders; the last one is the final render
     std::set<std::uint32_t> streams;
     std::uint64_t total = 0;
 
@@ -100,98 +100,99 @@ double true_error(const Image& picture) {
     return rel_mse(picture, truth, truth);
 }
 
-AimedRender aim_at(FakePasses& fake, const Scene& scene, const Aim& aim, const Chosen& chosen = {},
-                   const RenderSettings& settings = small()) {
-    return render_aimed(fake.passes(), scene, settings, chosen, aim, [](const AimedRender&) {});
+AutotunedRender tune(FakePasses& fake, const Scene& scene, const Target& target,
+                     const UserSet& user_set = {}, const RenderSettings& settings = small()) {
+    return autotune(fake.passes(), scene, settings, user_set, target,
+                    [](const AutotunedRender&) {});
 }
 
-TEST(Aim, ErrorIsMetByTheQuickestMethod) {
+TEST(Autotune, FastestMethodReachesTheError) {
     FakePasses fake;
-    // As much as is usual: a squared bias of 0.0017 at the widths for one pass.
+    // The usual bias: its square is 0.0017 at the initial bandwidth.
     fake.map_bias = 0.08;
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.001, .seconds = {}});
-    EXPECT_TRUE(aimed.reached);
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.001, .seconds = {}});
+    EXPECT_TRUE(tuned.reached);
     EXPECT_NE(fake.methods.back(), "path");
-    EXPECT_EQ(fake.methods.back(), aimed.prospects.front().settings.method);
-    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.001, 1, 0.33);
+    EXPECT_EQ(fake.methods.back(), tuned.candidates.front().settings.method);
+    EXPECT_NEAR(true_error(tuned.result.layers[0].image) / 0.001, 1, 0.33);
     EXPECT_EQ(fake.streams.size(), 2u);
 }
 
-TEST(Aim, BiasIsPartOfTheError) {
+TEST(Autotune, BiasIsPartOfTheError) {
     FakePasses fake;
     fake.map_bias = 0.1;
     fake.path_deviation = 0.3;
-    // Squared bias is 0.0025 at the widths for one pass, and takes 10^5 passes to be this small.
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0003, .seconds = {}});
-    EXPECT_TRUE(aimed.reached);
+    // Squared bias is 0.0025 at the initial bandwidth. It takes 10^5 passes to fall to the target.
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.0003, .seconds = {}});
+    EXPECT_TRUE(tuned.reached);
     EXPECT_EQ(fake.methods.back(), "path");
-    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.0003, 1, 0.33);
+    EXPECT_NEAR(true_error(tuned.result.layers[0].image) / 0.0003, 1, 0.33);
 }
 
-TEST(Aim, TimeIsKeptWithPilotsIncluded) {
+TEST(Autotune, BudgetIncludesPilots) {
     FakePasses fake;
     const Clock::time_point start = Clock::now();
-    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.6});
+    const AutotunedRender tuned = tune(fake, box(), {.error = {}, .seconds = 0.6});
     const double seconds = seconds_since(start);
     EXPECT_GT(seconds, 0.45);
     EXPECT_LT(seconds, 0.9);
-    ASSERT_TRUE(aimed.measured);
-    EXPECT_GT(aimed.measured->noise, 0);
-    EXPECT_GT(aimed.result.statistics.passes, 20u);
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_GT(tuned.measured->noise, 0);
+    EXPECT_GT(tuned.result.statistics.passes, 20u);
 }
 
-TEST(Aim, ErrorThatTheTimeDoesNotAllowIsSaid) {
+TEST(Autotune, ReportsAnErrorThatTheBudgetDoesNotAllow) {
     FakePasses fake;
-    const Aim aim{.error = 1e-6, .seconds = 0.3};
-    const AimedRender aimed = aim_at(fake, box(), aim);
-    EXPECT_FALSE(aimed.reached);
-    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("is not reached"));
+    const Target target{.error = 1e-6, .seconds = 0.3};
+    const AutotunedRender tuned = tune(fake, box(), target);
+    EXPECT_FALSE(tuned.reached);
+    EXPECT_THAT(describe_outcome(tuned), ::testing::HasSubstr("is not reached"));
 }
 
-TEST(Aim, ErrorThatTakesTooLongIsRefused) {
+TEST(Autotune, RefusesAnErrorThatTakesTooLong) {
     FakePasses fake;
-    EXPECT_THAT(testing::error_of([&] { aim_at(fake, box(), {.error = 1e-9, .seconds = {}}); }),
-                ::testing::HasSubstr("ask for more error"));
+    EXPECT_THAT(testing::error_of([&] { tune(fake, box(), {.error = 1e-9, .seconds = {}}); }),
+                ::testing::HasSubstr("allow a larger error"));
 }
 
-TEST(Aim, ErrorThatTheChosenMethodCannotReachIsRefusedAtOnce) {
+TEST(Autotune, RefusesAtOnceAnErrorThatTheGivenMethodCannotReach) {
     FakePasses fake;
     RenderSettings settings = small();
     settings.method = "photons";
     const Clock::time_point start = Clock::now();
     EXPECT_THAT(testing::error_of([&] {
-                    aim_at(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings);
+                    tune(fake, box(), {.error = 1e-7, .seconds = {}}, {.method = true}, settings);
                 }),
-                ::testing::HasSubstr("ask for more error"));
+                ::testing::HasSubstr("allow a larger error"));
     EXPECT_LT(seconds_since(start), 2);
 }
 
-TEST(Aim, BiasFarFromWhatIsUsualIsSeen) {
+TEST(Autotune, MeasuresUnusuallyLargeBias) {
     FakePasses fake;
-    // A squared bias of 0.25, 150 times the usual one, of a method that the user wants.
+    // A squared bias of 0.25, 150 times the usual one, of the method that the user has set.
     fake.map_bias = 1;
     fake.path_deviation = 0.3;
     RenderSettings settings = small();
     settings.method = "photons";
-    const AimedRender aimed =
-        aim_at(fake, box(), {.error = 0.01, .seconds = 0.5}, {.method = true}, settings);
-    EXPECT_FALSE(aimed.reached);
-    ASSERT_TRUE(aimed.measured);
-    EXPECT_NEAR(aimed.measured->error() / true_error(aimed.result.layers[0].image), 1, 0.5);
+    const AutotunedRender tuned =
+        tune(fake, box(), {.error = 0.01, .seconds = 0.5}, {.method = true}, settings);
+    EXPECT_FALSE(tuned.reached);
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_NEAR(tuned.measured->error() / true_error(tuned.result.layers[0].image), 1, 0.5);
 }
 
-TEST(Aim, NoiseThatDoesNotFallEndsInTime) {
-    const Aim aim{.error = 1e-8, .seconds = {}};
-    const Prospect prospect{
+TEST(Autotune, EndsInTimeIfNoiseDoesNotFall) {
+    const Target target{.error = 1e-8, .seconds = {}};
+    const Candidate candidate{
         .settings = small(), .model = {.fixed = 0.01}, .seconds_per_pass = 0.001, .passes = 100};
-    const std::optional<Pair> no_truth;
-    Course course(aim, prospect, no_truth, 0);
-    const Pair halves{noisy(16, 16, 0, 0.5, 1), noisy(16, 16, 0, 0.5, 2)};
+    const std::optional<ImagePair> no_truth;
+    RunControl control(target, candidate, no_truth, 0);
+    const ImagePair halves{noisy(16, 16, 0, 0.5, 1), noisy(16, 16, 0, 0.5, 2)};
     Image mean = halves[0];
     for (std::uint64_t done = 0;
-         const std::optional<PassPlan> plan = course({done, [&] {
-                                                          return std::vector<Layer>{{"", mean}};
-                                                      }});) {
+         const std::optional<PassPlan> plan = control({done, [&] {
+                                                           return std::vector<Layer>{{"", mean}};
+                                                       }});) {
         ASSERT_LT(done, 1'000'000u);
         const Image& pass = halves[plan->stream];
         for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
@@ -200,73 +201,74 @@ TEST(Aim, NoiseThatDoesNotFallEndsInTime) {
         }
         ++done;
     }
-    EXPECT_FALSE(course.reached());
+    EXPECT_FALSE(control.reached());
 }
 
-TEST(Aim, PilotsAreShortWhereFewPassesDo) {
+TEST(Autotune, PilotsEndEarlyIfFewPassesSuffice) {
     FakePasses fake;
     fake.interrupted_after = pilot_passes;
-    const AimedRender few = aim_at(fake, box(), {.error = 0.01, .seconds = {}});
-    EXPECT_FALSE(few.prospects.empty());
+    const AutotunedRender few = tune(fake, box(), {.error = 0.01, .seconds = {}});
+    EXPECT_FALSE(few.candidates.empty());
     fake.total = 0;
-    EXPECT_TRUE(aim_at(fake, box(), {.error = 0.0005, .seconds = {}}).prospects.empty());
+    EXPECT_TRUE(tune(fake, box(), {.error = 0.0005, .seconds = {}}).candidates.empty());
 }
 
-TEST(Aim, PilotGoesOnAsThePictureIfNoOtherIsWorthIt) {
+TEST(Autotune, PilotContinuesAsTheFinalRenderIfNoOtherIsWorthIt) {
     FakePasses fake;
     fake.map_bias = 0.08;
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.005, .seconds = {}});
-    EXPECT_TRUE(aimed.reached);
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.005, .seconds = {}});
+    EXPECT_TRUE(tuned.reached);
     EXPECT_EQ(fake.methods.size(), 1u);
-    EXPECT_EQ(aimed.result.statistics.passes, fake.total);
-    EXPECT_NEAR(true_error(aimed.result.layers[0].image) / 0.005, 1, 0.33);
-    ASSERT_TRUE(aimed.measured);
-    EXPECT_EQ(aimed.measured->passes, static_cast<double>(fake.total));
+    EXPECT_EQ(tuned.result.statistics.passes, fake.total);
+    EXPECT_NEAR(true_error(tuned.result.layers[0].image) / 0.005, 1, 0.33);
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_EQ(tuned.measured->passes, static_cast<double>(fake.total));
 }
 
-TEST(Aim, PilotsEndWhenTheirShareOfTheTimeDoes) {
+TEST(Autotune, PilotsEndWhenTheirShareOfTheBudgetIsSpent) {
     FakePasses fake;
     fake.map_seconds = 0.2;
     fake.path_seconds = 0.2;
     fake.map_bias = 0.08;
-    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.9});
-    ASSERT_EQ(aimed.prospects.size(), 1u);
+    const AutotunedRender tuned = tune(fake, box(), {.error = {}, .seconds = 0.9});
+    ASSERT_EQ(tuned.candidates.size(), 1u);
     EXPECT_EQ(fake.methods.size(), 1u);
-    EXPECT_LT(aimed.pilot_seconds, 0.35);
-    EXPECT_GE(aimed.result.statistics.passes, 2u);
-    EXPECT_THAT(describe_pick(aimed), ::testing::HasSubstr("unknown error"));
-    // What the pilot was too short to tell is told in the end.
-    ASSERT_TRUE(aimed.measured);
-    EXPECT_GT(aimed.measured->bias.value, 0.001);
-    EXPECT_NEAR(aimed.measured->error() / true_error(aimed.result.layers[0].image), 1, 0.4);
+    EXPECT_LT(tuned.pilot_seconds, 0.35);
+    EXPECT_GE(tuned.result.statistics.passes, 2u);
+    EXPECT_THAT(describe_pick(tuned), ::testing::HasSubstr("unknown error"));
+    // The final render measures the bias, for which the pilot was too short.
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_GT(tuned.measured->bias.value, 0.001);
+    EXPECT_NEAR(tuned.measured->error() / true_error(tuned.result.layers[0].image), 1, 0.4);
 }
 
-TEST(Aim, InterruptedRenderSaysWhatItKnows) {
+TEST(Autotune, InterruptedRenderReportsItsError) {
     FakePasses fake;
-    fake.interrupted_after = pilot_passes / 2 + 1; // so few passes do that a half pilot is enough
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.005, .seconds = {}});
-    EXPECT_TRUE(aimed.result.statistics.interrupted);
-    EXPECT_EQ(aimed.result.statistics.passes, 3u);
-    ASSERT_TRUE(aimed.measured);
-    EXPECT_EQ(aimed.measured->passes, 2);
-    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("is not reached"));
+    fake.interrupted_after =
+        pilot_passes / 2 + 1; // the target is so easy that half a pilot is enough
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.005, .seconds = {}});
+    EXPECT_TRUE(tuned.result.statistics.interrupted);
+    EXPECT_EQ(tuned.result.statistics.passes, 3u);
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_EQ(tuned.measured->passes, 2);
+    EXPECT_THAT(describe_outcome(tuned), ::testing::HasSubstr("is not reached"));
 }
 
-TEST(Aim, ErrorOfOnePassIsUnknown) {
+TEST(Autotune, ErrorOfOnePassIsUnknown) {
     FakePasses fake;
     fake.map_seconds = 0.2;
-    const AimedRender aimed = aim_at(fake, box(), {.error = {}, .seconds = 0.3});
-    EXPECT_EQ(aimed.result.statistics.passes, 1u);
-    EXPECT_FALSE(aimed.measured);
-    EXPECT_THAT(describe_outcome(aimed), ::testing::HasSubstr("error is unknown"));
+    const AutotunedRender tuned = tune(fake, box(), {.error = {}, .seconds = 0.3});
+    EXPECT_EQ(tuned.result.statistics.passes, 1u);
+    EXPECT_FALSE(tuned.measured);
+    EXPECT_THAT(describe_outcome(tuned), ::testing::HasSubstr("error is unknown"));
 }
 
-TEST(Aim, WhatMakesTheNoiseIsTriedWithMore) {
+TEST(Autotune, ScalesUpWhateverDominatesTheNoise) {
     FakePasses fake;
-    const auto most = [&](const Aim& aim) {
+    const auto most = [&](const Target& target) {
         RenderSettings numbers;
         numbers.photons = numbers.samples = 0;
-        for (const Prospect& p : aim_at(fake, box(), aim).prospects) {
+        for (const Candidate& p : tune(fake, box(), target).candidates) {
             if (p.settings.method != "path") {
                 numbers.photons = std::max(numbers.photons, p.settings.photons);
                 numbers.samples = std::max(numbers.samples, p.settings.samples);
@@ -274,77 +276,78 @@ TEST(Aim, WhatMakesTheNoiseIsTriedWithMore) {
         }
         return numbers;
     };
-    const Aim in_time{.error = {}, .seconds = 1};
+    const Target in_time{.error = {}, .seconds = 1};
     EXPECT_EQ(most(in_time).photons, 200'000u);
     EXPECT_EQ(most(in_time).samples, 16u);
     fake.direct_deviation = 1;
     fake.path_deviation = 5;
     EXPECT_EQ(most(in_time).photons, 50'000u);
     EXPECT_GE(most(in_time).samples, 64u);
-    // No more than the picture needs.
+    // No more samples than the picture needs.
     const std::uint32_t few = most({.error = 0.005, .seconds = {}}).samples;
     EXPECT_GE(few, 32u);
     EXPECT_LE(few, 128u);
 }
 
-TEST(Aim, FinalGatherIsNotLeftOutForPaths) {
+TEST(Autotune, FinalGatherExcludesPath) {
     FakePasses fake;
     fake.map_bias = 1;
     fake.path_deviation = 0.1;
     RenderSettings settings = small();
     settings.final_gather = true;
-    EXPECT_NE(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
-                  .prospects.front()
+    EXPECT_NE(tune(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
+                  .candidates.front()
                   .settings.method,
               "path");
     settings.final_gather = false;
-    EXPECT_EQ(aim_at(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
-                  .prospects.front()
+    EXPECT_EQ(tune(fake, box(), {.error = {}, .seconds = 0.5}, {}, settings)
+                  .candidates.front()
                   .settings.method,
               "path");
 }
 
-TEST(Aim, ChosenMethodAndNumbersAreKept) {
+TEST(Autotune, KeepsTheMethodAndTheNumbersThatTheUserSet) {
     FakePasses fake;
     RenderSettings settings = small();
     settings.method = "knn";
     settings.samples = 2;
     settings.photons = 1234;
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.002, .seconds = {}},
-                                     {.method = true, .samples = true, .photons = true}, settings);
+    const AutotunedRender tuned =
+        tune(fake, box(), {.error = 0.002, .seconds = {}},
+             {.method = true, .samples = true, .photons = true}, settings);
     EXPECT_EQ(fake.methods.back(), "knn");
-    EXPECT_EQ(aimed.prospects.front().settings.photons, 1234u);
-    EXPECT_EQ(aimed.prospects.front().settings.samples, 2u);
+    EXPECT_EQ(tuned.candidates.front().settings.photons, 1234u);
+    EXPECT_EQ(tuned.candidates.front().settings.samples, 2u);
 }
 
-TEST(Aim, InterruptedPilotsLeaveThePictureOfTheBest) {
+TEST(Autotune, InterruptedPilotsLeaveTheBestResult) {
     FakePasses fake;
     fake.interrupted_after = 3;
-    const AimedRender first = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    const AutotunedRender first = tune(fake, box(), {.error = 0.0005, .seconds = {}});
     EXPECT_TRUE(first.result.statistics.interrupted);
     EXPECT_EQ(first.result.statistics.passes, 3u);
     EXPECT_EQ(first.settings.method, fake.methods.back());
-    EXPECT_TRUE(first.prospects.empty());
+    EXPECT_TRUE(first.candidates.empty());
     EXPECT_THAT(describe_outcome(first), ::testing::HasSubstr("while methods were tried"));
     fake.total = 0;
     fake.interrupted_after = pilot_passes + 1;
-    const AimedRender second = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    const AutotunedRender second = tune(fake, box(), {.error = 0.0005, .seconds = {}});
     EXPECT_TRUE(second.result.statistics.interrupted);
     EXPECT_EQ(second.result.statistics.passes, pilot_passes);
     EXPECT_NE(second.settings.method, fake.methods.back());
 }
 
-TEST(Aim, OtherMethodsAreTriedWhereNumbersRunOut) {
+TEST(Autotune, TriesOtherMethodsWhenRandomNumbersRunOut) {
     FakePasses fake;
     fake.most_passes = pilot_passes - 1;
-    const AimedRender aimed = aim_at(fake, box(), {.error = 0.0005, .seconds = {}});
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.0005, .seconds = {}});
     EXPECT_GT(fake.methods.size(), 2u);
-    EXPECT_GT(aimed.prospects.size(), 1u);
-    EXPECT_EQ(aimed.result.statistics.passes, pilot_passes - 1);
-    EXPECT_FALSE(aimed.reached);
+    EXPECT_GT(tuned.candidates.size(), 1u);
+    EXPECT_EQ(tuned.result.statistics.passes, pilot_passes - 1);
+    EXPECT_FALSE(tuned.reached);
 }
 
-Scene with_lamp_and_mirror() {
+Scene with_point_light_and_mirror() {
     Scene scene = box();
     scene.lights.push_back(Light{});
     scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -356,33 +359,32 @@ Scene with_lamp_and_mirror() {
     return scene;
 }
 
-TEST(Aim, PathsAreBlindToCausticsOfLampsWithoutExtent) {
-    Scene scene = with_lamp_and_mirror();
+TEST(Autotune, PathIsBlindToCausticsOfDeltaLights) {
+    Scene scene = with_point_light_and_mirror();
     EXPECT_TRUE(is_blind_to_caustics(scene));
     FakePasses fake;
-    aim_at(fake, scene, {.error = 0.002, .seconds = {}});
+    tune(fake, scene, {.error = 0.002, .seconds = {}});
     EXPECT_EQ(std::count(fake.methods.begin(), fake.methods.end(), "path"), 0);
     RenderSettings settings = small();
     settings.method = "path";
     EXPECT_THAT(testing::error_of([&] {
-                    aim_at(fake, scene, {.error = 0.002, .seconds = {}}, {.method = true},
-                           settings);
+                    tune(fake, scene, {.error = 0.002, .seconds = {}}, {.method = true}, settings);
                 }),
                 ::testing::HasSubstr("leave --method out"));
     scene.materials[0].roughness = 1;
     EXPECT_FALSE(is_blind_to_caustics(scene));
-    scene = with_lamp_and_mirror();
+    scene = with_point_light_and_mirror();
     scene.lights.clear();
     EXPECT_FALSE(is_blind_to_caustics(scene));
 }
 
-TEST(Aim, PickIsExplained) {
+TEST(Autotune, ExplainsThePick) {
     FakePasses fake;
-    const Aim aim{.error = 1e-4, .seconds = 0.5};
+    const Target target{.error = 1e-4, .seconds = 0.5};
     std::string pick;
-    render_aimed(fake.passes(), box(), small(), {}, aim,
-                 [&](const AimedRender& picked) { pick = describe_pick(picked); });
-    EXPECT_THAT(pick, ::testing::HasSubstr(", expected"));
+    autotune(fake.passes(), box(), small(), {}, target,
+             [&](const AutotunedRender& picked) { pick = describe_pick(picked); });
+    EXPECT_THAT(pick, ::testing::HasSubstr("expects relMSE"));
     EXPECT_THAT(pick, ::testing::HasSubstr("pilots took"));
     EXPECT_THAT(pick, ::testing::HasSubstr("not "));
 }

@@ -1,4 +1,4 @@
-#include "autotune/aim.hpp"
+#include "autotune/autotune.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -20,51 +20,51 @@ std::string numbers_of(const RenderSettings& settings, MethodTable methods) {
                        counted(settings.samples, "sample", "samples"));
 }
 
-std::string error_of(const Prospect& prospect) {
-    return std::isfinite(prospect.error) ? fmt::format("relMSE {:.2g}", prospect.error)
-                                         : "unknown error";
+std::string error_of(const Candidate& candidate) {
+    return std::isfinite(candidate.error) ? fmt::format("relMSE {:.2g}", candidate.error)
+                                          : "unknown error";
 }
 
 } // namespace
 
-std::string describe_pick(const AimedRender& render) {
-    const Prospect& best = render.prospects.front();
+std::string describe_pick(const AutotunedRender& render) {
+    const Candidate& best = render.candidates.front();
     std::string text = fmt::format(
-        "{}, {}: {} after {}, in {:.2g} s{}, expected", best.settings.method,
-        numbers_of(best.settings, render.aim.methods), error_of(best),
-        counted(best.passes, "pass", "passes"), best.seconds, best.goes_on ? " more" : "");
+        "{}, {}: expects {} after {}, in {:.2g} s{}", best.settings.method,
+        numbers_of(best.settings, render.target.methods), error_of(best),
+        counted(best.passes, "pass", "passes"), best.seconds, best.continues_pilot ? " more" : "");
     std::map<std::string, int> counts;
-    for (const Prospect& prospect : render.prospects) {
-        ++counts[prospect.settings.method];
+    for (const Candidate& candidate : render.candidates) {
+        ++counts[candidate.settings.method];
     }
-    for (std::size_t i = 1; i < render.prospects.size(); ++i) {
-        const Prospect& other = render.prospects[i];
+    for (std::size_t i = 1; i < render.candidates.size(); ++i) {
+        const Candidate& other = render.candidates[i];
         text += i == 1 ? "; not " : ", ";
         text += counts[other.settings.method] > 1
                     ? fmt::format("{}, {}", other.settings.method,
-                                  numbers_of(other.settings, render.aim.methods))
+                                  numbers_of(other.settings, render.target.methods))
                     : other.settings.method;
-        const bool by_time = reaches(best, render.aim) && reaches(other, render.aim);
+        const bool by_time = reaches(best, render.target) && reaches(other, render.target);
         text += by_time ? fmt::format(" ({:.2g} s)", other.seconds)
                         : fmt::format(" ({})", error_of(other));
     }
     return text + fmt::format("; pilots took {:.2g} s", render.pilot_seconds);
 }
 
-std::string describe_outcome(const AimedRender& render) {
-    const bool missed = render.aim.error && !render.reached;
-    const std::string lacking =
-        missed ? fmt::format("; the {:.2g} asked for is not reached", *render.aim.error)
+std::string describe_outcome(const AutotunedRender& render) {
+    const bool missed = render.target.error && !render.reached;
+    const std::string missing =
+        missed ? fmt::format("; the target of {:.2g} is not reached", *render.target.error)
                : std::string();
-    if (render.prospects.empty()) {
+    if (render.candidates.empty()) {
         return "its error is unknown: it was interrupted while methods were tried";
     }
     if (!render.measured) {
-        return "its error is unknown: it takes two whole passes to measure noise" + lacking;
+        return "its error is unknown: measuring noise takes two complete passes" + missing;
     }
     return fmt::format("relMSE about {:.2g}: noise {:.2g}, squared bias {:.2g}{}",
                        render.measured->error(), render.measured->noise,
-                       render.measured->bias.value, lacking);
+                       render.measured->bias.value, missing);
 }
 
 } // namespace argand

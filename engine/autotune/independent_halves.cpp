@@ -1,4 +1,4 @@
-#include "autotune/halves.hpp"
+#include "autotune/independent_halves.hpp"
 
 #include "image/mean.hpp"
 #include "image/metrics.hpp"
@@ -9,11 +9,11 @@ namespace argand {
 
 namespace {
 
-constexpr std::uint64_t turns = 16; // that are kept apart, about
+constexpr std::uint64_t turns = 16; // a turn is about this fraction of all passes
 
 } // namespace
 
-void Halves::add(const Image& mean_so_far) {
+void IndependentHalves::add(const Image& mean_so_far) {
     const auto before = static_cast<double>(done_);
     const auto more = static_cast<double>(length_);
     Image& mean = means_[stream()];
@@ -30,9 +30,9 @@ void Halves::add(const Image& mean_so_far) {
     }
 }
 
-double Halves::noise(const Image& reference) const {
-    // If a pass has a variance of v, the mean of n has v / n, and the means of a + b = n differ by
-    // v (1/a + 1/b), squared.
+double IndependentHalves::noise(const Image& reference) const {
+    // If one pass has variance v, the mean of n passes has variance v / n, and the means of two
+    // halves of a + b = n passes have a squared difference of v (1/a + 1/b).
     const double all = passes_[0] + passes_[1];
     return 2 * rel_variance(means_, reference, reference) * passes_[0] * passes_[1] / (all * all);
 }

@@ -1,0 +1,159 @@
+#include "autotune/autotune.hpp"
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "plan/plan.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <utility>
+
+namespace argand {
+
+namespace {
+
+// More paths that only measure the bias of other methods may take this share of the render's time.
+constexpr double share_of_truth = 0.1;
+
+/// One autotuned render: runs pilots until no further pilot pays off, picks the best candidate, and
+/// renders it, either by continuing the last pilot or from the start.
+class Autotuner {
+public:
+    Autotuner(const RenderPasses& render, const Scene& scene, Pilots& pilots,
+              const Exploration& exploration, const OnPick& on_pick, Clock::time_point start)
+        : render_(render), scene_(scene), pilots_(pilots), exploration_(exploration),
+          on_pick_(on_pick), start_(start), tuned_{.target = exploration.target} {}
+
+    AutotunedRender run() && {
+        run_pilots();
+        if (!control_ && !is_interrupted()) {
+            render_best();
+        }
+        if (control_) {
+            tuned_.measured = control_->measured();
+            tuned_.reached = control_->reached();
+        }
+        return std::move(tuned_);
+    }
+
+private:
+    bool is_interrupted() const { return tuned_.result.statistics.interrupted; }
+    const Candidate& best() const { return pilots_.candidates().front(); }
+    bool best_is_unbiased() const {
+        return tuned_.target.methods.at(best().settings.method).abilities.unbiased;
+    }
+
+    /// Runs pilots until one of them continues as the final render, none is worth running, or the
+    /// user interrupts.
+    void run_pilots() {
+        while (!control_ && !is_interrupted()) {
+            const std::optional<RenderSettings> settings = exploration_.next_pilot();
+            if (!settings) {
+                return;
+            }
+            keep(*settings, pilots_.run(*settings, exploration_.pilot_time_limit(),
+                                        [&] { return continuation(); }));
+        }
+    }
+
+    /// Keeps the result of a pilot that continued as the final render, and the best pilot's for a
+    /// user who interrupts.
+    void keep(const RenderSettings& settings, RenderResult result) {
+        const bool interrupted = result.statistics.interrupted;
+        if (control_ ||
+            (interrupted ? tuned_.result.statistics.samples == 0 : pilots_.last_is_best())) {
+            tuned_.result = std::move(result);
+            tuned_.settings = settings;
+        }
+        if (interrupted) {
+            tuned_.result.statistics.interrupted = true;
+        }
+    }
+
+    /// Picks the last pilot and returns what controls its further passes. Returns null if its
+    /// passes are to be thrown away, because another candidate is better or another pilot comes
+    /// first.
+    OnPass continuation() {
+        // More paths measure the bias of other methods better.
+        const bool needs_more_truth = pilots_.truth() && !best_is_unbiased();
+        if (!best().continues_pilot || needs_more_truth || exploration_.next_pilot()) {
+            return nullptr;
+        }
+        pick();
+        control_->continue_from(pilots_.last());
+        return std::ref(*control_);
+    }
+
+    /// Picks the best candidate, tells the user, and sets up the control of its render.
+    void pick() {
+        const Target& target = tuned_.target;
+        if (target.error && !target.seconds && !(best().seconds <= default_time_limit)) {
+            fail(
+                "rendering '{}' to a relMSE of {:.3g}: '{}', the fastest method, would take {:.3g} "
+                "s; allow a larger error, or limit the time with --budget",
+                scene_.name, *target.error, best().settings.method, best().seconds);
+        }
+        tuned_.candidates = pilots_.candidates();
+        tuned_.settings = best().settings;
+        tuned_.pilot_seconds = seconds_since(start_);
+        on_pick_(tuned_);
+        control_.emplace(target, tuned_.candidates.front(), pilots_.truth(), tuned_.pilot_seconds);
+    }
+
+    /// Renders the best candidate from the start, after more paths where they improve the estimate
+    /// of its bias.
+    void render_best() {
+        const bool needs_more_truth = !best_is_unbiased() && best().seconds <= default_time_limit;
+        if (needs_more_truth && !pilots_.improve_truth(share_of_truth * best().seconds)) {
+            tuned_.result.statistics.interrupted = true;
+            return;
+        }
+        pick();
+        tuned_.result = render_(tuned_.settings, std::ref(*control_));
+    }
+
+    const RenderPasses& render_;
+    const Scene& scene_;
+    Pilots& pilots_;
+    const Exploration& exploration_;
+    const OnPick& on_pick_;
+    Clock::time_point start_;
+    AutotunedRender tuned_;
+    std::optional<RunControl> control_; ///< of the final render, once it is picked
+};
+
+} // namespace
+
+bool is_blind_to_caustics(const Scene& scene) {
+    const Plan plan = make_plan(scene, {});
+    const auto needs_any = [&](std::initializer_list<Feature> features) {
+        return std::any_of(features.begin(), features.end(),
+                           [&](Feature feature) { return plan.needs(feature); });
+    };
+    return needs_any({Feature::point_light, Feature::spot_light, Feature::directional_light}) &&
+           needs_any({Feature::mirror, Feature::transmission, Feature::alpha});
+}
+
+AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
+                         const UserSet& user_set, const Target& target, const OnPick& on_pick) {
+    const Clock::time_point start = Clock::now();
+    const bool path_is_unbiased = !is_blind_to_caustics(scene);
+    const bool user_wants_path =
+        user_set.method && target.methods.at(base.method).abilities.unbiased;
+    if (user_wants_path && !path_is_unbiased) {
+        fail("rendering '{}' to a relMSE: method '{}' misses the caustics of delta lights "
+             "(mirrors and glass), so its error does not converge; leave --method out",
+             scene.name, base.method);
+    }
+    // Path tracing has no final gather: it would not render what the user asked for.
+    Pilots pilots(render, target, user_set.method ? user_wants_path : !base.final_gather);
+    const Exploration exploration{.pilots = pilots,
+                                  .base = base,
+                                  .user_set = user_set,
+                                  .target = target,
+                                  .path_is_unbiased = path_is_unbiased};
+    return Autotuner(render, scene, pilots, exploration, on_pick, start).run();
+}
+
+} // namespace argand

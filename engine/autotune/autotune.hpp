@@ -1,0 +1,46 @@
+#pragma once
+
+#include "autotune/exploration.hpp"
+#include "autotune/run_control.hpp"
+#include "scene/scene.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace argand {
+
+/// A render whose method and numbers of photons and samples Argand picked.
+struct AutotunedRender {
+    Target target;
+    RenderResult result;     ///< if the pilots were interrupted, the result of one of them
+    RenderSettings settings; ///< of one pass of the result
+    /// Best first; the result uses the first. Empty if the pilots were interrupted.
+    std::vector<Candidate> candidates;
+    double pilot_seconds = 0;
+    std::optional<MeasuredError> measured; ///< of the result; none: it has too few passes
+    bool reached = false;                  ///< the result has the target error
+};
+
+/// Called with the pick before it is rendered.
+using OnPick = std::function<void(const AutotunedRender&)>;
+
+/// Whether paths from the eye miss light that photons find: the caustics of delta lights, seen by
+/// way of mirrors or glass.
+bool is_blind_to_caustics(const Scene& scene);
+
+/// Renders with the method and the numbers of photons and samples that reach the target error
+/// soonest, or have the least error within the time budget. Chooses from short pilots of this scene
+/// on this device. A render reaches an error when its measured noise plus its expected squared bias
+/// is no larger. Throws Error if no method is expected to reach the error within
+/// `default_time_limit` and the target has no budget.
+AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
+                         const UserSet& user_set, const Target& target, const OnPick& on_pick);
+
+/// One line for users: what was picked and why.
+std::string describe_pick(const AutotunedRender& render);
+/// One line for users: the error of the finished render, and whether it reached its target.
+std::string describe_outcome(const AutotunedRender& render);
+
+} // namespace argand
