@@ -135,6 +135,9 @@ TEST(Documents, SourcesThatThePagesNameExist) {
     static const std::regex placeholder("/[A-Z]+");
     std::vector<std::string> faults;
     for (const fs::path& page : files_with({".md"})) {
+        if (page == root / "docs/results/tree.md") {
+            continue; // it compares with an earlier tree
+        }
         const std::string text = read_text(page);
         for (const std::smatch& match : matches(text, name)) {
             const std::string named = match.str();

@@ -4,6 +4,7 @@
 #include "materials.hpp"
 #include "shared/follow.h"
 #include "shared/light_differential.h"
+#include "shared/query_bsdf.h"
 
 #include <gtest/gtest.h>
 
@@ -60,6 +61,18 @@ TEST(EveryLobe, HasABitOfItsOwnInTheFeatures) {
     EXPECT_EQ(LOBES_ALL & features, 0u);
     EXPECT_EQ(LOBES_ALL | features, MATERIAL_ALL);
     EXPECT_EQ(LOBES_ALL & (LOBE_GLOSSY | MATERIAL_LAYER), LOBE_GLOSSY | LOBE_MIRROR);
+}
+
+// Queries of the photon map carry the parameters of a BSDF instead of a material's index.
+TEST(EveryLobe, HasItsParametersInQueries) {
+    std::mt19937 bits(72);
+    for (int i = 0; i < 3000; ++i) {
+        const MaterialRecord m = i % 3 == 0 ? any_phong(bits) : any_material(bits);
+        const MaterialRecord queried = material_of_query(query_bsdf(m, 0, 0), MATERIAL_ALL);
+        ASSERT_EQ(bsdf_lobes(queried), bsdf_lobes(m));
+        const vec3 wo = any_upper(bits), wi = any_upper(bits);
+        ASSERT_EQ(bsdf_eval(queried, wo, wi, LOBES_ALL), bsdf_eval(m, wo, wi, LOBES_ALL));
+    }
 }
 
 std::vector<LightRecord> one_of_each() {
