@@ -13,8 +13,8 @@ FN QueryBsdfRecord query_bsdf(IN(MaterialRecord) m, uint direction, uint shading
                            m.thickness, m.coverage, m.exponent, direction, shading_normal);
 }
 
-// The material of which bsdf_eval gives the diffuse and glossy lobes of a query's surface; it emits
-// nothing. features: as MaterialRecord::absent lacks them.
+// The material with which bsdf_eval gives the diffuse and glossy lobes at a query; it does not
+// emit. features: complement of MaterialRecord::absent.
 FN MaterialRecord material_of_query(IN(QueryBsdfRecord) q, uint features) {
     return MaterialRecord(q.base_r, q.base_g, q.base_b, q.metallic, q.specular_r, q.specular_g,
                           q.specular_b, q.specular, float32(0.0), float32(0.0), float32(0.0), 0u,

@@ -9,15 +9,15 @@ ARGAND_SHARED_BEGIN
 struct QueryRecord {
     float32 x, y, z;
     uint geometric_normal; // on the eye's side, packed (pack_unit)
-    // Weight of the answer in the eye path; times the albedo where surfaces share irradiance.
+    // Weight of the answer in the eye path; includes the albedo if the surface shares irradiance.
     float32 throughput_r, throughput_g, throughput_b;
     uint flags;                                          // query_*
     float32 reflectance_r, reflectance_g, reflectance_b; // BRDF of a Lambertian surface [1/sr]
-    uint material; // index: queries of different materials share no answer
+    uint material; // index; queries of different materials share no answer
 };
 
-// Parameters of the BSDF at a query on a non-Lambertian surface, as MaterialRecord has them, and
-// the vectors that its evaluation needs. Scenes without such surfaces have no such records.
+// BSDF parameters at a query on a non-Lambertian surface, as in MaterialRecord, and the vectors
+// needed to evaluate it. Scenes without such surfaces have no such records.
 struct QueryBsdfRecord {
     float32 base_r, base_g, base_b, metallic;
     float32 specular_r, specular_g, specular_b, specular;
@@ -28,7 +28,7 @@ struct QueryBsdfRecord {
 };
 
 CONSTANT uint query_front = 1u;      // the eye sees the front of the surface
-CONSTANT uint query_lambertian = 2u; // the reflectance is all that an estimate needs of the BSDF
+CONSTANT uint query_lambertian = 2u; // the estimate needs only the reflectance of the BSDF
 // With final gather, the first estimated vertex of an eye path queries caustic photons only. The
 // next one queries all photons up to a number of scatterings; the eye sees their light as indirect.
 CONSTANT uint query_caustics = 4u;

@@ -11,7 +11,7 @@ FN Surface load_surface(HitRecord hit, vec3 ray_direction) {
                         ray_direction);
 }
 
-// Index of a light chosen in proportion to its weight (Walker 1977); u in [0,1).
+// Chooses a light in proportion to its weight (Walker 1977); u in [0,1). Returns its index.
 FN uint choose_light(real u, OUT(real) probability) {
     if (!several_lights) {
         probability = real(1.0);

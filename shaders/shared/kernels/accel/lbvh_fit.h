@@ -7,7 +7,7 @@ FN real half_area(vec3 low, vec3 high) {
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-// The costs of an inner node, computed from those of its children (Ylitie et al. 2017, section 4).
+// Costs of an inner node from those of its children (Ylitie et al. 2017, section 4).
 FN ForestCost join(ForestCost left, ForestCost right, real area) {
     real one_three = left.one + right.three;
     real two_two = left.two + right.two;
@@ -31,8 +31,8 @@ FN ForestCost join(ForestCost left, ForestCost right, real area) {
 // A node with its subtree, from which an invocation climbs towards the root.
 struct Subtree {
     uint first, last;   // its leaves
-    uint before, after; // how far the codes at its ends are from their neighbours outside
-    uint place;         // of its root among the nodes
+    uint before, after; // distances of the codes at its ends from their neighbours outside
+    uint place;         // index of its root among the nodes
     uint child;         // the left child, or the box of a leaf
     uint right_child;   // 0 for a leaf
     vec3 low, high;
@@ -58,8 +58,7 @@ FN Subtree leaf_subtree(uint leaf) {
 }
 
 FN void write_node(Subtree tree) {
-    // The node that follows is the right child of the node split after `last`: a leaf if its own
-    // split is farther.
+    // Escape to the right child of the node split after `last`: a leaf if its own split is farther.
     uint escape = lbvh_end;
     if (tree.after != no_neighbour) {
         uint next = tree.last + 1u;
@@ -70,7 +69,7 @@ FN void write_node(Subtree tree) {
     nodes[2u * tree.place + 1u] = uvec4(float_bits(tree.high), escape);
 }
 
-// Of an inner node, its costs, and itself as the parent of its children.
+// Writes the costs of an inner node, and the node as the parent of its children.
 FN void write_cost_and_parents(Subtree tree, bool root) {
     costs[tree.place >> 1u] =
         uvec4(float_bits(vec3(tree.cost.one, tree.cost.two, tree.cost.three)), tree.cost.split);
@@ -85,7 +84,7 @@ FN void write_cost_and_parents(Subtree tree, bool root) {
     }
 }
 
-// The costs of a node that another invocation wrote; `leaf`: it is one.
+// Costs of a node that another invocation wrote. leaf: whether the node is a leaf.
 FN ForestCost written_cost(uint place, bool leaf, vec3 low, vec3 high) {
     ForestCost cost;
     cost.one = triangle_cost * half_area(low, high);
@@ -98,7 +97,7 @@ FN ForestCost written_cost(uint place, bool leaf, vec3 low, vec3 high) {
     return cost;
 }
 
-// Makes the subtree that of its parent. other: the end of the sibling's leaves that is farther
+// Replaces the subtree by its parent's. other: the end of the sibling's leaves that is farther
 // away.
 FN void join_sibling(INOUT(Subtree) tree, uint other, bool is_left) {
     uint next = is_left ? tree.last + 1u : tree.first - 1u;
@@ -127,11 +126,11 @@ FN void join_sibling(INOUT(Subtree) tree, uint other, bool is_left) {
     }
 }
 
-// Builds the hierarchy from the leaves up, as Apetrei 2014 ("Fast and simple agglomerative LBVH
-// construction"), but with the node numbers of Karras 2012 (see LbvhNode): a node that covers
-// first..last is the left child of the node split after `last`, or the right child of the node
-// split before `first`, whichever splits leaves that are closer. The invocation that comes second
-// to a parent has both children and continues with the parent.
+// Builds the hierarchy from the leaves up like Apetrei 2014 ("Fast and simple agglomerative LBVH
+// construction"), but with the node numbers of Karras 2012 (see LbvhNode). A node that covers
+// first..last is the left child of the node split after `last` or the right child of the node split
+// before `first`, whichever splits closer leaves. The second invocation to reach a parent has both
+// children and continues with the parent.
 FN void main() {
     uint leaf = THREAD_INDEX;
     if (leaf >= ELEMENT_COUNT) {
@@ -152,13 +151,13 @@ FN void main() {
         }
         uint other = lbvh_end;
         if (!root) {
-            MEMORY_FENCE(); // whoever sees the end sees the node too
+            MEMORY_FENCE(); // publish the node before its end
             other = atomicExchange(ends[is_left ? tree.last : tree.first - 1u],
                                    is_left ? tree.first : tree.last);
         }
         going = other != lbvh_end;
         if (going) {
-            MEMORY_FENCE(); // the sibling was written before its end was
+            MEMORY_FENCE(); // the sibling was written before its end
             join_sibling(tree, other, is_left);
         }
     }

@@ -1,4 +1,4 @@
-// Traversal of a TriangleBvh's tree with a stack, nearest boxes first, one ray per invocation.
+// Traverses a TriangleBvh's tree with a stack, nearest boxes first, one ray per invocation.
 // Included by trace_closest.h and trace_any.h, which declare load_result and store_result and
 // define ANY_HIT as 0 or 1. NODES(i) and TRIANGLES(i) read the tree.
 #include "shared/kernels/count.h"
@@ -6,24 +6,23 @@
 struct Ray {
     vec3 origin;
     RayShear shear;
-    vec3 inverse;     // of the direction, finite
-    vec3 near_origin; // the origin moved such that boxes seem larger: for their sides that face it,
-    vec3 far_origin;  // and for the others
+    vec3 inverse;     // of the direction; finite
+    vec3 near_origin; // origin, moved to enlarge boxes: for sides that face it,
+    vec3 far_origin;  // and for all others
     bvec3 backwards;
 };
 
-// The shear of intersect_triangle moves vertices by up to 6 roundings of the reach, so that it may
-// find a triangle whose box the ray misses by that much, and not find the neighbour. Boxes are
-// therefore met as if they were larger by a little more, with room also for the rounding of the
-// grids' planes, which are at most twice as far away as the scene's sides. This also decides about
-// rays that run in the very plane of a box's side.
+// The shear of intersect_triangle moves vertices by up to 6 roundings of the reach. So it may hit a
+// triangle whose box the ray misses by that much, and miss the neighbour. Boxes are therefore
+// enlarged by slightly more, which also covers the rounding of the grids' planes, at most twice as
+// far away as the scene's sides. This decides about rays in the plane of a box's side, too.
 FN Ray make_ray(vec3 origin, vec3 direction, vec3 low, vec3 high) {
     Ray ray;
     ray.origin = origin;
     ray.shear = ray_shear(direction);
     vec3 size = abs(direction);
-    real least = max_component(size) *
-                 real(1e-18); // below, a component does not matter within single precision
+    real least =
+        max_component(size) * real(1e-18); // smaller components do not matter in single precision
     vec3 safe = mix(direction, vec3(least), lessThan(size, vec3(least)));
     ray.inverse = real(1.0) / safe;
     ray.backwards = lessThan(ray.inverse, vec3(real(0.0)));
@@ -41,8 +40,8 @@ FN vec4 cells(uint bytes) {
     return vec4(ivec4(bytes & 255u, (bytes >> 8u) & 255u, (bytes >> 16u) & 255u, bytes >> 24u));
 }
 
-// The children that the ray meets before t_max, nearest first: their numbers in the lowest two bits
-// of where they are entered, or `missed`.
+// The children that the ray enters before t_max, nearest first: the child's number in the lowest
+// two bits of the entry distance, or `missed`.
 FN uvec4 meet_children(Ray ray, uvec4 a, uvec4 b, uvec2 c, real t_max) {
     vec3 low = bits_float(uvec3(a));
     vec3 scale = bits_float((uvec3(a.w, a.w >> 8u, a.w >> 16u) & 255u) << 23u) * ray.inverse;
@@ -73,11 +72,11 @@ FN uvec4 meet_children(Ray ray, uvec4 a, uvec4 b, uvec2 c, real t_max) {
                  max(high_left, high_right));
 }
 
-// Where a ray is in the tree; its stack apart.
+// Position of a ray in the tree, without its stack.
 struct Walk {
     uint ray;
     uint node;     // lbvh_end: done
-    uint siblings; // that wait beside the node: see ray_stack_size
+    uint siblings; // children that wait beside the node: see ray_stack_size
     uint height;   // of the stack
 };
 
@@ -99,8 +98,8 @@ FN Walk suspended_walk(uint slot) {
     return walk;
 }
 
-// Counts a ray that is not done, and saves where it is, but for its stack. slot: that it has, or 0.
-// Returns its slot, or 0 if there is none.
+// Counts an unfinished ray and saves its position, without its stack. slot: the ray's slot, or 0.
+// Returns the slot, or 0 if there is none.
 FN uint suspend(Walk walk, uint slot) {
     if (!resume && params.last == 0u) {
         uint mine = atomicAdd(suspended[0], 1u);
@@ -132,8 +131,8 @@ FN uint child_at(uvec4 children, uint which) {
                       : (which == 2u ? children.z : children.w);
 }
 
-// The children of a node that wait while the nearest is visited, as one word, see ray_stack_size.
-// met: see meet_children; at least two.
+// Packs the children of a node that wait while the nearest is visited into one word; see
+// ray_stack_size. met: from meet_children, at least two.
 FN uint waiting_children(uint node, uvec4 met) {
     return (node << 7u) | ((met.y & 3u) << 2u) | ((met.z & 3u) << 4u) | ((met.w & 3u) << 6u) |
            (met.w != missed ? 3u : (met.z != missed ? 2u : 1u));
@@ -146,8 +145,8 @@ FN bool meet_triangle(Ray ray, uint place, INOUT(HitRecord) hit) {
     real t, u, v;
     bool met = intersect_triangle(ray.shear, ray.origin, vec3(a), b, c, real(0.0), hit.t, t, u, v);
     if (met) {
-        // Of triangles at one distance the first in the scene counts, whatever the order of
-        // traversal.
+        // Of triangles at the same distance the first in the scene counts, independent of the order
+        // of traversal.
         uint triangle = float_bits(a.w);
         if (t < hit.t || triangle < hit.triangle) {
             hit = HitRecord(triangle, t, u, v);
@@ -156,8 +155,8 @@ FN bool meet_triangle(Ray ray, uint place, INOUT(HitRecord) hit) {
     return met;
 }
 
-// Goes to the nearest of the children that wait beside the node; without one the ray is done.
-// place: of the node, to read something that is in the cache.
+// Continues with the nearest of the children that wait beside the node; without one the ray is
+// done. place: index of the node, to read something that is in the cache.
 FN void next_sibling(INOUT(Walk) walk, uint place) {
     bool more = (walk.siblings & 3u) != 0u;
     uint from = more ? 4u * (walk.siblings >> 8u) : place;
@@ -231,8 +230,7 @@ FN void main() {
             next_siblings = 0u;
             walk.height = 0u;
         }
-        // Written whether or not it counts: CPUs that emulate lanes mispredict what only some of
-        // them write.
+        // Written even if not needed: CPUs that emulate lanes mispredict writes by only some lanes.
         stack[walk.height] = walk.siblings;
         walk.height += push ? 1u : 0u;
         walk.siblings = next_siblings;

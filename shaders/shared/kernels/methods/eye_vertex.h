@@ -1,5 +1,5 @@
-// One vertex of each active eye path: adds the emission that the path has met, leaves a shadow ray
-// and a query of the photon map, and samples the ray on which the path continues.
+// One vertex of each active eye path: adds the emission that the path hit, writes a shadow ray and
+// a query of the photon map, and samples the ray on which the path continues.
 #include "shared/kernels/layers.h"
 #include "shared/kernels/material.h"
 #include "shared/kernels/scene.h"
@@ -11,17 +11,17 @@ struct Vertex {
     uint slot;
     PathRecord path;
     vec3 throughput;
-    vec3 direction; // of the ray that has come here
+    vec3 direction; // of the ray that hit this vertex
     uint triangle;
     Surface surface;
     MaterialRecord material;
     Frame frame; // of the shading normal
     vec3 wo;
     uint followed, estimated;   // lobes, see shared/follow.h
-    bool ends;                  // at the estimated lobes, but for a ray that seeks emission
-    uint onward;                // estimated lobes that scatter the path, too
+    bool ends;                  // at the estimated lobes, unless the ray seeks emission
+    uint onward;                // estimated lobes that also scatter the path
     real albedo;                // of the lobes that scatter the path
-    real estimated_probability; // that it is `onward` which does
+    real estimated_probability; // probability that `onward` scatters the path
 };
 
 FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
@@ -32,7 +32,7 @@ FN RayRecord no_ray() {
 }
 
 FN real power_heuristic(real a, real b) {
-    // Quotients first: squares of densities overflow.
+    // Divide first: squares of densities overflow.
     real r = b / a;
     return real(1.0) / (real(1.0) + r * r);
 }
@@ -57,7 +57,7 @@ FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
     }
 }
 
-// Of a ray that leaves the scene.
+// Adds the sky's emission to the path of a ray that leaves the scene.
 FN void add_sky(uint slot, IN(PathRecord) path, vec3 throughput) {
     vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
     if (has_light(light_sky) && max_component(sky) > real(0.0)) {
@@ -96,8 +96,9 @@ FN void split_lobes(INOUT(Vertex) v) {
         v.followed != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.followed))
                          : real(0.0);
     v.ends = photon_map && (!final_gather || behind_estimated(v.path));
-    // The map provides all other light behind the last estimated vertex. But lights that a glossy
-    // lobe reflects there would be fireflies if only shadow rays found them, so one more ray does.
+    // The map accounts for all other light behind the last estimated vertex. But if only shadow
+    // rays found lights that a glossy lobe reflects there, these would become fireflies, so one
+    // more ray looks for them.
     v.onward = !v.ends ? v.estimated : final_gather ? v.estimated & LOBE_GLOSSY : 0u;
     real estimated_albedo =
         v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
@@ -106,16 +107,16 @@ FN void split_lobes(INOUT(Vertex) v) {
     v.estimated_probability = v.albedo > real(0.0) ? estimated_albedo / v.albedo : real(0.0);
 }
 
-// A sample of a light as the vertex sees it.
+// A sample of a light, as seen from the vertex.
 struct SeenLight {
     vec3 origin; // of the shadow ray
     LightSample s;
     vec3 wi; // in the vertex's frame
     real choice_probability;
-    bool sky_by_cosine; // the sky is the only light here that is not sampled by its own density
+    bool sky_by_cosine; // the sky for which there is no other sample; sampled by the cosine
 };
 
-// False: no light arrives from there.
+// Chooses a light and samples it. Returns false if no light arrives.
 FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     PathRecord path = v.path;
     Surface surface = v.surface;
@@ -140,7 +141,7 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     return dot(l.s.wi, surface.geometric_normal) > real(0.0);
 }
 
-// Leaves a shadow ray to a light, and the radiance that it adds if nothing is in its way.
+// Writes a shadow ray to a light, and the radiance that it adds if nothing blocks it.
 FN void sample_light(IN(Vertex) v) {
     SeenLight l;
     if (!choose_light_sample(v, l)) {
@@ -148,7 +149,8 @@ FN void sample_light(IN(Vertex) v) {
     }
     LightSample s = l.s;
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice_probability);
-    // Of the lobes `onward`, which the path samples, too. Others have this sample only.
+    // Weight for the lobes in `onward`, which the path samples too. All others have only this
+    // sample.
     real weight = real(1.0);
     if (!s.delta && v.onward != 0u) {
         real density = l.choice_probability * s.pdf;
@@ -187,26 +189,27 @@ FN uint shared_direction_steps(IN(Vertex) v) {
     return direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
 }
 
-// BRDF of a Lambertian surface, as the packed vectors of a query give it [1/sr].
+// BRDF of a Lambertian surface [1/sr], computed from the packed vectors of a query.
 FN vec3 lambertian_reflectance(IN(Vertex) v, uint direction, uint shading_normal) {
     vec3 wo = to_local(make_frame(unpack_unit(shading_normal)), unpack_unit(direction));
     return bsdf_eval(v.material, wo, vec3(real(0.0), real(0.0), real(1.0)), v.estimated);
 }
 
-// Leaves a query of the photon map for the estimated lobes.
+// Writes a query of the photon map for the estimated lobes.
 FN void leave_query(IN(Vertex) v) {
     uint asks_for = asks_map;
     uint flags = v.surface.front ? query_front : 0u;
-    uint scatterings = batch.bounces; // at most, of photons that count
+    uint scatterings = batch.bounces; // most scatterings of a photon that counts
     if (final_gather && behind_estimated(v.path)) {
         flags |= query_gathers;
-        scatterings -= (v.path.state & path_depth_mask) + 1u; // the one at this vertex among them
+        scatterings -= (v.path.state & path_depth_mask) + 1u; // including the one at this vertex
     } else if (final_gather) {
         asks_for = asks_caustics;
         flags |= query_caustics;
     }
     bool wanted = v.estimated != 0u && scatterings > 0u && (asks_for == asks_map || followed_paths);
-    // If paths share estimates, all have queries; else only every few samples have, and count more.
+    // If paths share estimates, every path queries; else every few samples do, and their answers
+    // count for all.
     bool shares = batch.shares_queries != 0u;
     if (!wanted ||
         !(shares || (v.path.sample_index - batch.first_sample) % batch.query_step == 0u)) {
@@ -244,7 +247,7 @@ FN void leave_query(IN(Vertex) v) {
                                   reflectance.z, triangles[v.triangle].w);
 }
 
-// Samples the ray on which the path continues, unless it ends by chance or because nothing is
+// Samples the ray on which the path continues, unless Russian roulette ends the path or nothing is
 // scattered.
 FN void continue_path(INOUT(Vertex) v) {
     PathRecord path = v.path;
@@ -257,7 +260,7 @@ FN void continue_path(INOUT(Vertex) v) {
     }
     vec3 wi = may_have(v.material, LOBE_PASS) && s.lobe == LOBE_PASS ? v.direction
                                                                      : to_world(v.frame, s.wi);
-    // Sides by the shading normal and by the geometric one must agree, or light would leak through
+    // The sampled direction must be on the same side of both normals, or light would leak through
     // the surface.
     if ((s.wi.z > real(0.0)) != (dot(wi, v.surface.geometric_normal) > real(0.0))) {
         return;
@@ -269,7 +272,7 @@ FN void continue_path(INOUT(Vertex) v) {
     path.vertices += 1u;
     if (path.vertices >= 3u) {
         real survival = min(max_component(throughput), real(0.95));
-        // What is left of the number that chose between the lobes is uniform again.
+        // The remainder of the number that chose between the lobes is uniform again.
         real left =
             takes_estimated ? u.w / probability : (u.w - v.estimated_probability) / probability;
         if (!(left < survival)) {

@@ -1,6 +1,6 @@
 #include "shared/kernels/layers.h"
 
-// Adds what shadow rays bring to the layers of their paths, if nothing is in the way.
+// Adds the radiance of unblocked shadow rays to the layers of their paths.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {

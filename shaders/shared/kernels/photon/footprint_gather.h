@@ -2,7 +2,7 @@
 // 2009, eq. 1 and section 6.3.
 #include "shared/kernels/photon/query_state.h"
 
-// Footprints carry their own sizes; this is what they share.
+// Footprints have their own sizes; this is common to all of them.
 struct Bandwidth {
     real flatness;
 };
@@ -13,7 +13,7 @@ FN Bandwidth make_bandwidth() {
     return b;
 }
 
-// Boxes bound whole footprints: those that contain the point are wanted.
+// Boxes enclose whole footprints, so look for boxes that contain the point.
 FN real search_radius2(IN(Bandwidth)) { return real(0.0); }
 
 FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf) {

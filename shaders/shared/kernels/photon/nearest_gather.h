@@ -20,13 +20,13 @@
 struct Search {
     uint phase;
     uint low, high, shift;
-    uint top;         // the bin that holds the k-th nearest of those counted so far
+    uint top;         // bin of the k-th nearest of the photons counted so far
     uint total;       // photons in bins 0 to top
     uint start, stop; // first photons of the leaves at which the walk began, if it still has to go
                       // around, and at which it ends
-    // For the second walk: photons with bits below `low` are taken, from `low` to `high` they are
+    // Second walk: photons with bits below `low` are taken, those from `low` up to `high` are
     // candidates.
-    uint missing;     // candidates to be taken
+    uint missing;     // candidates still to take
     uint taken, last; // candidates that were taken if all have one distance; the last one taken
     uint listed;
     bool overflown;                      // the list has no room for all candidates
@@ -91,7 +91,7 @@ FN void zoom(INOUT(Query) q, INOUT(Search) s, uint low, uint high) {
     s.high = high;
     s.low = low;
     if (low == 0u) {
-        // Everything below `high`, of whatever magnitude.
+        // The whole range below `high`, of any magnitude.
         s.shift = uint(max(findMSB(high) - 5, 0));
     } else {
         s.shift = max(s.shift, nearest_zoom_bits) - nearest_zoom_bits;
@@ -104,7 +104,7 @@ FN void zoom(INOUT(Query) q, INOUT(Search) s, uint low, uint high) {
     clear_bins();
 }
 
-// The first walk. Returns whether it has come to its end.
+// First walk: counts photons by distance. Returns false if the budget ended first.
 FN bool count_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     uint bound = bin_start(s, s.top + 1u);
     for (;;) {
@@ -172,7 +172,7 @@ FN real least_r2() {
                nearest_least_square);
 }
 
-// The second walk. Returns whether it has come to its end.
+// Second walk: adds up photons. Returns false if the budget ended first.
 FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     bool one_distance = s.high - s.low == 1u;
     real radius2 = bits_float(s.high);
@@ -293,7 +293,7 @@ FN void finish(Query q, INOUT(Search) s) {
         }
     }
     real density = kernel_scale * inverse_r2;
-    // Few samples do not tell how much of a disc lies on surfaces; where photons are so dense,
+    // Few samples do not tell how much of a disc lies on surfaces. Where photons are that dense,
     // edges matter little.
     real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
     real trust =
@@ -385,7 +385,7 @@ FN void main() {
     bool ended;
     for (;;) {
         ended = true;
-        // All lanes of a subgroup count first, and add up together then.
+        // All lanes of a subgroup count first; then all of them add up.
         while (ended && s.phase == nearest_counts) {
             ended = count_photons(q, s, steps);
             if (ended) {

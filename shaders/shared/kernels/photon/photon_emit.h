@@ -8,8 +8,8 @@ FN void main() {
     uint photon = batch.first + slot;
     vec4 a = photon_random4(batch.seed, photon, 0u, quasi_random);
     vec4 v = photon_random4(batch.seed, photon, 1u, quasi_random);
-    // Emission's and first scattering's directions take one set of jointly well distributed
-    // numbers: where the light is small, they decide where the photon is stored.
+    // The directions of emission and of the first scattering use one set of jointly well
+    // distributed numbers: if the light is small, they determine where the photon is stored.
     vec4 u = vec4(a.x, a.y, v.x, v.y);
     real probability;
     LightRecord light = lights[choose_light(v.w, probability)];

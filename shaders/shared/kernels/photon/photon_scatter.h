@@ -1,10 +1,10 @@
 #include "shared/kernels/material.h"
 #include "shared/kernels/scene.h"
 
-// Whether some material of the scene has any of these lobes.
+// Whether any material of the scene has one of these lobes.
 FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
 
-// The change of the shading normal along one of a photon's differentials.
+// Change of the shading normal along one of a photon's differentials.
 FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
     if (!smooth_normals) {
         return vec3(real(0.0));
@@ -15,7 +15,7 @@ FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
                                  vec2(hit.u, hit.v), surface.shading_normal, offset);
 }
 
-// A photon where it meets a surface.
+// A photon at its hit on a surface.
 struct Arrival {
     HitRecord hit;
     Surface surface;
@@ -23,7 +23,7 @@ struct Arrival {
     vec3 direction; // in which it travels
     vec3 flux;
     real shading; // cosine with the shading normal over that with the geometric one
-    uint depth;   // how often it was scattered before
+    uint depth;   // number of scatterings so far
 };
 
 FN Arrival arrive(HitRecord hit, vec3 direction, PhotonPathRecord path) {
@@ -33,8 +33,8 @@ FN Arrival arrive(HitRecord hit, vec3 direction, PhotonPathRecord path) {
     a.frame = make_frame(a.surface.shading_normal);
     a.direction = direction;
     a.flux = vec3(path.flux_r, path.flux_g, path.flux_b);
-    // A photon lands in proportion to the cosine with the geometric normal; BSDFs weigh by that
-    // with the shading normal (Veach 1997, §5.3).
+    // Photons arrive in proportion to the cosine with the geometric normal, but the BSDF is
+    // weighted by the cosine with the shading normal (Veach 1997, §5.3).
     real cosine = -dot(direction, a.surface.geometric_normal);
     a.shading = cosine > real(0.0) ? to_local(a.frame, -direction).z / cosine : real(1.0);
     a.depth = path.state & photon_depth_mask;
@@ -48,7 +48,7 @@ struct Departure {
     vec3 direction;
 };
 
-// lobes: of which one is sampled; u: in [0,1).
+// Samples how the photon leaves the surface. lobes: lobes to sample from; u: in [0,1).
 FN Departure depart(Arrival a, MaterialRecord m, uint lobes, vec4 u) {
     Departure d;
     d.flux = vec3(real(0.0));
@@ -68,14 +68,14 @@ FN Departure depart(Arrival a, MaterialRecord m, uint lobes, vec4 u) {
     return d;
 }
 
-// Probability with which roulette lets a photon continue: it keeps the flux of a photon about
-// equal.
+// Probability with which Russian roulette lets a photon continue; it keeps the flux of photons
+// roughly equal.
 FN real survival_probability(Arrival a, Departure d) {
     return min(max_component(d.flux) / max_component(a.flux),
                a.depth < 64u ? real(1.0) : real(0.95));
 }
 
-// Turns the photon's differential, transferred to the hit, into that of its way onwards.
+// Updates the photon's differential, transferred to the hit, for the scattering.
 FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure out_of,
                              real survival) {
     BsdfSample s = out_of.sampled;
@@ -88,7 +88,7 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
         vec3 dn_du = normal_change(a.hit, a.surface, d.dp_du);
         vec3 dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
         if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
-            // The pdf is of all lobes together.
+            // The pdf includes the choice of the lobe.
             gloss_differential(d, a.direction, out_of.direction, n, dn_du, dn_dv, emitted,
                                s.pdf / s.probability);
         } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
@@ -194,8 +194,8 @@ FN void main() {
         return;
     }
     vec3 flux = out_of.flux / survival;
-    // What roulette adds to one photon it takes from another: absorption is a difference, and can
-    // be negative.
+    // Roulette moves flux from one photon to another, so absorption is a difference and may be
+    // negative.
     ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
     if (footprints) {
         scatter_differential(d, a, out_of, survival);

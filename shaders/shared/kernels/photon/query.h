@@ -13,7 +13,7 @@ struct Query {
     uint slot;
     vec3 p;
     vec3 normal;           // geometric, towards the eye
-    bool front;            // the surface is seen from its front
+    bool front;            // the eye sees the front of the surface
     uint own_normal;       // packed as photons' normals are
     uint front_normal;     // normal of the surface's front, as area samples have it
     uint most_scatterings; // of a photon that counts; only with final_gather
@@ -67,8 +67,8 @@ FN bool on_same_side(IN(Query) q, uint packed) {
     return (is_area && !q.front ? -cosine : cosine) >= same_surface_cosine;
 }
 
-// The flux that the surface scatters towards the eye, per solid angle, of a photon whose second
-// four words are `carried`.
+// Radiance that the surface scatters towards the eye from a photon's flux. carried: the photon's
+// second four words.
 FN vec3 scattered(IN(Query) q, uvec4 carried) {
     if (final_gather && photon_scatterings(carried.w) > q.most_scatterings) {
         return vec3(real(0.0));
