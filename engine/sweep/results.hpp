@@ -21,7 +21,7 @@ struct Results {
     std::uint64_t reference_samples = 0; ///< per pixel; 0: unknown
     std::optional<double> reference_error; ///< Reference::own_error
     double least_error = rounding_error;   ///< least_error_of the reference
-    LearntWidths learnt;                   ///< the bandwidths that each method chose
+    LearntBandwidths learnt;               ///< the bandwidths that each method chose
     std::vector<Measurement> measurements;
     std::vector<Failure> failures; ///< in the last run; the next one tries them again
     bool complete = false;         ///< all settings are measured, except those that failed

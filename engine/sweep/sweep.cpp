@@ -10,7 +10,7 @@ namespace argand {
 
 namespace {
 
-// What a sweep tries of a width that the method chose by itself, in multiples of that.
+// Multiples of a bandwidth that a method chose, which a sweep tries.
 constexpr double factors[] = {0.5, 2};
 
 /// The values of one option to try.
@@ -39,7 +39,7 @@ std::vector<const Option*> by_importance(const MethodInfo& method) {
     return options;
 }
 
-/// The base with each option of its method turned.
+/// The base settings, and those with one option of the method changed at a time.
 std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base,
                                   const RenderStatistics& learnt, Extent extent,
                                   MethodTable methods) {
@@ -77,7 +77,7 @@ std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base
 } // namespace
 
 std::vector<Setting> sweep(const Scene& scene, const RenderSettings& base,
-                           const std::vector<std::string>& names, const LearntWidths& learnt,
+                           const std::vector<std::string>& names, const LearntBandwidths& learnt,
                            Extent extent, MethodTable methods) {
     std::vector<Setting> all;
     std::set<std::string> seen;

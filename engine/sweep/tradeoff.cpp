@@ -92,8 +92,8 @@ bool learns_bandwidth(const MethodInfo& method) {
 
 /// Finds the bandwidths that each method chooses for the base, if it can be rendered. Returns false
 /// if it was interrupted.
-bool learn_widths(const TradeoffRequest& request, const RenderTrials& render,
-                  LearntWidths& learnt) {
+bool learn_bandwidths(const TradeoffRequest& request, const RenderTrials& render,
+                      LearntBandwidths& learnt) {
     for (const std::string& method : request.methods) {
         if (!learns_bandwidth(request.table.at(method)) || learnt.contains(method)) {
             continue;
@@ -252,7 +252,7 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
     results.complete = false;
     results.failures.clear();
     on_step("rendering a reference", 0);
-    if (!learn_widths(request, render, results.learnt)) {
+    if (!learn_bandwidths(request, render, results.learnt)) {
         return results;
     }
     const std::vector<Setting> settings =

@@ -10,7 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 using Tradeoff = ArgandTest;
 
-TEST_F(Tradeoff, MeasuresAndGoesOn) {
+TEST_F(Tradeoff, MeasuresAndResumes) {
     const std::string on_scene =
         fmt::format("tradeoff '{}' -o sweep --size 12x12 --quick --methods path --backend cpu",
                     asset("cornell_area.glb"));
@@ -46,13 +46,13 @@ TEST_F(Tradeoff, MeasuresAndGoesOn) {
     EXPECT_NE(metrics.at("relMSE_without_reference_noise"), metrics.at("relMSE"));
 }
 
-TEST_F(Tradeoff, WhatIsAsExactAsTheReferenceIsDrawn) {
+TEST_F(Tradeoff, DrawsSettingsAsAccurateAsTheReference) {
     nlohmann::json scene = nlohmann::json::parse(read_text(asset("plane_point.gltf")));
     for (nlohmann::json& node : scene.at("nodes")) {
         node.erase("extensions");
     }
     write_text(file("unlit.gltf"),
-               scene.dump()); // under a white sky, so that all is of one radiance
+               scene.dump()); // under a white sky: the radiance is uniform
     const Outcome swept =
         argand("tradeoff unlit.gltf --size 16x16 --quick --methods path,path --seeds 2 "
                "--reference-seconds 0 --backend cpu");

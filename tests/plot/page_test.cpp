@@ -1,4 +1,6 @@
 #include "plot/page.hpp"
+
+#include "base/error.hpp"
 #include "sweep/fake.hpp"
 
 #include <regex>
@@ -11,14 +13,14 @@ using ::testing::Not;
 
 class PageTest : public TradeoffTest {
 protected:
-    /// The page that draws the results in this folder.
+    /// The page with these results, drawn in this folder.
     std::string page(const std::string& folder, const Results& results) const {
         draw_results(scratch_ / folder, results);
         return text(folder + "/tradeoff.html");
     }
 };
 
-TEST_F(PageTest, OfASweepInTwoPartsIsThatOfAWholeOne) {
+TEST_F(PageTest, AResumedSweepHasThePageOfACompleteOne) {
     FakeRenderer whole;
     const std::string expected = page("whole", run(whole, scene_, request("whole")));
     for (std::size_t stop = 0; stop < whole.keys.size(); stop += 3) {
@@ -30,13 +32,13 @@ TEST_F(PageTest, OfASweepInTwoPartsIsThatOfAWholeOne) {
     }
 }
 
-TEST_F(PageTest, NothingIsDrawnWithoutAReference) {
+TEST_F(PageTest, DrawsNothingWithoutAReference) {
     FakeRenderer none(0);
     draw_results(scratch_ / "a", run(none, scene_, request("a")));
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "a/tradeoff.html"));
 }
 
-TEST_F(PageTest, SaysWhatFailed) {
+TEST_F(PageTest, ListsFailures) {
     FakeRenderer renderer;
     const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
         if (s.method == "photons" && s.photons == 10'000) {
@@ -61,7 +63,7 @@ TEST_F(PageTest, RefersToNothingOutside) {
     EXPECT_THAT(html, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
 }
 
-TEST_F(PageTest, OfOneSeedAndABlackScene) {
+TEST_F(PageTest, ShowsOneSeedOfABlackScene) {
     const std::string html = page("dark", run_on_a_black_scene(request("dark")));
     EXPECT_THAT(html, HasSubstr("no measurable error"));
     EXPECT_FALSE(std::regex_search(html, std::regex("\\b(nan|inf)\\b")));

@@ -9,8 +9,7 @@ namespace argand::testing {
 
 inline constexpr double true_radiance = 2;
 
-/// A picture whose true radiance is the same everywhere, with a bias and with noise of a normal
-/// distribution.
+/// An image of uniform radiance `true_radiance` plus a bias, with normally distributed noise.
 inline Image noisy(int width, int height, double bias, double deviation, std::uint32_t seed) {
     std::mt19937 bits(seed);
     std::normal_distribution<double> noise(true_radiance + bias, deviation);

@@ -13,8 +13,9 @@
 #include <cmath>
 namespace argand::testing {
 
-/// Stands in for the renderer: `path` has noise alone, all others bias as well, less with more
-/// photons. Times follow from the work. Counts what it is asked for.
+/// A fake renderer. `path` has only noise; all other methods also have bias, which falls with the
+/// number of photons. Times follow from the numbers of photons and samples. Records the settings
+/// that it renders.
 class FakeRenderer {
 public:
     explicit FakeRenderer(int interrupted_after = 1 << 30) : left_(interrupted_after) {}
@@ -54,7 +55,7 @@ inline Results run(FakeRenderer& renderer, const Scene& scene, const TradeoffReq
     return measure_tradeoff(request, scene, renderer.trials(), [](std::string_view, double) {});
 }
 
-/// Of a scene without light, by a renderer of black pictures, with one seed.
+/// Results of a scene without light, from a renderer of black pictures, with one seed.
 inline Results run_on_a_black_scene(TradeoffRequest request) {
     Scene dark;
     add_floor(dark, 1, 0, add_material(dark, lambertian(glm::vec3(0.5f))));

@@ -19,10 +19,10 @@ Reference reference(double deviation) {
     return {.a = noisy(side, side, 0, deviation, 1000), .b = noisy(side, side, 0, deviation, 1001)};
 }
 
-// relMSE divides by the square of the radiance and a hundredth of it.
+// The denominator of relMSE: the square of the radiance plus a hundredth of it.
 constexpr double divisor = 1.01 * true_radiance * true_radiance;
 
-TEST(Measurement, TellsBiasFromVariance) {
+TEST(Measurement, SeparatesBiasFromVariance) {
     constexpr double bias = 0.2, deviation = 0.3;
     const Measurement m =
         measure({"default", "", {}}, trials_of(bias, deviation, 4), reference(0.1));
@@ -39,7 +39,7 @@ TEST(Measurement, WithoutBiasFindsNone) {
     EXPECT_NEAR(*m.bias, 0, 0.03 * *m.variance);
 }
 
-TEST(Measurement, TheNoiseOfThePairDoesNotCount) {
+TEST(Measurement, IgnoresTheNoiseOfThePair) {
     const Trials trials = trials_of(0.1, 0, 2);
     const Reference pair = reference(0.05);
     const double with_pair = measure({"default", "", {}}, trials, pair).rel_mse.mean;
@@ -59,7 +59,7 @@ TEST(Measurement, TakesTheMedianOfTimes) {
     EXPECT_EQ(m.seeds, 3u);
 }
 
-TEST(Measurement, OneSeedTellsNoVariance) {
+TEST(Measurement, HasNoVarianceFromOneSeed) {
     const Measurement m = measure({"default", "", {}}, trials_of(0.2, 0.3, 1), reference(0));
     EXPECT_FALSE(m.bias);
     EXPECT_FALSE(m.variance);
@@ -75,7 +75,7 @@ TEST(Measurement, SurvivesJson) {
     EXPECT_EQ(to_json(measurement_from(to_json(one))), to_json(one));
 }
 
-TEST(Measurement, WhatIsNotBlackWhereAllIsBlackHasNoFiniteError) {
+TEST(Measurement, ErrorAgainstABlackReferenceIsInfinite) {
     const Image black{1, 1, {glm::vec3(0)}}, white{1, 1, {glm::vec3(1)}};
     const Trials trials{.trials = {{.picture = white, .wall_seconds = 1}}, .peak_bytes = 0};
     const Measurement m = measure({"default", "", {}}, trials, {.a = black, .b = black});

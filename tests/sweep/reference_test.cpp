@@ -14,14 +14,14 @@ RenderSettings small() {
     return settings;
 }
 
-TEST(Reference, HasSamplesUntilItsErrorIsFarBelowThePilots) {
+TEST(Reference, AddsSamplesUntilItsErrorIsFarBelowThePilots) {
     FakeRenderer renderer;
     const std::array pilots{noisy(32, 32, 0, 0.2, 5), noisy(32, 32, 0, 0.06, 6)};
     const auto reference = render_reference(renderer.trials(), small(), pilots, 1e6);
     ASSERT_TRUE(reference);
     const double least = 0.06 * 0.06 / (1.01 * true_radiance * true_radiance);
     EXPECT_LT(*reference->own_error, 1.1 * reference_share * least);
-    // Its own error is what is left: of variance 1 / samples.
+    // Only its own error is left, of variance 1 / samples.
     EXPECT_NEAR(
         *reference->own_error,
         1 / (1.01 * true_radiance * true_radiance * static_cast<double>(reference->samples)),
@@ -29,17 +29,17 @@ TEST(Reference, HasSamplesUntilItsErrorIsFarBelowThePilots) {
     EXPECT_GT(renderer.keys.size(), 3u);
 }
 
-TEST(Reference, KeepsToItsTime) {
+TEST(Reference, KeepsItsTimeLimit) {
     FakeRenderer renderer;
-    const std::array pilots{noisy(32, 32, 0, 0, 5)}; // nothing is exact enough for this
+    const std::array pilots{noisy(32, 32, 0, 0, 5)}; // no reference is accurate enough for this
     const auto reference = render_reference(renderer.trials(), small(), pilots, 0);
     ASSERT_TRUE(reference);
     EXPECT_EQ(renderer.keys.size(), 1u);
     EXPECT_GT(*reference->own_error, 0);
 }
 
-/// relMSE of the true picture against pairs of `deviation` of noise in the first `noisy_rows`, over
-/// the least error.
+/// relMSE of the true image, divided by the least error, against pairs with noise of this deviation
+/// in the first `noisy_rows` rows.
 std::vector<double> true_errors_over_least(int noisy_rows) {
     constexpr int side = 32, pairs = 50;
     const Image truth = noisy(side, side, 0, 0, 0);
@@ -61,7 +61,7 @@ std::vector<double> true_errors_over_least(int noisy_rows) {
     return ratios;
 }
 
-TEST(Reference, ErrorsOfATruePictureAreAboutTheLeastError) {
+TEST(Reference, ErrorsOfATrueImageAreAboutTheLeastError) {
     for (const int noisy_rows : {32, 2}) {
         double squares = 0;
         std::size_t within = 0;
@@ -69,13 +69,13 @@ TEST(Reference, ErrorsOfATruePictureAreAboutTheLeastError) {
             squares += ratio * ratio / 50;
             within += std::abs(ratio) < 1;
         }
-        // Two standard deviations or so hold 95 %.
+        // About two standard deviations hold 95 %.
         EXPECT_GE(within, 45u) << noisy_rows;
         EXPECT_GT(std::sqrt(squares), 0.3) << noisy_rows;
     }
 }
 
-TEST(Reference, TheLeastErrorOfOneWithoutNoiseIsRounding) {
+TEST(Reference, LeastErrorWithoutNoiseIsRounding) {
     const Image image = noisy(8, 8, 0, 0.1, 1);
     EXPECT_EQ(least_error_of({.a = image, .b = image, .own_error = 0}), rounding_error);
     EXPECT_EQ(least_error_of({.a = image, .b = image}), rounding_error);
@@ -83,7 +83,7 @@ TEST(Reference, TheLeastErrorOfOneWithoutNoiseIsRounding) {
     EXPECT_EQ(least_error_of({.a = black, .b = black, .own_error = 0}), rounding_error);
 }
 
-TEST(Reference, TheLeastErrorIsNotAboveItsOwn) {
+TEST(Reference, LeastErrorIsAtMostItsOwnError) {
     Image a = noisy(8, 8, 0, 0, 0), b = a;
     a.pixels[5] = glm::vec3(3); // all of the noise is in one pixel
     EXPECT_EQ(least_error_of({.a = a, .b = b, .own_error = 0.01}), 0.01);
@@ -94,7 +94,7 @@ TEST(Reference, CanBeInterrupted) {
     EXPECT_FALSE(render_reference(renderer.trials(), small(), {}, 1));
 }
 
-TEST(Reference, FilesAreOneOrAPair) {
+TEST(Reference, ReadsOneFileOrAPair) {
     const ScratchDirectory folder;
     write_exr(folder / "a.exr", std::array{Layer{"", noisy(8, 4, 0, 0.1, 1)}});
     write_exr(folder / "b.exr", std::array{Layer{"", noisy(8, 4, 0, 0.1, 2)}});

@@ -13,7 +13,7 @@ using ::testing::Not;
 
 Scene asset(const std::string& name) { return load_gltf(ARGAND_SOURCE_DIR "/assets/" + name); }
 
-LearntWidths learnt() {
+LearntBandwidths learnt() {
     RenderStatistics statistics;
     statistics.radius = 0.25;
     statistics.neighbours = 50;
@@ -31,7 +31,7 @@ std::set<std::string> knobs(const Scene& scene, const std::string& method,
     return names;
 }
 
-TEST(Sweep, TurnsEveryKnobThatAMethodHas) {
+TEST(Sweep, VariesEveryOptionOfAMethod) {
     const Scene glass = asset("cornell_glass.glb");
     EXPECT_EQ(knobs(glass, "path"), (std::set<std::string>{"default", "spp", "bounces"}));
     EXPECT_THAT(knobs(glass, "photons"),
@@ -44,7 +44,7 @@ TEST(Sweep, TurnsEveryKnobThatAMethodHas) {
                               "paper-axes", "paper-reemission"}));
 }
 
-TEST(Sweep, TurnsOneKnobAtATime) {
+TEST(Sweep, VariesOneOptionAtATime) {
     const std::vector<Setting> settings =
         sweep(asset("cornell_glass.glb"), {}, method_names(), learnt(), Extent::full);
     std::set<std::string> keys;
@@ -62,37 +62,37 @@ TEST(Sweep, TurnsOneKnobAtATime) {
     }
 }
 
-TEST(Sweep, WithoutMirrorOrGlassThereAreNoCaustics) {
+TEST(Sweep, LeavesOutCausticOptionsWithoutMirrorOrGlass) {
     EXPECT_THAT(knobs(asset("cornell_area.glb"), "footprints"), Not(Contains("caustic-smoothing")));
 }
 
-TEST(Sweep, RoughnessCountsWhereItChangesWhatIsFollowed) {
+TEST(Sweep, VariesRoughnessOnlyIfItChangesTheFollowedLobes) {
     EXPECT_THAT(knobs(asset("cornell_area.glb"), "photons"), Not(Contains("follow-roughness")));
     EXPECT_THAT(knobs(asset("glossy.glb"), "photons"), Contains("follow-roughness"));
 }
 
-TEST(Sweep, WhereNothingShinesNothingIsTurned) {
+TEST(Sweep, VariesNothingInAnUnlitScene) {
     Scene dark;
     add_floor(dark, 1, 0, add_material(dark, lambertian(glm::vec3(0.5f))));
     EXPECT_EQ(knobs(dark, "footprints"), std::set<std::string>{"default"});
     EXPECT_EQ(knobs(dark, "path"), std::set<std::string>{"default"});
 }
 
-TEST(Sweep, WhereNothingIsEstimatedPhotonsAreNoMatter) {
+TEST(Sweep, LeavesOutPhotonOptionsIfNothingIsEstimated) {
     Scene scene;
     scene.sky = glm::vec3(1);
     add_floor(scene, 1, 0, add_material(scene, mirror()));
     EXPECT_EQ(knobs(scene, "photons"), (std::set<std::string>{"default", "spp"}));
 }
 
-TEST(Sweep, WithoutPhotonsTheirTreatmentIsNoMatter) {
+TEST(Sweep, LeavesOutEstimationOptionsWithoutPhotons) {
     RenderSettings none;
     none.photons = 0;
     EXPECT_EQ(knobs(asset("cornell_area.glb"), "photons", Extent::full, none),
               (std::set<std::string>{"default", "spp", "photons", "bounces"}));
 }
 
-TEST(Sweep, AMethodThatIsNamedTwiceCountsOnce) {
+TEST(Sweep, IgnoresAMethodNamedTwice) {
     const Scene scene = asset("cornell_area.glb");
     const auto count = [&](const std::vector<std::string>& methods) {
         return sweep(scene, {}, methods, learnt(), Extent::quick).size();
@@ -101,13 +101,13 @@ TEST(Sweep, AMethodThatIsNamedTwiceCountsOnce) {
     EXPECT_EQ(count({"path", "knn", "path"}), count({"path", "knn"}));
 }
 
-TEST(Sweep, QuickTurnsLess) {
+TEST(Sweep, QuickVariesFewerOptions) {
     const Scene scene = asset("cornell_area.glb");
     EXPECT_EQ(knobs(scene, "knn", Extent::quick),
               (std::set<std::string>{"default", "spp", "photons", "radius", "k"}));
 }
 
-TEST(Parameters, OptionsAreThoseOfArgandRender) {
+TEST(Parameters, AreOptionsOfArgandRender) {
     RenderSettings settings;
     settings.method = "footprints";
     EXPECT_EQ(command_options(settings), "--method footprints");

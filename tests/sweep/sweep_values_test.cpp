@@ -11,8 +11,8 @@ namespace {
 
 using Values = std::map<std::string, std::set<std::string>>;
 
-/// What is tried of each option of a method on a box with diffuse, glossy and glass surfaces, where
-/// methods chose a radius of 0.25, 50 neighbours and a smoothing of 1.
+/// The values that a sweep tries for each option of a method, on a box with diffuse, glossy and
+/// glass surfaces where methods chose a radius of 0.25, 50 neighbours and a smoothing of 1.
 Values values(const std::string& method, Extent extent) {
     RenderStatistics learnt;
     learnt.radius = 0.25;

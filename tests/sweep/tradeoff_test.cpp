@@ -24,7 +24,7 @@ TEST_F(TradeoffTest, MeasuresEverySettingOnce) {
     }
 }
 
-TEST_F(TradeoffTest, InterruptedGoesOnWhereItStopped) {
+TEST_F(TradeoffTest, ResumesAnInterruptedSweep) {
     FakeRenderer whole;
     run(whole, scene_, request("whole"));
     for (std::size_t stop = 0; stop < whole.keys.size(); stop += 3) {
@@ -44,14 +44,14 @@ TEST_F(TradeoffTest, InterruptedGoesOnWhereItStopped) {
     }
 }
 
-TEST_F(TradeoffTest, AFinishedOneRendersNothing) {
+TEST_F(TradeoffTest, RendersNothingIfComplete) {
     FakeRenderer first, second;
     run(first, scene_, request("a"));
     run(second, scene_, request("a"));
     EXPECT_THAT(second.keys, IsEmpty());
 }
 
-TEST_F(TradeoffTest, MeasuresAgainWhatLostItsPicture) {
+TEST_F(TradeoffTest, MeasuresASettingAgainIfItsPictureIsLost) {
     FakeRenderer first, second;
     const Results results = run(first, scene_, request("a"));
     std::filesystem::remove(scratch_ / "a" / results.measurements[1].picture);
@@ -59,7 +59,7 @@ TEST_F(TradeoffTest, MeasuresAgainWhatLostItsPicture) {
     EXPECT_THAT(second.keys, ::testing::ElementsAre(results.measurements[1].key));
 }
 
-TEST_F(TradeoffTest, GoesOnAfterASettingThatFails) {
+TEST_F(TradeoffTest, ContinuesAfterASettingThatFails) {
     FakeRenderer renderer;
     const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
         if (s.method == "photons" && s.photons == 10'000) {
@@ -77,7 +77,7 @@ TEST_F(TradeoffTest, GoesOnAfterASettingThatFails) {
     EXPECT_EQ(again.keys.size(), 1u);
 }
 
-TEST_F(TradeoffTest, WantOfMemoryAtTheLargestSettingLeavesTheOthers) {
+TEST_F(TradeoffTest, MeasuresOtherSettingsIfTheLargestRunsOutOfMemory) {
     FakeRenderer whole;
     const std::size_t all = run(whole, scene_, request("whole")).measurements.size();
     const auto measured_with = [&](const std::string& folder,
@@ -102,7 +102,7 @@ TEST_F(TradeoffTest, WantOfMemoryAtTheLargestSettingLeavesTheOthers) {
     EXPECT_EQ(measured_with("b", [] { throw std::bad_alloc(); }), all - 1);
 }
 
-TEST_F(TradeoffTest, AMethodThatCannotBeRenderedLeavesTheOthers) {
+TEST_F(TradeoffTest, MeasuresOtherMethodsIfOneCannotBeRendered) {
     FakeRenderer renderer;
     const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
         if (s.method == "photons") {
@@ -116,13 +116,13 @@ TEST_F(TradeoffTest, AMethodThatCannotBeRenderedLeavesTheOthers) {
     EXPECT_EQ(results.measurements.size(),
               sweep(scene_, request("a").base, {"path"}, {}, Extent::quick).size());
     EXPECT_THAT(results.failures, Not(IsEmpty()));
-    // Once it can be, its widths are turned too.
+    // Once it can be rendered, the sweep varies its bandwidth too.
     FakeRenderer again, whole;
     EXPECT_EQ(run(again, scene_, request("a")).measurements.size(),
               run(whole, scene_, request("b")).measurements.size());
 }
 
-TEST_F(TradeoffTest, AMethodThatIsNamedTwiceIsMeasuredOnce) {
+TEST_F(TradeoffTest, MeasuresAMethodNamedTwiceOnce) {
     TradeoffRequest twice = request("a");
     twice.methods = {"path", "path"};
     FakeRenderer first, second;
@@ -134,7 +134,7 @@ TEST_F(TradeoffTest, AMethodThatIsNamedTwiceIsMeasuredOnce) {
     EXPECT_THAT(second.keys, IsEmpty());
 }
 
-TEST_F(TradeoffTest, AReferenceThatIsLostIsMadeAgain) {
+TEST_F(TradeoffTest, RendersALostReferenceAgain) {
     FakeRenderer first, second;
     run(first, scene_, request("a"));
     const std::string before = text("a/reference.exr"), csv = text("a/tradeoff.csv");
@@ -147,7 +147,7 @@ TEST_F(TradeoffTest, AReferenceThatIsLostIsMadeAgain) {
                 HasSubstr("remove it to render it again"));
 }
 
-TEST_F(TradeoffTest, AGivenReferenceThatIsLostIsReadAgain) {
+TEST_F(TradeoffTest, ReadsALostGivenReferenceAgain) {
     write_exr(scratch_ / "true.exr", std::array{Layer{"", noisy(16, 16, 0, 0.01, 99)}});
     TradeoffRequest given = request("a");
     given.reference_files = {scratch_ / "true.exr"};
@@ -160,7 +160,7 @@ TEST_F(TradeoffTest, AGivenReferenceThatIsLostIsReadAgain) {
     EXPECT_EQ(text("a/reference.exr"), before);
 }
 
-TEST_F(TradeoffTest, MoreTimeForAFinishedReferenceIsNoOtherRun) {
+TEST_F(TradeoffTest, MoreTimeForAFinishedReferenceDoesNotChangeTheRun) {
     FakeRenderer first, second;
     run(first, scene_, request("a"));
     TradeoffRequest longer = request("a");
@@ -189,7 +189,7 @@ TEST_F(TradeoffTest, DoesNotMixRuns) {
                 ::testing::HasSubstr("tradeoff.json"));
 }
 
-TEST_F(TradeoffTest, CsvSaysWhatJsonSays) {
+TEST_F(TradeoffTest, CsvAgreesWithJson) {
     FakeRenderer renderer;
     run(renderer, scene_, request("a"));
     const Results results = read_results(scratch_ / "a/tradeoff.json");

@@ -20,15 +20,16 @@ RenderSettings small(const std::string& method, std::uint64_t photons) {
 class TrialsTest : public ::testing::Test {
 protected:
     std::optional<Trials> render(
-        const RenderSettings& settings, const std::function<bool()>& go_on = [] { return true; }) {
+        const RenderSettings& settings,
+        const std::function<bool()>& keep_going = [] { return true; }) {
         constexpr std::array<std::uint32_t, 2> seeds{3, 4};
-        return trials_on_device([] { return open_device(); }, scene_, go_on)(settings, seeds);
+        return trials_on_device([] { return open_device(); }, scene_, keep_going)(settings, seeds);
     }
 
     Scene scene_ = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");
 };
 
-TEST_F(TrialsTest, AreTheRendersOfTheSeeds) {
+TEST_F(TrialsTest, RenderEachSeed) {
     const std::optional<Trials> trials = render(small("photons", 2000));
     ASSERT_TRUE(trials);
     ASSERT_EQ(trials->trials.size(), 2u);
@@ -47,7 +48,7 @@ TEST_F(TrialsTest, AreTheRendersOfTheSeeds) {
     }
 }
 
-TEST_F(TrialsTest, MemoryIsThatOfTheSettingAlone) {
+TEST_F(TrialsTest, CountTheMemoryOfOneSettingAlone) {
     const std::uint64_t few = render(small("photons", 2000))->peak_bytes;
     EXPECT_GT(render(small("photons", 200'000))->peak_bytes, few);
     EXPECT_EQ(render(small("photons", 2000))->peak_bytes, few);
