@@ -169,6 +169,8 @@ FN void next_sibling(INOUT(Walk) walk, uint place) {
     }
 }
 
+// One function, for GLSL would copy the stack to any other.
+// NOLINTNEXTLINE(readability-function-size)
 FN void main() {
     uint thread = THREAD_INDEX;
     uint slot = 0u;
