@@ -16,8 +16,6 @@ namespace {
 
 // Points at which the radius of caustics is measured, at least.
 constexpr std::size_t caustic_samples = 1024;
-// r_max of the k nearest photons over the radius that holds k of them in the median.
-constexpr double reach_of_nearest = 2.5;
 // Bounds of the semi-axes of caustic photons' footprints, over the radius that would serve for all
 // caustics. Where a caustic folds, the linear map of the differentials holds only in a small
 // neighbourhood: footprints shrink to lines and points there, which are seen as streaks and
@@ -72,12 +70,6 @@ constexpr double footprints_for_disc = 1.7;
 // or more get no radius of their own.
 constexpr double sharpest_caustic = 0.17;
 
-/// Photons that one pass should find in a disc (or k), so that all passes together find the best
-/// number.
-double in_disc_of_pass(double photons, double passes, bool caustic = false) {
-    return photons_in_disc(photons * passes, caustic) / passes;
-}
-
 /// The radii for a picture. That of caustics is measured where caustic photons lie, because that is
 /// where caustics are.
 GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const glm::vec3> queries,
@@ -129,43 +121,46 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
 /// smoothing does not fall.
 double shrinking(double passes) { return std::pow(passes, -1.0 / 6); }
 
+std::vector<PhotonRecord> photons_of(const FirstPass& first) {
+    return download<PhotonRecord>(first.device, first.workspace.photons, first.stored.slots);
+}
+
 } // namespace
 
-Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const FirstPass& first,
-                          const RenderSettings& settings, Estimator estimator) {
-    const bool nearest = estimator == Estimator::nearest;
-    const StoredPhotons& stored = first.stored;
-    const auto count = static_cast<double>(stored.photons);
-    const std::vector<PhotonRecord> photons =
-        download<PhotonRecord>(device, first.workspace.photons, stored.slots);
+double in_disc_of_pass(double photons, double passes, bool caustic) {
+    return photons_in_disc(photons * passes, caustic) / passes;
+}
+
+Bandwidth learn_radii(const FirstPass& first, const RenderSettings& settings,
+                      std::optional<std::uint32_t> neighbours) {
+    const SceneRecord& scene = first.scene.record;
+    const std::vector<PhotonRecord> photons = photons_of(first);
     Bandwidth b;
     b.caustics = std::any_of(photons.begin(), photons.end(), [](const PhotonRecord& photon) {
         return photon.normal != no_photon && photon_is_caustic(photon.normal);
     });
-    const double given = std::max(settings.radius.value_or(0), least_radius * scene.record.radius);
+    const double given = std::max(settings.radius.value_or(0), least_radius * scene.radius);
     b.radii = settings.radius ? GatherRadii{given, given}
-                              : radii_from(photons, first.queries, scene.record, first.passes,
-                                           nearest ? settings.neighbours : std::nullopt);
-    if (nearest) {
-        const double automatic = std::max(std::round(in_disc_of_pass(count, first.passes)), 2.0);
-        b.neighbours = settings.neighbours.value_or(static_cast<std::uint32_t>(automatic));
-        b.radii.indirect *= settings.radius ? 1 : reach_of_nearest;
-        b.radii.caustic = b.radii.indirect;
-    }
-    const double by = settings.footprints.fixed_smoothing ? 1 : shrinking(first.passes);
-    b.caustic_smoothing = settings.footprints.caustic_smoothing * by;
-    if (estimator == Estimator::footprints && settings.footprints.smoothing) {
-        b.smoothing = *settings.footprints.smoothing * by;
-    } else if (estimator == Estimator::footprints) {
-        const auto offsets = download<glm::uvec4>(device, first.workspace.offsets, stored.slots);
-        const double learnt =
-            median_smoothing(photons, offsets, first.queries,
-                             scale_of(settings.footprints, static_cast<double>(stored.emitted), 1,
-                                      1, 1e6, scene.record),
-                             footprints_for_disc * in_disc_of_pass(count, first.passes));
-        b.smoothing = learnt > 0 ? learnt : 1;
-    }
+                              : radii_from(photons, first.queries, scene, first.passes, neighbours);
     return b;
+}
+
+void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettings& settings) {
+    const StoredPhotons& stored = first.stored;
+    const double by = settings.fixed_smoothing ? 1 : shrinking(first.passes);
+    b.caustic_smoothing = settings.caustic_smoothing * by;
+    if (settings.smoothing) {
+        b.smoothing = *settings.smoothing * by;
+        return;
+    }
+    const auto offsets = download<glm::uvec4>(first.device, first.workspace.offsets, stored.slots);
+    const double on_point =
+        footprints_for_disc * in_disc_of_pass(static_cast<double>(stored.photons), first.passes);
+    const FootprintScale unit =
+        scale_of(settings, static_cast<double>(stored.emitted), 1, 1, 1e6, first.scene.record);
+    const double learnt =
+        median_smoothing(photons_of(first), offsets, first.queries, unit, on_point);
+    b.smoothing = learnt > 0 ? learnt : 1;
 }
 
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,

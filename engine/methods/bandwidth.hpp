@@ -7,30 +7,38 @@
 
 namespace argand {
 
-/// How radiance is estimated from a photon map.
-enum class Estimator { radius, footprints, nearest };
-
 /// How large the neighbourhoods are in which each pass estimates densities of photons.
 struct Bandwidth {
-    GatherRadii radii;            ///< of `nearest`: r_max
-    std::uint32_t neighbours = 0; ///< k; only of `nearest`
-    double smoothing = 0;         ///< only of `footprints`
-    double caustic_smoothing = 0; ///< only of `footprints`
-    bool caustics = false;        ///< whether there are caustic photons
+    GatherRadii radii;            ///< of the k nearest photons: r_max
+    std::uint32_t neighbours = 0; ///< k; 0: the estimator has none
+    double smoothing = 0;         ///< of footprints; 0: the estimator has none
+    double caustic_smoothing = 0;
+    bool caustics = false; ///< whether there are caustic photons
 };
 
 /// The first pass of a picture, from which its bandwidth is learnt.
 struct FirstPass {
+    Device& device;
+    const DeviceScene& scene;
     const PhotonWorkspace& workspace; ///< holds the pass's photons
     const StoredPhotons& stored;
     std::span<const glm::vec3> queries; ///< points at which the picture queries the photon map
     double passes = 1; ///< of as many photons each, over which the picture averages
 };
 
-/// The bandwidth for a picture, from the density of the first pass's photons at its query points.
-/// Values that the user has set are kept. Waits for the device.
-Bandwidth learn_bandwidth(Device& device, const DeviceScene& scene, const FirstPass& first,
-                          const RenderSettings& settings, Estimator estimator);
+/// The photons that one pass should find in a disc (or k), so that all passes together find the
+/// best number. photons: that a pass stores.
+double in_disc_of_pass(double photons, double passes, bool caustic = false);
+
+/// The radii for a picture, from the density of the first pass's photons at its query points, and
+/// whether there are caustics. A radius that the user has set is kept. neighbours: photons that a
+/// disc should hold, if that is given. Waits for the device.
+Bandwidth learn_radii(const FirstPass& first, const RenderSettings& settings,
+                      std::optional<std::uint32_t> neighbours = std::nullopt);
+
+/// Adds the smoothing of footprints to a bandwidth that has radii, in the same way.
+void learn_smoothing(Bandwidth& bandwidth, const FirstPass& first,
+                     const FootprintSettings& settings);
 
 /// The bandwidth for another number of passes than it was learnt for.
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,

@@ -11,8 +11,10 @@ class DensityEstimator {
 public:
     virtual ~DensityEstimator() = default;
 
-    /// What learn_bandwidth() is to learn.
-    virtual Estimator kind() const = 0;
+    /// The bandwidth of a picture, from its first pass. Values that the user has set are kept.
+    virtual Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const {
+        return learn_radii(first, settings);
+    }
 
     /// The typical radius of an estimate. Area samples are as dense, and cells of shared answers as
     /// large, as suits it.

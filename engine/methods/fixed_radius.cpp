@@ -10,8 +10,6 @@ namespace {
 /// al. 2008). Caustics have a radius of their own.
 class FixedRadius : public DensityEstimator {
 public:
-    Estimator kind() const override { return Estimator::radius; }
-
     QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const override {
         const bool sharp = bandwidth.radii.caustic < bandwidth.radii.indirect;
         return {.cell = cell,

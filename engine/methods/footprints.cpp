@@ -9,7 +9,11 @@ namespace {
 /// Density over each photon's own footprint (Fabianowski and Dingliana 2009).
 class Footprints : public DensityEstimator {
 public:
-    Estimator kind() const override { return Estimator::footprints; }
+    Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const override {
+        Bandwidth bandwidth = learn_radii(first, settings);
+        learn_smoothing(bandwidth, first, settings.footprints);
+        return bandwidth;
+    }
 
     std::optional<FootprintScale> footprints(const Bandwidth& bandwidth,
                                              const FootprintSettings& settings, double photons,

@@ -3,6 +3,7 @@
 #include "methods/render_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace argand {
 
@@ -11,11 +12,21 @@ namespace {
 // Radius of a typical estimate over r_max: queries use their own discs, of which many are smaller
 // than the median.
 constexpr double typical_over_max = 0.3;
+// r_max over the radius that holds k photons in the median.
+constexpr double reach = 2.5;
 
 /// Density over the disc that the k nearest photons fill (Jensen 1996).
 class Nearest : public DensityEstimator {
 public:
-    Estimator kind() const override { return Estimator::nearest; }
+    Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const override {
+        Bandwidth bandwidth = learn_radii(first, settings, settings.neighbours);
+        const auto stored = static_cast<double>(first.stored.photons);
+        const double automatic = std::max(std::round(in_disc_of_pass(stored, first.passes)), 2.0);
+        bandwidth.neighbours = settings.neighbours.value_or(static_cast<std::uint32_t>(automatic));
+        bandwidth.radii.indirect *= settings.radius ? 1 : reach;
+        bandwidth.radii.caustic = bandwidth.radii.indirect;
+        return bandwidth;
+    }
 
     double typical_radius(const Bandwidth& bandwidth) const override {
         return typical_over_max * bandwidth.radii.indirect;

@@ -56,11 +56,13 @@ public:
         learnt_ = budget.once([&] {
             const std::vector<glm::vec3> queries = sample_queries(
                 c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
-            const FirstPass first{.workspace = photons_,
+            const FirstPass first{.device = c_.device,
+                                  .scene = c_.on_device,
+                                  .workspace = photons_,
                                   .stored = *first_,
                                   .queries = queries,
                                   .passes = static_cast<double>(split_.passes)};
-            return learn_bandwidth(c_.device, c_.on_device, first, c_.settings, estimator_->kind());
+            return estimator_->learn(first, c_.settings);
         });
     }
 
