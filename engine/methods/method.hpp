@@ -15,7 +15,7 @@
 
 namespace argand {
 
-/// What a method is and needs. The rest of Argand asks for these, never for a method's name.
+/// What a method can do and needs. The rest of Argand reads these instead of comparing names.
 struct Abilities {
     bool unbiased = false; ///< the mean of its images is the truth, so that it serves as reference
     bool photon_map = false; ///< it estimates radiance from photons
@@ -65,8 +65,8 @@ class Method {
 public:
     virtual ~Method() = default;
 
-    /// Does the work that precedes the first pass, which begins where this calls
-    /// budget.start_pass(), and leaves what is done once out of its time (budget.once()).
+    /// Does the work that precedes the first pass. The time of the first pass begins where this
+    /// calls budget.start_pass(); work that only the first pass has goes into budget.once().
     virtual void begin(Budget& budget) { budget.start_pass(); }
 
     /// Passes over which the samples and photons of the settings are spread. Known after begin().

@@ -5,7 +5,7 @@
 
 namespace argand {
 
-/// Who is told of a render's progress, and who decides on its passes.
+/// The callers that follow a render's progress and decide on its passes.
 struct Listeners {
     const OnProgress& progress;
     const OnPass& on_pass; ///< may be empty

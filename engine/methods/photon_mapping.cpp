@@ -16,8 +16,8 @@ constexpr double units_per_photon = 1 << 18;
 
 /// How photons and samples are spread over passes. All passes count the same, so they are of one
 /// size: the noise of a small last one would be the noise of the image. Each pass has at least one
-/// sample, so the image has more samples than were asked for if there are more passes than that,
-/// or if samples do not divide evenly.
+/// sample, so the image has more samples than the settings request if there are more passes than
+/// that, or if samples do not divide evenly.
 struct PassSplit {
     std::uint64_t passes = 1;
     std::uint64_t photons = 1; ///< of the largest pass
@@ -89,12 +89,12 @@ private:
 
     RenderContext& c_;
     std::unique_ptr<DensityEstimator> estimator_;
-    std::uint64_t emitted_ = 0; ///< photons that the settings ask for, all passes together
+    std::uint64_t emitted_ = 0; ///< photons of the whole image, as the settings request
     PassSplit split_;
     double flux_unit_ = 0; ///< of the fixed-point sums
     PhotonWorkspace photons_;
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
-    Bandwidth learnt_;                   ///< for as many passes as the settings ask for
+    Bandwidth learnt_;                   ///< for split_.passes passes
     // Of the last pass.
     StoredPhotons stored_;
     Bandwidth bandwidth_;
@@ -106,8 +106,8 @@ private:
     FluxSums flux_;
 };
 
-/// The photons of a pass. Their numbers go on where there is time for more passes than were asked
-/// for.
+/// The photons of a pass. If there are more passes than the settings request, their numbers
+/// continue.
 PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
     const std::uint64_t round = numbers.index / split_.passes;
     const std::uint64_t in_round = numbers.index % split_.passes;

@@ -111,7 +111,7 @@ struct PictureSoFar {
     std::function<std::vector<Layer>()> layers; ///< as in RenderResult; waits for the device
 };
 
-/// A pass that is asked for.
+/// A request for one more pass.
 struct PassPlan {
     /// Passes of the whole image, as far as is known: bandwidths follow from it.
     double expected = 1;

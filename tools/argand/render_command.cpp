@@ -71,7 +71,7 @@ bool is_autotuned(const RenderOptions& options, const CLI::App& command) {
     return options.target_error || (options.settings.budget && !is_given(command, "--method"));
 }
 
-/// Throws UsageError on options that fix what Argand is asked to choose.
+/// Throws UsageError on options that fix a choice which is left to Argand.
 void check_autotuned(const RenderOptions& options, const CLI::App& command) {
     const MethodTable methods = options.methods;
     if (is_given(command, "--method")) {
@@ -162,7 +162,7 @@ Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
     return {std::move(result), std::move(tuned)};
 }
 
-/// Notes for the user on a render that took so many `seconds`.
+/// Notes for the user on a render that took this time.
 std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& rendered,
                                   double seconds) {
     constexpr double clearly_more = 1.2;
