@@ -1,7 +1,7 @@
 #pragma once
 
 #include "autotune/estimate.hpp"
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 
 namespace argand {
 

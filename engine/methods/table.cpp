@@ -1,7 +1,7 @@
 #include "methods/table.hpp"
 
 #include "base/error.hpp"
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "sweep/parameters.hpp"
 
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 
 #include <fmt/format.h>
 

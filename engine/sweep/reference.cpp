@@ -6,7 +6,7 @@
 #include "image/files.hpp"
 #include "image/mean.hpp"
 #include "image/metrics.hpp"
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "sweep/sweep.hpp"
 
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 #include "sweep/parameters.hpp"
 
 #include <algorithm>

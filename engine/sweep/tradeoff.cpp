@@ -7,7 +7,7 @@
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "image/exr.hpp"
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 #include "sweep/parameters.hpp"
 
 #include <algorithm>

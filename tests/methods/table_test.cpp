@@ -1,4 +1,4 @@
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 #include "support/expect_error.hpp"
 
 #include <gmock/gmock.h>

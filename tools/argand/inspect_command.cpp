@@ -1,7 +1,7 @@
 #include "commands.hpp"
 
 #include "base/json.hpp"
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 #include "scene/gltf.hpp"
 #include "scene/summary.hpp"
 

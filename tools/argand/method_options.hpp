@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 
 #include <CLI/CLI.hpp>
 #include <string>

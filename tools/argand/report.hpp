@@ -2,7 +2,7 @@
 
 #include "autotune/autotune.hpp"
 #include "device/device.hpp"
-#include "methods/method.hpp"
+#include "methods/method_info.hpp"
 
 #include <nlohmann/json.hpp>
 

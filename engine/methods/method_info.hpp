@@ -1,0 +1,59 @@
+#pragma once
+
+#include "methods/option.hpp"
+#include "methods/table.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace argand {
+
+class Method;
+struct RenderContext;
+
+/// What a method can do and needs. The rest of Argand reads these instead of comparing names.
+struct Abilities {
+    bool unbiased = false; ///< the mean of its images is the truth, so that it serves as reference
+    bool photon_map = false; ///< it estimates radiance from photons
+    bool footprints = false; ///< its photons carry ray differentials
+    bool resumable = true;   ///< it can add passes to an image until an error or a time is reached
+};
+
+/// How the error of an image of n passes falls:
+///   relMSE(n) = (fixed + density n^noise_growth) / n + squared bias n^-bias_fall
+/// for the coefficients of one pass (autotune/error_model.hpp). Both exponents are 0 for a method
+/// without bandwidths.
+struct ErrorLaw {
+    double noise_growth = 0;
+    double bias_fall = 0;
+};
+
+/// The law of all methods whose bandwidths shrink as n^(-1/6) (photon/radius.hpp), and areas as
+/// n^(-1/3). The noise of density estimation grows with one over the area. Squared bias falls as
+/// n^(-2/3) on smooth surfaces, where it goes with the area, and as n^(-1/6) along edges, in bands
+/// as wide as the bandwidth: together about as n^(-1/3), as measured (docs/results/targets.md).
+inline constexpr ErrorLaw photon_mapping_law{.noise_growth = 1.0 / 3, .bias_fall = 1.0 / 3};
+
+/// The place of a method in a search for the fastest one to an error (autotune/exploration.hpp).
+/// Unbiased methods are tried anyway: they tell the bias of the others.
+enum class TrialOrder : std::uint8_t { never, first, later };
+
+/// A row of the method table.
+struct MethodInfo {
+    std::string name;
+    std::string summary; ///< half a line: "path tracing without bias"
+    std::string paper;   ///< "Jensen 1996"
+    Abilities abilities;
+    ErrorLaw law;
+    TrialOrder trial = TrialOrder::never;
+    std::vector<Option> options; ///< in the order in which settings are listed
+    std::unique_ptr<Method> (*make)(RenderContext& context) = nullptr;
+
+    /// Null if the method does not have the option.
+    const Option* option(std::string_view option_name) const;
+};
+
+} // namespace argand
