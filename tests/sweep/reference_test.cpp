@@ -107,7 +107,7 @@ TEST(Reference, ReadsOneFileOrAPair) {
     EXPECT_THAT(error_of([&] { read_reference({folder / "a.exr"}, 8, 8); }),
                 ::testing::HasSubstr("--size 8x4"));
     EXPECT_THAT(error_of([&] { reread_reference(folder / "a.exr"); }),
-                ::testing::HasSubstr("not of a sweep"));
+                ::testing::HasSubstr("no sweep has written it"));
 }
 
 } // namespace
