@@ -8,8 +8,8 @@
 
 namespace argand {
 
-/// A kernel's arguments as its twin takes them: pointers that the backend resolved, and the rest as
-/// bits.
+/// A kernel's arguments as its twin takes them: pointers that the backend has resolved, push
+/// constants as bytes, and specialization constants as bits, in the order of their ids.
 struct TwinArguments {
     void* buffers[max_bindings];
     std::byte push[max_push_bytes];
@@ -26,10 +26,10 @@ struct TwinArguments {
     }
 };
 
-/// Twins index words with 32 bits.
+/// Bytes of the largest buffer that a twin can use: its body indexes words with 32 bits.
 inline constexpr std::uint64_t most_addressable = std::uint64_t(4) << 30;
 
-/// Throws Error if a kernel's invocations cannot be numbered.
+/// Throws Error if 32 bits cannot number a kernel's invocations.
 void check_threads(const KernelInfo& kernel, std::uint64_t threads);
 
 } // namespace argand

@@ -1,6 +1,6 @@
-// Included first by every twin. A twin is the text of a kernel (shaders/shared/kernels/) as the
-// member functions of a struct, whose members are what the GLSL kernel declares: compiled by nvcc
-// it runs on a GPU, compiled as C++ on the host's cores.
+// Every twin includes this first. A twin is a struct that includes a kernel's body
+// (shaders/shared/kernels/): the body's functions are its member functions, and the names that the
+// GLSL kernel declares are its members. nvcc compiles it for a GPU, a C++ compiler for the host.
 #ifndef ARGAND_CUDA_KERNEL_H
 #define ARGAND_CUDA_KERNEL_H
 
@@ -8,8 +8,8 @@
 #include "shared/prelude.h"
 
 #define THREAD_INDEX thread_index
-// What is read at random and much: by 16 bytes at a time, which GLM's vectors, aligned to 4, do not
-// tell nvcc.
+// Large arrays that kernels read at random, 16 bytes at a time. GLM's vectors are aligned to 4
+// bytes only, so nvcc would not use such loads by itself.
 #define NODES(i) read4(nodes, i)
 #define PHOTONS(i) read4(photons, i)
 #define FOOTPRINTS(i) read4(footprints, i)
@@ -87,7 +87,8 @@ FN uint atomicMin(uint& to, uint value) {
 
 #ifdef __CUDACC__
 
-// Grid-stride loops, so that a count that only the device knows needs no launch of its own size.
+// A grid-stride loop, so that the size of a launch need not match a count that only the device
+// knows.
 #define ARGAND_TWIN(name)                                                                          \
     namespace argand::twins {                                                                      \
     __global__ void __launch_bounds__(128) name                                                    \

@@ -20,7 +20,7 @@ struct Process {
 };
 
 struct Messages {
-    std::string error; ///< the first: what follows a syntax error is noise
+    std::string error; ///< the first one: messages after a syntax error are noise
     std::string warnings;
 };
 

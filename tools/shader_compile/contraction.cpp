@@ -31,8 +31,8 @@ bool is_float_arithmetic(spv::Op op) {
     }
 }
 
-/// Debug instructions precede annotations, annotations precede types: where a decoration may be
-/// inserted.
+/// Whether the instruction precedes annotations in a module (SPIR-V specification, 2.4).
+/// Decorations may be inserted before the first one that does not.
 bool is_before_annotations(spv::Op op) {
     switch (op) {
     case spv::OpCapability:
@@ -74,8 +74,7 @@ Spirv forbid_contraction(const Spirv& spirv) {
             decorated.insert(spirv[i + 1]);
         } else if (is_float_arithmetic(op) ||
                    (op == spv::OpExtInst && float_types.count(spirv[i + 1]) != 0)) {
-            // Extended instructions too: mix, length, cross and their like are made of products and
-            // sums.
+            // Extended instructions too: mix, length, cross and others expand to products and sums.
             results.push_back(spirv[i + 2]);
         }
     }

@@ -10,7 +10,7 @@ namespace {
 
 using Result = glslang::TShader::Includer::IncludeResult;
 
-/// glslang reports a result without a name as an error, with the data as its text.
+/// glslang takes a result without a name for an error, and the text for its message.
 Result* owning_result(const std::string& name, std::string text) {
     auto* owned = new std::string(std::move(text));
     return new Result(name, owned->data(), owned->size(), owned);
@@ -18,7 +18,7 @@ Result* owning_result(const std::string& name, std::string text) {
 
 } // namespace
 
-/// The path of the file that is meant, or empty.
+/// The path of the included file; empty if there is none.
 std::string Includer::resolve(const std::string& header, const std::string& includer) const {
     std::vector<fs::path> places{fs::path(includer).parent_path()};
     places.insert(places.end(), directories_.begin(), directories_.end());
@@ -33,7 +33,7 @@ std::string Includer::resolve(const std::string& header, const std::string& incl
 }
 
 Result* Includer::includeSystem(const char* header, const char* includer, std::size_t depth) {
-    // The depth counts this file, from 1: whatever is deeper has been closed.
+    // The depth of this file, from 1: deeper files have been closed.
     open_.resize(std::min(open_.size(), depth - 1));
     const std::string path = resolve(header, includer);
     if (path.empty()) {

@@ -13,8 +13,8 @@ public:
     Includer(const std::vector<std::string>& directories, Sources& sources)
         : directories_(directories), sources_(sources) {}
 
-    // glslang asks this for "..." too, as includeLocal finds nothing; only this one's reasons reach
-    // its log.
+    // glslang calls this for "..." too, for includeLocal finds nothing. Only messages from here
+    // reach its log.
     IncludeResult* includeSystem(const char* header, const char* includer,
                                  std::size_t depth) override;
     void releaseInclude(IncludeResult* result) override;

@@ -6,7 +6,7 @@
 namespace argand::shader_compile {
 namespace {
 
-// Those C++ keywords that GLSL leaves to its users.
+// C++ keywords that GLSL allows as names.
 constexpr std::array keywords{"alignas",     "alignof",      "and",
                               "and_eq",      "auto",         "bitand",
                               "bitor",       "catch",        "char",

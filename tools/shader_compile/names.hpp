@@ -4,7 +4,7 @@
 
 namespace argand::shader_compile {
 
-/// Whether C++ takes it as a name: letters, digits and underscores, not a keyword.
+/// Whether C++ accepts it as a name: ASCII letters, digits and underscores, and no keyword.
 bool is_cpp_name(std::string_view name);
 
 } // namespace argand::shader_compile

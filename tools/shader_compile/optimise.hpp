@@ -4,9 +4,9 @@
 
 namespace argand::shader_compile {
 
-/// Runs spirv-opt's performance passes, strips the names, and forbids contraction both before, so
+/// Runs spirv-opt's performance passes and strips the names. Forbids contraction both before, so
 /// that the passes do not reassociate, and after. Throws Error that names the kernel if SPIRV-Tools
-/// cannot.
+/// fails.
 Spirv optimise(const Spirv& spirv, const std::string& kernel);
 
 /// Throws Error with the validator's message if the module is not valid for Vulkan 1.2.

@@ -155,7 +155,7 @@ std::string element_words(const Reader& reader, const SPIRType& block) {
     return words;
 }
 
-/// The included headers that C++ includes as well, without the kernels' own text.
+/// The included headers that C++ includes as well, without kernels' bodies.
 std::vector<std::string> shared_headers(const Reader& reader) {
     std::vector<std::string> headers;
     for (const Source& source : reader.sources) {

@@ -13,7 +13,7 @@ bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 |
 
 bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// Whether `word` stands at `at`, not as a part of a longer word.
+/// Whether the text has `word` at `at`, not as a part of a longer word.
 bool stands_at(std::string_view text, std::size_t at, std::string_view word) {
     if (text.substr(at, word.size()) != word) {
         return false;

@@ -9,7 +9,7 @@
 
 namespace argand::shader_compile {
 
-/// One file that took part in a compilation. `path` is what messages show.
+/// A file that took part in a compilation. `path` is the path that messages show.
 struct Source {
     std::string path;
     std::string text;
@@ -25,15 +25,15 @@ std::string shared_path(const Source& source, const std::vector<std::string>& in
 /// As argand::read_file.
 std::string read_text(const std::filesystem::path& path);
 
-/// The text with comments replaced by blanks, lines kept.
+/// The text with its comments replaced by blanks; line numbers stay.
 std::string without_comments(std::string_view text);
 
-/// The line (from 1) on which these words and symbols first stand in this order, only blanks
-/// between them.
+/// The line (from 1) of the first place where these words and symbols follow each other with only
+/// blanks between them.
 std::optional<int> line_of(std::string_view text, std::initializer_list<std::string_view> words);
 
-/// "file:line: error: " of the first source in which the words stand; of the kernel's first line if
-/// in none.
+/// "file:line: error: " for the first source that has these words, see line_of(); for the kernel's
+/// first line if none has.
 std::string error_at(const Sources& sources, std::initializer_list<std::string_view> words);
 
 } // namespace argand::shader_compile

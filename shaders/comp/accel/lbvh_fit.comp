@@ -5,10 +5,11 @@ layout(local_size_x = 64) in;
 #include "shared/morton.h"
 
 layout(set = 0, binding = 0) readonly buffer Boxes { vec4 boxes[]; };
-layout(set = 0, binding = 1) readonly buffer Distances { uint distances[]; };    // see code_distances.comp
+// See code_distances.comp.
+layout(set = 0, binding = 1) readonly buffer Distances { uint distances[]; };
 layout(set = 0, binding = 2) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 3) readonly buffer Counts { uint counts[]; };
-// Which of two children comes first to their parent.
+// The invocation of which of two children arrives first at the parent.
 //@ incidental(ends)
 layout(set = 0, binding = 4) coherent buffer Ends { uint ends[]; };
 //@ holds(nodes, LbvhNode)
@@ -18,14 +19,16 @@ layout(set = 0, binding = 6) coherent buffer Costs { uvec4 costs[]; };
 layout(set = 0, binding = 7) writeonly buffer Parents { uint parents[]; };
 layout(push_constant) uniform Push { AccelParams params; };
 
-// Off where atomics are sequentially consistent anyway: lavapipe 22.3 takes a memory barrier for a control barrier, and
-// in a loop that not all invocations run equally often loses its place.
+// Off on lavapipe, where atomics are sequentially consistent anyway. Version 22.3 handles a memory
+// barrier as a control barrier, and loses its place in a loop that invocations run unequally often.
 layout(constant_id = 0) const bool fences = true;
 
-// For trees that rays will traverse: also writes ForestCost per inner node, and as its parent 2 p if it is the left child
-// of inner node p, 2 p + 1 if it is the right one (lbvh_end: it is the root).
+// For trees that rays traverse: also writes a ForestCost and a parent for each inner node. The
+// parent is 2 p for the left child of inner node p, 2 p + 1 for the right one, and lbvh_end for the
+// root.
 layout(constant_id = 1) const bool for_rays = false;
-// Whether the boxes are in the order of their codes; `order` then is only what leaves refer to.
+// Whether the boxes are in the order of their codes already. Then leaves get `order`, but no box is
+// looked up through it.
 layout(constant_id = 2) const bool in_order = false;
 
 #define MEMORY_FENCE() \

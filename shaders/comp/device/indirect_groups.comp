@@ -7,7 +7,8 @@ layout(set = 0, binding = 0) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 1) writeonly buffer Groups { uvec4 groups[]; };
 layout(push_constant) uniform Push { IndirectGroupsParams params; };
 
-// As VulkanDevice::dispatch: a count beyond the limit of one dimension spills into the next.
+// Writes the number of groups that a count of invocations takes. As in VulkanDevice::dispatch, a
+// number beyond the limit of one dimension spills into the next.
 void main() {
     uint count = counts[params.count_index];
     uint needed = count / params.group_size + (count % params.group_size > 0u ? 1u : 0u);

@@ -11,7 +11,7 @@ layout(push_constant) uniform Push { CompactParams params; };
 #include "parallel/parts.glsl"
 #include "parallel/sum_before.glsl"
 
-// Writes those of four values that are flagged, from kept[to] on. Returns where the next one goes.
+// Writes the flagged ones of four values from kept[to] on. Returns the index after the last one.
 uint keep_flagged(uvec4 flagged, uvec4 four, uint to) {
     for (uint k = 0u; k < 4u; ++k) {
         if (flagged[k] != 0u) {

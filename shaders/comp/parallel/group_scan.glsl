@@ -1,13 +1,14 @@
-// Exclusive sums over a work-group of GROUP_SIZE invocations, with subgroup arithmetic where SUBGROUPS is defined.
-// Both variants make no assumption on how invocations map to subgroups: elements belong to invocations by
-// scan_order(), which follows the order of the sums.
+// Exclusive sums over a work-group of GROUP_SIZE invocations, with subgroup arithmetic where
+// SUBGROUPS is defined. How invocations map to subgroups does not matter: invocations take elements
+// by scan_order(), which is the order of the sums.
 #define GROUP_SIZE 128u
 
 #ifdef SUBGROUPS
 
 shared uint subgroup_sums[GROUP_SIZE];
 
-// Sum of `value` over the invocations before this one; `total`: over all. To be called in uniform control flow.
+// Returns the sum of `value` over the invocations before this one; total: the sum over all. Call it
+// in uniform control flow.
 uint group_exclusive_sum(uint value, out uint total) {
     uint sum = subgroupAdd(value);
     barrier();
@@ -33,7 +34,7 @@ uint scan_order() {
 
 shared uint group_sums[2u * GROUP_SIZE];
 
-// Hillis and Steele's scan (1986) between two halves of `group_sums`.
+// The scan of Hillis and Steele (1986), which alternates between two halves of `group_sums`.
 uint group_exclusive_sum(uint value, out uint total) {
     uint lane = gl_LocalInvocationIndex;
     uint half_at = 0u;

@@ -1,5 +1,5 @@
-// Divides elements into parts. For kernels with a buffer `counts`, and with a PartsRecord `parts` and
-// a CountRecord `count` among their params.
+// Divides elements into parts. For kernels with a buffer `counts`, and with a PartsRecord `parts`
+// and a CountRecord `count` among their params.
 #include "shared/parallel_records.h"
 
 uint element_count() {
@@ -12,7 +12,7 @@ uvec4 first_of(uvec4 four, uint count, uint rest) {
     return mix(uvec4(rest), four, lessThan(uvec4(0u, 1u, 2u, 3u), uvec4(count)));
 }
 
-// The first element of a part, and the one behind its last.
+// The range of a part's elements: the first, and the one behind the last.
 uvec2 part_range(uint part, uint count) {
     uint size = part_size(count, params.parts);
     // part * size may overflow

@@ -3,7 +3,8 @@ layout(local_size_x = 128) in;
 #include "kernel.glsl"
 #include "shared/parallel_records.h"
 
-layout(set = 0, binding = 0) readonly buffer In { vec4 corners[]; };        // low and high of each BoxRecord
+// The low and the high corner of each BoxRecord.
+layout(set = 0, binding = 0) readonly buffer In { vec4 corners[]; };
 layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 2) writeonly buffer Out { vec4 results[]; };
 layout(push_constant) uniform Push { ReduceBoxParams params; };
@@ -12,11 +13,11 @@ layout(push_constant) uniform Push { ReduceBoxParams params; };
 shared vec3 lows[gl_WorkGroupSize.x];
 shared vec3 highs[gl_WorkGroupSize.x];
 
-// One box per part, one part per group.
+// Writes one box per part. One part per group.
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uvec2 range = part_range(GROUP_INDEX, element_count());
-    vec3 low = vec3(bits_float(0x7f800000u));       // infinity: the box of nothing
+    vec3 low = vec3(bits_float(0x7f800000u));       // infinity: an empty box
     vec3 high = -low;
     for (uint i = range.x + lane; i < range.y; i += gl_WorkGroupSize.x) {
         low = min(low, corners[2u * i].xyz);

@@ -15,7 +15,7 @@ uint combine(uint a, uint b) {
     return params.op == reduce_op_min ? min(a, b) : params.op == reduce_op_max ? max(a, b) : a + b;
 }
 
-// One result per part, one part per group.
+// Writes one result per part. One part per group.
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uint identity = params.op == reduce_op_min ? 0xffffffffu : 0u;

@@ -4,7 +4,7 @@
 layout(set = 0, binding = 0) readonly buffer In { uvec4 in_elements[]; };
 layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 2) readonly buffer PartSums { uint part_sums[]; };
-// The output twice: full groups of four, and single elements.
+// One buffer bound twice, to write four elements at a time, or single ones.
 layout(set = 0, binding = 3) writeonly buffer Out { uvec4 out_fours[]; };
 layout(set = 0, binding = 4) writeonly buffer OutTail { uint out_elements[]; };
 layout(push_constant) uniform Push { ScanParams params; };

@@ -11,11 +11,12 @@ layout(push_constant) uniform Push { SegmentParams params; };
 #include "parallel/parts.glsl"
 #include "parallel/group_reduce.glsl"
 
-// Of each part: the sum from its last head on, and whether it has a head. One part per group.
+// Writes for each part the sum from its last head on, and whether it has a head. One part per
+// group.
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uvec2 range = part_range(GROUP_INDEX, element_count());
-    uint last_head = 0u;        // its index plus one; 0: there is none
+    uint last_head = 0u;        // its index plus one; 0: none
     for (uint i = range.x + lane; i < range.y; i += gl_WorkGroupSize.x) {
         last_head = heads[i] != 0u ? i + 1u : last_head;
     }

@@ -17,11 +17,13 @@ layout(push_constant) uniform Push { SegmentParams params; };
 
 shared uvec2 sums[2u * gl_WorkGroupSize.x];
 
-// Sums of neighbouring ranges as one: x is the sum from the last head on, y whether there is a head (Sengupta et al.
-// 2007: "Scan primitives for GPU computing").
-uvec2 join(uvec2 before, uvec2 after) { return uvec2(after.x + (after.y != 0u ? 0u : before.x), before.y | after.y); }
+// Joins the sums of neighbouring ranges: x is the sum from the last head on, y whether there is a
+// head (Sengupta et al. 2007, "Scan primitives for GPU computing").
+uvec2 join(uvec2 before, uvec2 after) {
+    return uvec2(after.x + (after.y != 0u ? 0u : before.x), before.y | after.y);
+}
 
-// What the elements before the part add up to. Parts before the last one with a head do not matter.
+// The sum with which the part begins. Parts before the last one with a head do not matter.
 uint sum_before(uint part, uint lane) {
     uint last_head = 0u;
     for (uint i = lane; i < part; i += gl_WorkGroupSize.x) {
@@ -35,7 +37,8 @@ uint sum_before(uint part, uint lane) {
     return group_sum(sum);
 }
 
-// Hillis and Steele's scan (1986) between the halves of `sums`; the sums of the lanes before this one, and of all.
+// The scan of Hillis and Steele (1986), which alternates between the halves of `sums`. Returns the
+// sums of the lanes before this one; total: of all.
 uvec2 scan_lanes(uvec2 mine, uint lane, out uvec2 total) {
     uint half_at = 0u;
     barrier();

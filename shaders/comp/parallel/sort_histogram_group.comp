@@ -11,7 +11,7 @@ layout(push_constant) uniform Push { SortParams params; };
 
 shared uint digits[sort_digits];
 
-// How often each digit occurs in each part, one part per group; by digit, then by part.
+// Counts how often each digit occurs in each part, by digit, then by part. One part per group.
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uint part = GROUP_INDEX;

@@ -9,8 +9,8 @@ layout(set = 0, binding = 2) writeonly buffer Histograms { uint histograms[]; };
 layout(push_constant) uniform Push { SortParams params; };
 #include "parallel/parts.glsl"
 
-// How often each digit occurs in each part, one part per lane; by digit, then by part. A private array is the fastest
-// memory such devices have.
+// Counts how often each digit occurs in each part, by digit, then by part. One part per lane, with
+// a private array: the fastest memory of such devices.
 void main() {
     uint part = THREAD_INDEX;
     uvec2 range = part_range(part, element_count()) * params.key_words;     // in words

@@ -1,6 +1,7 @@
-// Body of the sort's kernels that work on a part with a group: each tile of a part is sorted by the digit in shared
-// memory, in two rounds of four bits (after Satish, Harris and Garland 2009: "Designing efficient sorting algorithms
-// for manycore GPUs"), so that it leaves in runs of equal digits. VALUES: with values; KEYS64: keys of two words.
+// Body of the sort's kernels that work on a part with a group. Each tile of a part is sorted by the
+// digit in shared memory, in two rounds of four bits (after Satish, Harris and Garland 2009,
+// "Designing efficient sorting algorithms for manycore GPUs"), so that runs of equal digits are
+// written together. VALUES: with values; KEYS64: keys of two words.
 #include "parallel/group_scan.glsl"
 layout(local_size_x = GROUP_SIZE) in;
 #include "shared/parallel_records.h"
@@ -22,20 +23,21 @@ layout(push_constant) uniform Push { SortParams params; };
 #define ROWS (ROUND_DIGITS / 2u)
 
 shared uint exchange[TILE];
-// Per lane two counters of 16 bits in each word: of digit d in row d % ROWS, half d / ROWS.
+// Two counters of 16 bits in each word, for each lane: that of digit d is in row d % ROWS, half
+// d / ROWS.
 shared uint counters[ROWS * GROUP_SIZE];
-shared uint next[sort_digits];      // where the part's next element of each digit goes
-shared uint first[sort_digits];     // where a digit's run begins in the sorted tile
+shared uint next[sort_digits];      // destination of the part's next element with each digit
+shared uint first[sort_digits];     // begin of each digit's run in the sorted tile
 
 uint digit_of(uint word) { return (word >> params.shift) & params.digit_mask; }
 
-// Within a tile element i is either item i % ITEMS of lane i / ITEMS ("blocked", as ranking in order needs it) or item
-// i / GROUP_SIZE of lane i % GROUP_SIZE ("striped", as memory likes it).
+// Element i of a tile is either item i % ITEMS of lane i / ITEMS ("blocked", for ranking in order)
+// or item i / GROUP_SIZE of lane i % GROUP_SIZE ("striped", for coalesced access).
 uint striped(uint item, uint lane) { return item * GROUP_SIZE + lane; }
 uint blocked(uint item, uint lane) { return item + lane * ITEMS; }
 
-// Turns the counters into exclusive sums over (digit, lane). Both halves are summed at once: a tile has fewer than
-// 2^16 elements.
+// Turns the counters into exclusive sums over (digit, lane). It adds both halves of a word at once:
+// a tile has fewer than 2^16 elements.
 void scan_counters(uint lane) {
     uint words[ROWS];
     uint sum = 0u;
@@ -45,14 +47,14 @@ void scan_counters(uint lane) {
     }
     uint total;
     uint before = group_exclusive_sum(sum, total);
-    before += total << 16u;             // digits in the high halves come after all in the low ones
+    before += total << 16u;     // digits in the high halves come after all in the low halves
     for (uint k = 0u; k < ROWS; ++k) {
         counters[lane * ROWS + k] = before;
         before += words[k];
     }
 }
 
-// Stable ranks of the lane's blocked items by four bits of their digits.
+// Ranks the lane's blocked items by four bits of their digits; stable.
 void rank_items(uint words[ITEMS], uint round, uint lane, out uint ranks[ITEMS]) {
     barrier();
     for (uint row = 0u; row < ROWS; ++row) {
@@ -100,7 +102,8 @@ void block_items(inout uint words[ITEMS], uint lane) {
 }
 
 void sort_tile_at(uint tile, uint here, uint lane) {
-    // Places beyond the last element get the last digit and stay behind all others, for the sort is stable.
+    // Places behind the last element get the last digit. The sort is stable, so they stay behind
+    // all others.
     uint words[ITEMS];
 #ifdef KEYS64
     uint others[ITEMS];
@@ -152,7 +155,7 @@ void sort_tile_at(uint tile, uint here, uint lane) {
     for (uint k = 0u; k < ITEMS; ++k) {
         uint i = striped(k, lane);
         uint digit = digit_of(words[k]);
-        ranks[k] = next[digit] + i - first[digit];      // from here on: where the element goes
+        ranks[k] = next[digit] + i - first[digit];      // from here on: the element's destination
         if (i < here) {
 #ifdef KEYS64
             sorted_keys[2u * ranks[k] + params.word] = words[k];

@@ -18,7 +18,7 @@ layout(set = 0, binding = 5) writeonly buffer SortedValues { uint sorted_values[
 layout(push_constant) uniform Push { SortParams params; };
 #include "parallel/parts.glsl"
 
-uint next[sort_digits];     // where the part's next element of each digit goes
+uint next[sort_digits];     // destination of the part's next element with each digit
 
 void place(Key key, uint value) {
 #ifdef KEYS64

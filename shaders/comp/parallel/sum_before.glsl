@@ -1,4 +1,5 @@
-// Sum of part_sums[0 .. part), by a whole group, or by one lane where there is no GROUP_SIZE.
+// The sum of part_sums[0 .. part). A whole group computes it, or one lane where GROUP_SIZE is not
+// defined.
 #ifdef GROUP_SIZE
 
 uint sum_before(uint part, uint lane) {

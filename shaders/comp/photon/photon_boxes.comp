@@ -15,7 +15,7 @@ layout(set = 0, binding = 5) writeonly buffer LeafDistances { uint leaf_distance
 layout(set = 0, binding = 6) readonly buffer Footprints { uvec4 footprints[]; };
 layout(push_constant) uniform Push { PhotonBoxParams params; };
 
-// Whether the boxes are around footprints or around points.
+// true: boxes around footprints; false: around the photons' positions.
 layout(constant_id = 0) const bool around_footprints = false;
 
 #include "shared/kernels/photon/photon_boxes.h"

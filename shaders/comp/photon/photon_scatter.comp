@@ -25,7 +25,8 @@ layout(push_constant) uniform Push { PhotonBatch batch; };
 layout(constant_id = 0) const bool footprints = false;
 layout(constant_id = 1) const uint reemission = REEMIT_COSINE;
 layout(constant_id = 2) const bool quasi_random = true;
-// Whether some surface has lobes that are followed; else there are no caustics.
+// Whether paths are followed through some lobe of the scene (shared/follow.h); else there are no
+// caustics.
 layout(constant_id = 3) const bool followed_paths = true;
 
 #include "shared/kernels/photon/photon_scatter.h"
