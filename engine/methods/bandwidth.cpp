@@ -110,9 +110,11 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
                         double caustic_smoothing, double largest, const SceneRecord& scene) {
     FootprintScale scale = make_footprint_scale(
         static_cast<float>(photons), static_cast<float>(reference_photons), scene.radius,
-        static_cast<float>(smoothing), static_cast<float>(caustic_smoothing),
-        static_cast<float>(largest), static_cast<float>(settings.flatness),
-        settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f);
+        {.smoothing = static_cast<float>(smoothing),
+         .caustic_smoothing = static_cast<float>(caustic_smoothing),
+         .largest = static_cast<float>(largest),
+         .flatness = static_cast<float>(settings.flatness),
+         .exponent = settings.fixed_smoothing ? 0.5f : 1.0f / 6.0f});
     scale.principal_axes = settings.paper_axes ? 0 : 1;
     return scale;
 }

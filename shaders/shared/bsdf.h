@@ -299,9 +299,10 @@ FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     return pdf;
 }
 
-// Chooses mirror, transmit or pass by u in [0, 1). probability: that any delta lobe is chosen.
+// Chooses mirror, transmit or pass by u in [0, 1). s.probability: that any delta lobe is chosen.
 FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u,
-                          real probability, INOUT(BsdfSample) s) {
+                          INOUT(BsdfSample) s) {
+    real probability = s.probability;
     DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
     real reflected =
         wants_lobe(m, lobes, LOBE_MIRROR) ? mean_component(delta.reflected) : real(0.0);
@@ -355,7 +356,8 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (may_have(m, LOBES_DELTA) && p.z > real(0.0) && u.x >= rough) {
         // The remainder of u.x is uniform again.
         real left = min((u.x - rough) / p.z, real(0.99999994));
-        return sample_delta_lobe(m, wo, front, lobes, left, p.z, s);
+        s.probability = p.z;
+        return sample_delta_lobe(m, wo, front, lobes, left, s);
     }
     if (!may_have(m, LOBE_GLOSSY) || u.x < p.x || !(p.y > real(0.0))) {
         s.lobe = LOBE_DIFFUSE;

@@ -8,12 +8,19 @@
 #define ARGAND_SHARED_DIFFERENTIAL_H
 
 #include "shared/frame.h"
+#include "shared/surface.h"
 
 ARGAND_SHARED_BEGIN
 
 struct PhotonDifferential {
     vec3 dp_du, dp_dv; // of the position [length]
     vec3 dd_du, dd_dv; // of the unit direction, perpendicular to it
+};
+
+// A surface's unit normal, and its changes with the same two parameters.
+struct NormalDifferential {
+    vec3 n;
+    vec3 dn_du, dn_dv;
 };
 
 // Clamps far above any meaningful differential; they keep products of several finite.
@@ -84,16 +91,14 @@ FN void transfer_differential(INOUT(PhotonDifferential) d, vec3 direction, real 
     d.dp_dv = transferred_offset(d.dp_dv, d.dd_dv, direction, t, n);
 }
 
-// Change of the interpolated unit normal for a step dp within a triangle of vertices v and normals
-// n, at the barycentric weights b of its second and third vertex. shading_normal: as make_surface
-// returned it. Where that fell back to the flat normal, or the triangle has no area, the change is
-// 0.
-FN vec3 shading_normal_change(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, vec2 b,
-                              vec3 shading_normal, vec3 dp) {
+// Change of the interpolated unit normal for a step dp within a triangle, at the barycentric
+// weights b of its second and third vertex. shading_normal: as make_surface returned it. Where that
+// fell back to the flat normal, or the triangle has no area, the change is 0.
+FN vec3 shading_normal_change(IN(SmoothTriangle) t, vec2 b, vec3 shading_normal, vec3 dp) {
     real size, size1, size2, sine;
-    vec3 unit = unit_and_length(n0 * (real(1.0) - b.x - b.y) + n1 * b.x + n2 * b.y, size);
-    vec3 edge1 = unit_and_length(v1 - v0, size1);
-    vec3 edge2 = unit_and_length(v2 - v0, size2);
+    vec3 unit = unit_and_length(t.n0 * (real(1.0) - b.x - b.y) + t.n1 * b.x + t.n2 * b.y, size);
+    vec3 edge1 = unit_and_length(t.v1 - t.v0, size1);
+    vec3 edge2 = unit_and_length(t.v2 - t.v0, size2);
     vec3 flat_normal = unit_and_length(cross3(edge1, edge2), sine);
     real side = dot3(unit, shading_normal) < real(0.0) ? real(-1.0) : real(1.0);
     bool interpolated = max_component(abs(unit * side - shading_normal)) < real(1e-3);
@@ -103,7 +108,7 @@ FN vec3 shading_normal_change(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 
     // Changes of the weights. The edges have positive lengths because `sine` is positive.
     real b1 = dot3(cross3(dp, edge2), flat_normal) / sine / size1;
     real b2 = dot3(cross3(edge1, dp), flat_normal) / sine / size2;
-    vec3 change = (n1 - n0) * b1 + (n2 - n0) * b2;
+    vec3 change = (t.n1 - t.n0) * b1 + (t.n2 - t.n0) * b2;
     return (change - unit * dot3(unit, change)) * (side / size);
 }
 
@@ -129,16 +134,16 @@ FN vec3 refracted_spread(vec3 dd, vec3 direction, vec3 n, vec3 dn, real eta) {
     return limit_length(dd * ratio + n * change + dn * step, LARGEST_SPREAD);
 }
 
-FN void reflect_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n, vec3 dn_du,
-                             vec3 dn_dv) {
-    d.dd_du = reflected_spread(d.dd_du, direction, n, dn_du);
-    d.dd_dv = reflected_spread(d.dd_dv, direction, n, dn_dv);
+FN void reflect_differential(INOUT(PhotonDifferential) d, vec3 direction,
+                             IN(NormalDifferential) normal) {
+    d.dd_du = reflected_spread(d.dd_du, direction, normal.n, normal.dn_du);
+    d.dd_dv = reflected_spread(d.dd_dv, direction, normal.n, normal.dn_dv);
 }
 
-FN void refract_differential(INOUT(PhotonDifferential) d, vec3 direction, vec3 n, vec3 dn_du,
-                             vec3 dn_dv, real eta) {
-    d.dd_du = refracted_spread(d.dd_du, direction, n, dn_du, eta);
-    d.dd_dv = refracted_spread(d.dd_dv, direction, n, dn_dv, eta);
+FN void refract_differential(INOUT(PhotonDifferential) d, vec3 direction,
+                             IN(NormalDifferential) normal, real eta) {
+    d.dd_du = refracted_spread(d.dd_du, direction, normal.n, normal.dn_du, eta);
+    d.dd_dv = refracted_spread(d.dd_dv, direction, normal.n, normal.dn_dv, eta);
 }
 
 // Russian roulette (section 4.2): the photon survived with this probability, so its footprint's
@@ -216,15 +221,17 @@ FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame)
 }
 
 // Glossy reflection into a direction sampled with this solid-angle density. The incoming
-// differential is mirrored at the half vector, which turns with the shading normal n; the lobe's
-// own spread is independent of it.
-FN void gloss_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing, vec3 n,
-                           vec3 dn_du, vec3 dn_dv, real photons, real density) {
+// differential is mirrored at the half vector, which turns with the shading normal; the lobe's own
+// spread is independent of it.
+FN void gloss_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing,
+                           IN(NormalDifferential) normal, real photons, real density) {
     real size;
-    vec3 h = unit_and_length(outgoing - incoming, size);
-    real cosine = dot3(n, h);
-    reflect_differential(d, incoming, h, dn_du * cosine - n * dot3(dn_du, h),
-                         dn_dv * cosine - n * dot3(dn_dv, h));
+    NormalDifferential half_vector;
+    half_vector.n = unit_and_length(outgoing - incoming, size);
+    real cosine = dot3(normal.n, half_vector.n);
+    half_vector.dn_du = normal.dn_du * cosine - normal.n * dot3(normal.dn_du, half_vector.n);
+    half_vector.dn_dv = normal.dn_dv * cosine - normal.n * dot3(normal.dn_dv, half_vector.n);
+    reflect_differential(d, incoming, half_vector);
     real least = SMALLEST_EMISSION_COSINE * INV_PI;
     add_independent_spread(d, outgoing, photon_spacing(photons, max(density, least)));
 }

@@ -21,26 +21,34 @@ struct FootprintDuals {
     vec3 a, b;
 };
 
+// User settings of footprints. smoothing: in units of length^(3/4) for the reference number of
+// photons; largest: semi-axis relative to the scene's length; exponent: footprints shrink as
+// photons^-exponent, 1/6 by default, 1/2 in the paper, where the smoothing is constant.
+struct FootprintTuning {
+    real smoothing, caustic_smoothing;
+    real largest;
+    real flatness;
+    real exponent;
+};
+
 // Footprint scale for a pass that emits `photons` photons. reference_photons: the number for which
-// `smoothing` is given. length: size of the scene, to which smoothing (in units of length^(3/4))
-// and `largest` are relative. exponent: footprints shrink as photons^-exponent; 1/6 by default, 1/2
-// in the paper, where the smoothing is constant. The caller sets principal_axes; here the
+// the smoothing is given. length: size of the scene. The caller sets principal_axes; here the
 // differentials are the axes, as in the paper.
 FN FootprintScale make_footprint_scale(real photons, real reference_photons, real length,
-                                       real smoothing, real caustic_smoothing, real largest,
-                                       real flatness, real exponent) {
+                                       IN(FootprintTuning) tuning) {
     real n = max(photons, real(1.0));
-    real growth = pow_real(n / max(reference_photons, real(1.0)), real(0.5) - exponent);
+    real growth = pow_real(n / max(reference_photons, real(1.0)), real(0.5) - tuning.exponent);
     FootprintScale s;
     s.spacing = float32(sphere_spacing(n));
     // The factor length^(3/4) makes the powers of length add up to 1.
-    s.diffuse = float32(smoothing * growth * sphere_spacing(n) * sqrt(length) * sqrt(sqrt(length)));
-    s.caustic = float32(caustic_smoothing * growth);
+    s.diffuse =
+        float32(tuning.smoothing * growth * sphere_spacing(n) * sqrt(length) * sqrt(sqrt(length)));
+    s.caustic = float32(tuning.caustic_smoothing * growth);
     s.radius_min = float32(length * real(1e-6));
-    s.radius_max = float32(length * largest);
+    s.radius_max = float32(length * tuning.largest);
     s.caustic_min = s.radius_min;
     s.caustic_max = s.radius_max;
-    s.flatness = float32(flatness);
+    s.flatness = float32(tuning.flatness);
     s.principal_axes = 0u;
     s.pad0 = s.pad1 = s.pad2 = 0u;
     return s;

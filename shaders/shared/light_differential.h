@@ -7,13 +7,14 @@
 
 ARGAND_SHARED_BEGIN
 
-// Differential of a photon at its emission. direction, normal: from light_emit. radius: of the
+// Differential of a photon at its emission by light_emit. radius: of the
 // scene's bounding sphere. photons: expected from this light in the pass, that is all photons times
 // the light's probability. emitter_photons: expected from all triangles of the same emitter
 // together (from all emissive triangles if emitters are not known), so that dividing an emitter
 // into many triangles does not widen its differentials; used by triangle lights only.
-FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 direction, vec3 normal,
+FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(EmittedPhoton) p,
                                          real radius, real photons, real emitter_photons) {
+    vec3 direction = p.direction;
     PhotonDifferential d = no_differential();
     if (is_light(l, kinds, light_point) || is_light(l, kinds, light_spot)) {
         Frame f;
@@ -47,7 +48,7 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, vec3 dir
     } else if (is_light(l, kinds, light_triangle)) {
         real area;
         light_normal(l, area);
-        real cosine = max(abs(dot3(direction, normal)), SMALLEST_EMISSION_COSINE);
+        real cosine = max(abs(dot3(direction, p.normal)), SMALLEST_EMISSION_COSINE);
         real sides = light_sides(l);
         side = sqrt(area * sides * cosine / max(photons, real(1.0)));
         spread = sqrt(sides) * photon_spacing(emitter_photons, cosine * INV_PI);

@@ -23,6 +23,19 @@ struct LightSample {
     bool delta; // a delta light (point, spot, directional), which no scattered ray can hit
 };
 
+// A photon as a light emits it.
+struct EmittedPhoton {
+    vec3 origin;    // moved off the emitting surface
+    vec3 direction; // unit
+    vec3 normal;    // of the emitting surface, on the photon's side; (0,0,0) if there is none
+    vec3 flux;      // the light's power, which the photon carries if it is the light's only one
+};
+
+struct Sphere {
+    vec3 center;
+    real radius;
+};
+
 // Whether the light is of this kind. `kinds` (1u << light_*) are the kinds that the scene has;
 // where a kernel knows them at compile time, code for other kinds vanishes.
 FN bool is_light(IN(LightRecord) l, uint kinds, uint kind) {
@@ -185,44 +198,43 @@ FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     return to_world(make_frame(light_direction(l)), vec3(sine * c, sine * s, real(1.0) - below));
 }
 
-// Emits a photon. flux: the light's power, which the photon carries if it is the light's only one.
-// normal: of the emitting surface on the photon's side, with the origin already moved off the
-// surface; (0,0,0) if there is no surface. Photons of directional lights and the sky start on a
-// disc that covers the bounding sphere from outside.
-FN bool light_emit(IN(LightRecord) l, uint kinds, vec4 u, vec4 v, vec3 center, real radius,
-                   OUT(vec3) origin, OUT(vec3) direction, OUT(vec3) normal, OUT(vec3) flux) {
-    origin = light_position(l);
-    direction = light_direction(l);
-    normal = vec3(real(0.0));
-    flux = light_power(l, kinds, radius);
+// Emits a photon into a scene with these bounds. Returns false if the light emits nothing. Photons
+// of directional lights and the sky start on a disc that covers the bounding sphere from outside.
+FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec4 v,
+                   OUT(EmittedPhoton) p) {
+    p.origin = light_position(l);
+    p.direction = light_direction(l);
+    p.normal = vec3(real(0.0));
+    p.flux = light_power(l, kinds, bounds.radius);
     if (is_light(l, kinds, light_point)) {
-        direction = sample_sphere(vec2(u.x, u.y));
+        p.direction = sample_sphere(vec2(u.x, u.y));
         return true;
     }
     if (is_light(l, kinds, light_spot)) {
-        direction = sample_spot(l, u, vec2(u.w, v.x));
+        p.direction = sample_spot(l, u, vec2(u.w, v.x));
         return true;
     }
     if (is_light(l, kinds, light_triangle)) {
         real area;
-        normal = light_normal(l, area);
-        normal = l.double_sided != 0u && v.x < real(0.5) ? -normal : normal;
-        direction = to_world(make_frame(normal), sample_cosine_hemisphere(vec2(u.x, u.y)));
+        vec3 normal = light_normal(l, area);
+        p.normal = l.double_sided != 0u && v.x < real(0.5) ? -normal : normal;
+        p.direction = to_world(make_frame(p.normal), sample_cosine_hemisphere(vec2(u.x, u.y)));
         vec2 b = sample_triangle(vec2(u.z, u.w));
         vec3 error;
-        origin = hit_point(origin, vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y, error);
-        origin = offset_ray_origin(origin, error, normal, direction);
+        vec3 q =
+            hit_point(p.origin, vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y, error);
+        p.origin = offset_ray_origin(q, error, p.normal, p.direction);
         return area > real(0.0);
     }
     if ((kinds & light_kinds_from_outside) == 0u) {
         return false;
     }
     if (is_light(l, kinds, light_sky)) {
-        direction = sample_sphere(vec2(u.x, u.y));
+        p.direction = sample_sphere(vec2(u.x, u.y));
     }
-    Frame f = make_frame(direction);
+    Frame f = make_frame(p.direction);
     vec2 d = sample_disc(vec2(u.z, u.w));
-    origin = center + (f.x * d.x + f.y * d.y - f.z * real(1.001)) * radius;
+    p.origin = bounds.center + (f.x * d.x + f.y * d.y - f.z * real(1.001)) * bounds.radius;
     return true;
 }
 

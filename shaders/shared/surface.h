@@ -16,6 +16,12 @@ struct Surface {
     bool front;
 };
 
+// Vertices of a triangle, and their normals; a normal is (0,0,0) where the file gives none.
+struct SmoothTriangle {
+    vec3 v0, v1, v2;
+    vec3 n0, n1, n2;
+};
+
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
     real size;
     vec3 unit = unit_and_length(v, size);
@@ -33,11 +39,10 @@ FN Surface make_flat_surface(vec3 v0, vec3 v1, vec3 v2, real u, real v, vec3 ray
     return s;
 }
 
-// Vertices have the normal (0,0,0) where the file gives none.
-FN Surface make_surface(vec3 v0, vec3 v1, vec3 v2, vec3 n0, vec3 n1, vec3 n2, real u, real v,
-                        vec3 ray_direction) {
-    Surface s = make_flat_surface(v0, v1, v2, u, v, ray_direction);
-    vec3 shading = normalize_or(n0 * (real(1.0) - u - v) + n1 * u + n2 * v, s.geometric_normal);
+FN Surface make_surface(IN(SmoothTriangle) t, real u, real v, vec3 ray_direction) {
+    Surface s = make_flat_surface(t.v0, t.v1, t.v2, u, v, ray_direction);
+    vec3 shading =
+        normalize_or(t.n0 * (real(1.0) - u - v) + t.n1 * u + t.n2 * v, s.geometric_normal);
     shading = dot3(shading, s.geometric_normal) < real(0.0) ? -shading : shading;
     // A shading normal that faces away from the viewer would make the surface black, so the
     // geometric normal replaces it.

@@ -3,6 +3,7 @@
 #define ARGAND_TEST_ARGUMENTS_H
 
 #include "shared/maths.h"
+#include "shared/surface.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -40,6 +41,18 @@ FN void put3(INOUT(Values) r, int k, vec3 v) {
 FN void put_word(INOUT(Values) r, int k, uint word) {
     r.y[k] = real(word >> 16u);
     r.y[k + 1] = real(word & 0xffffu);
+}
+
+// The triangle whose vertices and normals are the eighteen numbers from k on.
+FN SmoothTriangle smooth_triangle_at(IN(Arguments) a, int k) {
+    SmoothTriangle t;
+    t.v0 = vec3_at(a, k);
+    t.v1 = vec3_at(a, k + 3);
+    t.v2 = vec3_at(a, k + 6);
+    t.n0 = vec3_at(a, k + 9);
+    t.n1 = vec3_at(a, k + 12);
+    t.n2 = vec3_at(a, k + 15);
+    return t;
 }
 
 FN Values no_values() {

@@ -78,6 +78,14 @@ FN PhotonDifferential differential_at(IN(Arguments) a, int k) {
     return d;
 }
 
+FN NormalDifferential normal_differential_at(IN(Arguments) a, int k) {
+    NormalDifferential normal;
+    normal.n = vec3_at(a, k);
+    normal.dn_du = vec3_at(a, k + 3);
+    normal.dn_dv = vec3_at(a, k + 6);
+    return normal;
+}
+
 FN Values differential_values(IN(PhotonDifferential) d) {
     Values r = no_values();
     put3(r, 0, d.dp_du);
@@ -89,8 +97,13 @@ FN Values differential_values(IN(PhotonDifferential) d) {
 
 // Smoothing, exponent and the other parameters are the engine's defaults.
 FN FootprintScale some_footprint_scale(real photons, real length, uint principal_axes) {
-    FootprintScale s = make_footprint_scale(photons, real(1e4), length, real(3.0), real(5.0),
-                                            real(0.1), real(0.4), real(0.16666666666666666667));
+    FootprintTuning tuning;
+    tuning.smoothing = real(3.0);
+    tuning.caustic_smoothing = real(5.0);
+    tuning.largest = real(0.1);
+    tuning.flatness = real(0.4);
+    tuning.exponent = real(0.16666666666666666667);
+    FootprintScale s = make_footprint_scale(photons, real(1e4), length, tuning);
     s.principal_axes = principal_axes;
     return s;
 }
@@ -122,12 +135,11 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         r = differential_values(d);
     } else if (function == of_reflect_differential) {
         PhotonDifferential d = differential_at(a, 12);
-        reflect_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9));
+        reflect_differential(d, vec3_at(a, 0), normal_differential_at(a, 3));
         r = differential_values(d);
     } else if (function == of_refract_differential) {
         PhotonDifferential d = differential_at(a, 13);
-        refract_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9),
-                             number_at(a, 12));
+        refract_differential(d, vec3_at(a, 0), normal_differential_at(a, 3), number_at(a, 12));
         r = differential_values(d);
     } else if (function == of_spot_solid_angles) {
         r.y[0] = spot_solid_angles(number_at(a, 0), number_at(a, 1), s, t);
@@ -151,17 +163,19 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         put3(r, 4, lit ? l.radiance : vec3(real(0.0)));
         r.y[7] = lit ? l.pdf : real(0.0);
     } else if (function == of_light_emit) {
-        vec3 origin, direction, normal, flux;
+        Sphere bounds;
+        bounds.center = vec3(real(0.0));
+        bounds.radius = number_at(a, 6);
+        EmittedPhoton p;
         bool emitted = light_emit(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
-                                  vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
-                                  vec4(a.x[4], a.x[5], real(0.0), real(0.0)), vec3(real(0.0)),
-                                  number_at(a, 6), origin, direction, normal, flux);
+                                  bounds, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                                  vec4(a.x[4], a.x[5], real(0.0), real(0.0)), p);
         r.y[0] = emitted ? real(1.0) : real(0.0);
         // On triangles, offset_ray_origin moves the origin by a bound of this precision's rounding
         // errors, so skip it.
-        put3(r, 1, small_at(a, 22) != light_triangle ? origin : vec3(real(0.0)));
-        put3(r, 4, direction);
-        put3(r, 7, flux);
+        put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));
+        put3(r, 4, p.direction);
+        put3(r, 7, p.flux);
     } else if (function == of_photon_spacing) {
         r.y[0] = photon_spacing(number_at(a, 0), number_at(a, 1));
     } else if (function == of_direction_axes) {
@@ -195,24 +209,28 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
                                                        number_at(a, 6), small_at(a, 19)));
     } else if (function == of_gloss_differential) {
         PhotonDifferential d = differential_at(a, 14);
-        gloss_differential(d, vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9),
-                           vec3(real(0.0)), number_at(a, 12), number_at(a, 13));
+        NormalDifferential normal;
+        normal.n = vec3_at(a, 6);
+        normal.dn_du = vec3_at(a, 9);
+        normal.dn_dv = vec3(real(0.0));
+        gloss_differential(d, vec3_at(a, 0), vec3_at(a, 3), normal, number_at(a, 12),
+                           number_at(a, 13));
         r = differential_values(d);
     } else if (function == of_shading_normal_change) {
-        vec3 n1 = vec3_at(a, 12);
-        vec3 n2 = vec3_at(a, 15);
-        vec3 n0 = vec3_at(a, 9);
+        SmoothTriangle triangle = smooth_triangle_at(a, 0);
         real size;
-        vec3 shading = unit_and_length(n0 * (real(1.0) - number_at(a, 18) - number_at(a, 19)) +
-                                           n1 * number_at(a, 18) + n2 * number_at(a, 19),
-                                       size);
-        put3(r, 0,
-             shading_normal_change(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), n0, n1, n2,
-                                   vec2_at(a, 18), shading, vec3_at(a, 20)));
+        vec3 shading =
+            unit_and_length(triangle.n0 * (real(1.0) - number_at(a, 18) - number_at(a, 19)) +
+                                triangle.n1 * number_at(a, 18) + triangle.n2 * number_at(a, 19),
+                            size);
+        put3(r, 0, shading_normal_change(triangle, vec2_at(a, 18), shading, vec3_at(a, 20)));
     } else if (function == of_light_differential) {
-        r = differential_values(light_differential(
-            light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds, vec3_at(a, 0),
-            vec3_at(a, 3), number_at(a, 6), number_at(a, 7), number_at(a, 7)));
+        EmittedPhoton p;
+        p.direction = vec3_at(a, 0);
+        p.normal = vec3_at(a, 3);
+        r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)),
+                                                   all_light_kinds, p, number_at(a, 6),
+                                                   number_at(a, 7), number_at(a, 7)));
     } else if (function == of_footprint_scale) {
         FootprintScale scale = some_footprint_scale(number_at(a, 0), number_at(a, 1), 0u);
         r.y[0] = real(scale.spacing);

@@ -207,9 +207,8 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
     } else if (function == of_offset_ray_origin) {
         put3(r, 0, offset_ray_origin(vec3_at(a, 0), vec3_at(a, 3), vec3_at(a, 6), vec3_at(a, 9)));
     } else if (function == of_make_surface) {
-        Surface surface = make_surface(vec3_at(a, 5), vec3_at(a, 8), vec3_at(a, 11), vec3_at(a, 14),
-                                       vec3_at(a, 17), vec3_at(a, 20), number_at(a, 0),
-                                       number_at(a, 1), vec3_at(a, 2));
+        Surface surface =
+            make_surface(smooth_triangle_at(a, 5), number_at(a, 0), number_at(a, 1), vec3_at(a, 2));
         r.y[0] = surface.front ? real(1.0) : real(0.0);
         put3(r, 1, surface.position);
         put3(r, 4, surface.geometric_normal);

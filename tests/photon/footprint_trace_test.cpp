@@ -226,8 +226,8 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
         }
     }
     const auto scale_for = [&](float smoothing, float largest) {
-        return make_footprint_scale(float(count), float(count), scene.record.radius, smoothing, 5,
-                                    largest, 0.3f, 1.0f / 6);
+        return make_footprint_scale(float(count), float(count), scene.record.radius,
+                                    {smoothing, 5, largest, 0.3f, 1.0f / 6});
     };
     const auto photons = download<PhotonRecord>(device(), workspace.photons, stored->slots);
     const auto offsets = download<glm::uvec4>(device(), workspace.offsets, stored->slots);

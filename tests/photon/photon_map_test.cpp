@@ -153,7 +153,7 @@ TEST_P(PhotonMapTree, AMapStaysAsItIsWhenAnotherIsBuilt) {
     const std::vector<glm::uvec4> offsets(count, {axis.x, axis.y, other_axis.x, other_axis.y});
     PhotonWorkspace workspace = make_photon_workspace(device, count, true);
     PhotonMapSettings settings{.leaf_size = 8};
-    settings.footprints = make_footprint_scale(count, count, 1, 10, 1, 0.1f, 0.3f, 0.5f);
+    settings.footprints = make_footprint_scale(count, count, 1, {10, 1, 0.1f, 0.3f, 0.5f});
     const auto build = [&](std::size_t some) {
         return build_photon_map(device, scene, workspace,
                                 testing::store(device, workspace, photons(some), offsets),

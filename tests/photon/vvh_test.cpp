@@ -180,7 +180,7 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
         offsets.emplace_back(a.x, a.y, b.x, b.y);
     }
     PhotonWorkspace workspace = make_photon_workspace(device, count, true);
-    const FootprintScale scale = make_footprint_scale(count, count, 1, 10, 1, 0.1f, 0.3f, 0.5f);
+    const FootprintScale scale = make_footprint_scale(count, count, 1, {10, 1, 0.1f, 0.3f, 0.5f});
     const PhotonMap linear =
         build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),
                          {.area_samples = 1000, .leaf_size = 8, .footprints = scale});

@@ -68,11 +68,11 @@ inline Begin begin(Start start, uint seed) {
     Begin b;
     if (start < Start::paper) {
         const LightRecord l = some_light(start, seed);
-        vec3 normal, flux;
-        light_emit(l, all_light_kinds, u, random4(42, seed, 0, 1), vec3(0), real(2),
-                   b.photon.position, b.photon.direction, normal, flux);
-        b.differential = light_differential(l, all_light_kinds, b.photon.direction, normal, real(2),
-                                            photon_count, photon_count);
+        EmittedPhoton p;
+        light_emit(l, all_light_kinds, {vec3(0), real(2)}, u, random4(42, seed, 0, 1), p);
+        b.photon = {p.origin, p.direction};
+        b.differential =
+            light_differential(l, all_light_kinds, p, real(2), photon_count, photon_count);
         return b;
     }
     const Frame frame = make_frame(unit_vector(seed, 4));
@@ -113,6 +113,8 @@ inline Wall wall_before(IN(Photon) p, uint seed, uint number) {
     return w;
 }
 
+inline SmoothTriangle triangle_of(IN(Wall) w) { return {w.v0, w.v1, w.v2, w.n0, w.n1, w.n2}; }
+
 struct WallHit {
     real t;
     vec2 weights;
@@ -126,8 +128,7 @@ inline WallHit hit_wall(IN(Photon) p, IN(Wall) w) {
     const vec3 q = p.position + p.direction * h.t - w.v0;
     h.weights.x = dot3(cross3(q, w.v2 - w.v0), n) / dot3(n, n);
     h.weights.y = dot3(cross3(w.v1 - w.v0, q), n) / dot3(n, n);
-    h.surface =
-        make_surface(w.v0, w.v1, w.v2, w.n0, w.n1, w.n2, h.weights.x, h.weights.y, p.direction);
+    h.surface = make_surface(triangle_of(w), h.weights.x, h.weights.y, p.direction);
     return h;
 }
 
@@ -184,16 +185,16 @@ inline Path trace(Start start, uint seed, uint walls, vec2 step) {
         vec3 dn[2];
         for (int k = 0; k < 2; ++k) {
             dn[k] =
-                shading_normal_change(w.v0, w.v1, w.v2, w.n0, w.n1, w.n2, h.weights, n,
+                shading_normal_change(triangle_of(w), h.weights, n,
                                       k == 0 ? path.differential.dp_du : path.differential.dp_dv);
         }
         path.alike = path.alike && refracts(w, here.direction, n) ==
                                        refracts(w, beside.direction, g.surface.shading_normal);
         const Photon next = scattered(h, w, here.direction);
         if (refracts(w, here.direction, n)) {
-            refract_differential(path.differential, here.direction, n, dn[0], dn[1], w.eta);
+            refract_differential(path.differential, here.direction, {n, dn[0], dn[1]}, w.eta);
         } else {
-            reflect_differential(path.differential, here.direction, n, dn[0], dn[1]);
+            reflect_differential(path.differential, here.direction, {n, dn[0], dn[1]});
         }
         path.conditioning = std::min(path.conditioning, std::abs(dot3(next.direction, n)));
         path.conditioning = std::min(path.conditioning, std::abs(dot3(here.direction, n)));

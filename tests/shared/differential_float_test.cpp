@@ -73,12 +73,12 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
         const vec3 dn[] = {any_vector(-20, 20), any_vector(-20, 20)};
         switch (i % 6) {
         case 0:
-            reflect_differential(d, direction, n, dn[0], dn[1]);
+            reflect_differential(d, direction, {n, dn[0], dn[1]});
             break;
         case 1: { // near total reflection, and indices close to 1
             const float eta = bits() % 2 == 0 ? 1 + (bits() % 2 == 0 ? 1e-7f : -1e-7f)
                                               : any_magnitude(bits, -2, 2);
-            refract_differential(d, direction, n, dn[0], dn[1], eta);
+            refract_differential(d, direction, {n, dn[0], dn[1]}, eta);
             break;
         }
         case 2:
@@ -86,7 +86,7 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
                                        uint(bits() % 3));
             break;
         case 3:
-            gloss_differential(d, direction, glm::reflect(direction, n), n, dn[0], dn[1],
+            gloss_differential(d, direction, glm::reflect(direction, n), {n, dn[0], dn[1]},
                                any_magnitude(bits, 0, 30),
                                bits() % 3 == 0 ? 0.0f : any_magnitude(bits, -100, 40));
             break;
@@ -94,14 +94,14 @@ TEST(DifferentialFloat, ExtremesStayFinite) {
             roulette_differential(d, bits() % 3 == 0 ? 0.0f : any_magnitude(bits, -40, 1));
             break;
         default:
-            gloss_differential(d, direction, direction, n, dn[0], dn[1], 1e5f, 1.0f);
+            gloss_differential(d, direction, direction, {n, dn[0], dn[1]}, 1e5f, 1.0f);
         }
         ASSERT_TRUE(finite(d)) << "case " << i;
         ASSERT_LT(glm::length(d.dd_du), 1.001e3f);
         ASSERT_LT(glm::length(d.dd_dv), 1.001e3f);
         for (int again = 0; again < 20; ++again) {
             transfer_differential(d, direction, 1e6f * scale, n);
-            reflect_differential(d, direction, n, dn[0], dn[1]);
+            reflect_differential(d, direction, {n, dn[0], dn[1]});
         }
         ASSERT_TRUE(finite(d)) << "case " << i;
     }
@@ -147,7 +147,7 @@ TEST(DifferentialFloat, DegenerateTrianglesHaveFlatNormals) {
     const vec3 up[] = {n, glm::normalize(vec3(0.2f, 0, 1)), glm::normalize(vec3(0, 0.2f, 1))};
     const vec3 zero(0);
     const auto change = [&](vec3 v0, vec3 v1, vec3 v2, vec3 shading) {
-        return shading_normal_change(v0, v1, v2, up[0], up[1], up[2], vec2(0.3f), shading,
+        return shading_normal_change({v0, v1, v2, up[0], up[1], up[2]}, vec2(0.3f), shading,
                                      vec3(1, 1, 0));
     };
     const vec3 x(1, 0, 0);
@@ -158,7 +158,7 @@ TEST(DifferentialFloat, DegenerateTrianglesHaveFlatNormals) {
     EXPECT_EQ(change(zero, x, y, n), zero); // make_surface fell back to the geometric normal
     EXPECT_GT(glm::length(change(zero, x, y, shading)), 0.1f);
     EXPECT_EQ(change(zero, x, y, -shading), -change(zero, x, y, shading));
-    EXPECT_EQ(shading_normal_change(zero, x, y, zero, zero, zero, vec2(0.3f), n, x),
+    EXPECT_EQ(shading_normal_change({zero, x, y, zero, zero, zero}, vec2(0.3f), n, x),
               zero); // no normals
 }
 

@@ -106,7 +106,7 @@ TEST(Glossy, SpreadMatchesTheSampler) {
             }
             ++compared;
             PhotonDifferential d = no_differential();
-            gloss_differential(d, -wo, s.wi, vec3(0, 0, 1), vec3(0), vec3(0), n, s.pdf);
+            gloss_differential(d, -wo, s.wi, {vec3(0, 0, 1), vec3(0), vec3(0)}, n, s.pdf);
             const double expected = stretch(direction, vec2(u)) / n;
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-3 * expected)
                 << "roughness " << m.roughness << ", seed " << seed;
@@ -139,7 +139,7 @@ TEST(Glossy, IncomingSpreadIsMirroredAtTheHalfVector) {
         };
         const double step = 1e-6;
         const vec3 truth = (mirrored(step) - mirrored(-step)) / (2 * step);
-        gloss_differential(d, direction, mirrored(0), normal, dn, vec3(0), 1e30, 1.0);
+        gloss_differential(d, direction, mirrored(0), {normal, dn, vec3(0)}, 1e30, 1.0);
         EXPECT_NEAR(glm::length(d.dd_du - truth), 0, 1e-7 * (1 + glm::length(truth)));
     }
 }
@@ -165,9 +165,9 @@ bool past_ball(vec3 origin, vec3 direction, double eta, vec3& end, PhotonDiffere
             return false; // total reflection
         }
         if (d != nullptr && eta == 0) {
-            reflect_differential(*d, before, normal, d->dp_du, d->dp_dv);
+            reflect_differential(*d, before, {normal, d->dp_du, d->dp_dv});
         } else if (d != nullptr) {
-            refract_differential(*d, before, normal, side * d->dp_du, side * d->dp_dv, ratio);
+            refract_differential(*d, before, {normal, side * d->dp_du, side * d->dp_dv}, ratio);
         }
         if (eta == 0) {
             break;

@@ -197,7 +197,7 @@ TEST(Footprint, DegenerateDifferentialsHaveFootprints) {
     const float infinity = std::numeric_limits<float>::infinity();
     for (const float length : {1e-3f, 1.0f, 1e3f, 1e6f}) {
         FootprintScale s =
-            make_footprint_scale(1e5f, 1e5f, length, 40.0f, 5.0f, 0.05f, 0.3f, 1.0f / 6);
+            make_footprint_scale(1e5f, 1e5f, length, {40.0f, 5.0f, 0.05f, 0.3f, 1.0f / 6});
         for (int i = 0; i < 4000; ++i) {
             const vec3 n = any_unit(bits);
             PhotonDifferential d = any_skewed(bits, n, length * any_magnitude(bits, -60, 30));
@@ -248,9 +248,9 @@ TEST(FootprintScaling, FollowsThePaper) {
     const double spacing = 2 * std::sqrt(pi / photons);
     const double length = 30; // of the scene
     const double paper_smoothing = 40;
-    const FootprintScale s = make_footprint_scale(float(photons), 1e5f, float(length),
-                                                  float(paper_smoothing / std::pow(length, 0.75)),
-                                                  5.0f, 10.0f, 0.3f, 0.5f);
+    const FootprintScale s = make_footprint_scale(
+        float(photons), 1e5f, float(length),
+        {float(paper_smoothing / std::pow(length, 0.75)), 5.0f, 10.0f, 0.3f, 0.5f});
     for (const double offset : {0.5, 5.0, 18.0, 40.0}) {
         PhotonDifferential d = no_differential();
         d.dp_du = vec3(offset * spacing, 0, 0);
@@ -268,7 +268,7 @@ TEST(FootprintScaling, FollowsThePaper) {
 TEST(FootprintScaling, ShrinksWithTheExponent) {
     const auto radius = [](double photons, double exponent, bool caustic) {
         const FootprintScale s =
-            make_footprint_scale(float(photons), 1e5f, 1, 3, 5, 10, 0.3f, float(exponent));
+            make_footprint_scale(float(photons), 1e5f, 1, {3, 5, 10, 0.3f, float(exponent)});
         PhotonDifferential d = no_differential();
         const float size =
             // Proportional to the differentials of emission.
@@ -290,9 +290,10 @@ TEST(FootprintScaling, ShrinksWithTheExponent) {
 TEST(FootprintScaling, ScalesWithTheScene) {
     std::mt19937 bits(7);
     for (const float factor : {1e-6f, 1e-3f, 1e3f, 1e6f}) {
-        const FootprintScale one = make_footprint_scale(1e6f, 1e5f, 1, 3, 5, 0.1f, 0.3f, 1.0f / 6);
+        const FootprintScale one =
+            make_footprint_scale(1e6f, 1e5f, 1, {3, 5, 0.1f, 0.3f, 1.0f / 6});
         const FootprintScale other =
-            make_footprint_scale(1e6f, 1e5f, factor, 3, 5, 0.1f, 0.3f, 1.0f / 6);
+            make_footprint_scale(1e6f, 1e5f, factor, {3, 5, 0.1f, 0.3f, 1.0f / 6});
         for (int i = 0; i < 1000; ++i) {
             const vec3 n = any_unit(bits);
             PhotonDifferential d = any_skewed(bits, n, 1e-3f);

@@ -15,14 +15,10 @@ using paths::Start;
 const double n = paths::photon_count;
 
 /// Result of light_emit for these random numbers.
-struct Emitted {
-    vec3 origin, direction, normal;
-};
-Emitted emitted(const LightRecord& l, vec4 u, vec4 v) {
-    Emitted e;
-    vec3 flux;
-    light_emit(l, all_light_kinds, u, v, vec3(0), 2.0, e.origin, e.direction, e.normal, flux);
-    return e;
+EmittedPhoton emitted(const LightRecord& l, vec4 u, vec4 v) {
+    EmittedPhoton p;
+    light_emit(l, all_light_kinds, {vec3(0), 2.0}, u, v, p);
+    return p;
 }
 
 /// Whether the numbers are away from the samplers' seams.
@@ -47,9 +43,8 @@ TEST(Emission, SpacingMatchesTheSamplers) {
         ++compared;
         for (const Start start : {Start::point, Start::directional, Start::triangle, Start::sky}) {
             const LightRecord l = paths::some_light(start, seed);
-            const Emitted e = emitted(l, u, v);
-            const PhotonDifferential d =
-                light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
+            const EmittedPhoton e = emitted(l, u, v);
+            const PhotonDifferential d = light_differential(l, all_light_kinds, e, 2.0, n, n);
             const double over_directions = stretch(
                 [&](vec2 x) { return emitted(l, vec4(x.x, x.y, u.z, u.w), v).direction; }, vec2(u));
             const double over_positions =
@@ -83,9 +78,8 @@ TEST(Emission, PointLightFollowsThePaper) {
         const double cosine = 1 - 2 * u.y;
         const double sine = std::sqrt(1 - cosine * cosine);
         const double phi = 2 * PI * u.x;
-        const Emitted e = emitted(l, u, vec4(0));
-        const PhotonDifferential d =
-            light_differential(l, all_light_kinds, e.direction, e.normal, 2.0, n, n);
+        const EmittedPhoton e = emitted(l, u, vec4(0));
+        const PhotonDifferential d = light_differential(l, all_light_kinds, e, 2.0, n, n);
         const double spacing = 2 * std::sqrt(PI / n);
         const vec3 along(-std::cos(phi) * cosine, -std::sin(phi) * cosine, sine);
         const vec3 around(-std::sin(phi), std::cos(phi), 0);
@@ -106,13 +100,14 @@ TEST(Emission, SpotsFollowTheirFalloff) {
         const double m = 0.05 + 0.9 * r.z;
         const double around = 0.05 + 0.9 * r.y;
         for (const bool on_ramp : {false, true}) {
-            const auto direction = [&](vec2 x) {
-                return emitted(l, vec4(on_ramp ? 0 : 0.999999, x.y, x.x, 0), vec4(0)).direction;
+            const auto photon = [&](vec2 x) {
+                return emitted(l, vec4(on_ramp ? 0 : 0.999999, x.y, x.x, 0), vec4(0));
             };
+            const auto direction = [&](vec2 x) { return photon(x).direction; };
             const double density = on_ramp ? 3 * m * m * ramp / all : 1 - ramp / all;
             const double expected = stretch(direction, vec2(m, around)) / density / n;
-            const PhotonDifferential d = light_differential(
-                l, all_light_kinds, direction(vec2(m, around)), vec3(0), 2.0, n, n);
+            const PhotonDifferential d =
+                light_differential(l, all_light_kinds, photon(vec2(m, around)), 2.0, n, n);
             EXPECT_NEAR(area_of(d.dd_du, d.dd_dv), expected, 1e-5 * expected)
                 << "on the ramp " << on_ramp << ", m " << m;
         }
@@ -126,18 +121,17 @@ double area_times_density(const LightRecord& l, double half_width, uint photons)
     const double radius = 2;
     double sum = 0;
     for (uint i = 0; i < photons; ++i) {
-        vec3 origin, direction, normal, flux;
-        light_emit(l, all_light_kinds, vec4(random4(57, i, 0, 0)), vec4(random4(57, i, 0, 1)),
-                   vec3(0), radius, origin, direction, normal, flux);
-        const double t = -origin.z / direction.z;
-        const vec3 hit = origin + t * direction;
-        if (!(t > 0) || !(direction.z < 0) || std::abs(hit.x) > half_width ||
+        EmittedPhoton p;
+        light_emit(l, all_light_kinds, {vec3(0), radius}, vec4(random4(57, i, 0, 0)),
+                   vec4(random4(57, i, 0, 1)), p);
+        const double t = -p.origin.z / p.direction.z;
+        const vec3 hit = p.origin + t * p.direction;
+        if (!(t > 0) || !(p.direction.z < 0) || std::abs(hit.x) > half_width ||
             std::abs(hit.y) > half_width) {
             continue;
         }
-        PhotonDifferential d =
-            light_differential(l, all_light_kinds, direction, normal, radius, photons, photons);
-        transfer_differential(d, direction, t, vec3(0, 0, 1));
+        PhotonDifferential d = light_differential(l, all_light_kinds, p, radius, photons, photons);
+        transfer_differential(d, p.direction, t, vec3(0, 0, 1));
         sum += area_of(d.dp_du, d.dp_dv);
     }
     return sum / (4 * half_width * half_width);

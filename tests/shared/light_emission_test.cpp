@@ -15,13 +15,9 @@ const vec3 color(3, 2, 1);
 const vec3 center(1, 2, 3);
 constexpr float radius = 4;
 
-struct Photon {
-    vec3 origin, direction, normal, flux;
-};
-Photon photon_of(const LightRecord& l, uint i) {
-    Photon p;
-    EXPECT_TRUE(light_emit(l, random4(31, i, 0, 0), random4(31, i, 0, 1), center, radius, p.origin,
-                           p.direction, p.normal, p.flux));
+EmittedPhoton photon_of(const LightRecord& l, uint i) {
+    EmittedPhoton p;
+    EXPECT_TRUE(light_emit(l, {center, radius}, random4(31, i, 0, 0), random4(31, i, 0, 1), p));
     return p;
 }
 
@@ -44,7 +40,7 @@ std::vector<LightRecord> one_of_each() {
 TEST(LightEmission, EveryPhotonCarriesTheLightsPower) {
     for (const LightRecord& l : one_of_each()) {
         for (uint i = 0; i < 1000; ++i) {
-            const Photon p = photon_of(l, i);
+            const EmittedPhoton p = photon_of(l, i);
             ASSERT_EQ(p.flux, light_power(l, radius));
             ASSERT_NEAR(dot3(p.direction, p.direction), 1, 2e-6);
             const bool on_surface = l.kind == light_triangle;
@@ -65,7 +61,7 @@ TEST(LightEmission, AgreesWithLightSamples) {
         Mean arrived;
         Mean irradiance;
         for (uint i = 0; i < 200'000; ++i) {
-            const Photon p = photon_of(l, i);
+            const EmittedPhoton p = photon_of(l, i);
             const float t = (z - p.origin.z) / p.direction.z;
             const vec3 at = p.origin + t * p.direction;
             const bool through = t > 0 && p.direction.z < 0 && at.x > low && at.x < high &&
@@ -129,7 +125,7 @@ TEST(LightEmission, TrianglesEmitByTheCosineFromTheirWholeArea) {
         int front = 0;
         const uint photons = 50'000;
         for (uint i = 0; i < photons; ++i) {
-            const Photon p = photon_of(l, i);
+            const EmittedPhoton p = photon_of(l, i);
             const double cosine = dot3(p.normal, p.direction);
             ++counts[std::min<std::size_t>(31, static_cast<std::size_t>(cosine * cosine * 32))];
             front += dot3(p.normal, n) > 0;
@@ -157,7 +153,7 @@ TEST(LightEmission, DiscsCoverTheScene) {
         Mean squared;
         double largest = 0;
         for (uint i = 0; i < 20'000; ++i) {
-            const Photon p = photon_of(l, i);
+            const EmittedPhoton p = photon_of(l, i);
             const glm::dvec3 from_center = glm::dvec3(p.origin) - glm::dvec3(center);
             const double along = glm::dot(from_center, glm::dvec3(p.direction));
             ASSERT_LT(along, -radius);
@@ -172,20 +168,16 @@ TEST(LightEmission, DiscsCoverTheScene) {
 }
 
 TEST(LightEmission, DegenerateTrianglesEmitNothing) {
-    vec3 origin;
-    vec3 direction;
-    vec3 normal;
-    vec3 flux;
+    EmittedPhoton p;
     const LightRecord l = triangle_light(vec3(1), vec3(2), vec3(2), color, true);
-    EXPECT_FALSE(
-        light_emit(l, vec4(0.5f), vec4(0.5f), center, radius, origin, direction, normal, flux));
-    EXPECT_EQ(flux, vec3(0));
+    EXPECT_FALSE(light_emit(l, {center, radius}, vec4(0.5f), vec4(0.5f), p));
+    EXPECT_EQ(p.flux, vec3(0));
 }
 
 TEST(LightEmission, SinglePrecisionIsStable) {
     for (const LightRecord& l : one_of_each()) {
         for (uint i = 0; i < 2000; ++i) {
-            const Photon p = photon_of(l, i);
+            const EmittedPhoton p = photon_of(l, i);
             const truth::Emission e = truth::light_emit(record_bytes(l), random4(31, i, 0, 0),
                                                         random4(31, i, 0, 1), center, radius);
             ASSERT_NEAR(glm::length(glm::dvec3(p.direction) - e.direction), 0, 2e-5);

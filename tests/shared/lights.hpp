@@ -66,10 +66,9 @@ inline bool light_sample(const LightRecord& l, vec3 p, vec2 u, LightSample& s) {
 inline vec3 light_power(const LightRecord& l, float radius) {
     return argand::light_power(l, all_light_kinds, radius);
 }
-inline bool light_emit(const LightRecord& l, vec4 u, vec4 v, vec3 center, float radius,
-                       vec3& origin, vec3& direction, vec3& normal, vec3& flux) {
-    return argand::light_emit(l, all_light_kinds, u, v, center, radius, origin, direction, normal,
-                              flux);
+inline bool light_emit(const LightRecord& l, const Sphere& bounds, vec4 u, vec4 v,
+                       EmittedPhoton& p) {
+    return argand::light_emit(l, all_light_kinds, bounds, u, v, p);
 }
 
 inline truth::Record record_bytes(const LightRecord& l) { return std::bit_cast<truth::Record>(l); }

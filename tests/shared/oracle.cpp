@@ -50,11 +50,9 @@ glm::dvec3 light_power(const Record& light, double radius) {
 
 Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 center,
                     double radius) {
-    Emission e;
-    vec3 normal;
-    oracle::light_emit(as<LightRecord>(light), oracle::all_light_kinds, u, v, center, radius,
-                       e.origin, e.direction, normal, e.flux);
-    return e;
+    oracle::EmittedPhoton p;
+    oracle::light_emit(as<LightRecord>(light), oracle::all_light_kinds, {center, radius}, u, v, p);
+    return {p.origin, p.direction, p.flux};
 }
 
 Ray camera_ray(const Record& camera, double x, double y) {
@@ -66,7 +64,7 @@ Ray camera_ray(const Record& camera, double x, double y) {
 Surface make_surface(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& n,
                      double u, double v, glm::dvec3 ray_direction) {
     const oracle::Surface s =
-        oracle::make_surface(p[0], p[1], p[2], n[0], n[1], n[2], u, v, ray_direction);
+        oracle::make_surface({p[0], p[1], p[2], n[0], n[1], n[2]}, u, v, ray_direction);
     return {s.position, s.geometric_normal, s.shading_normal, s.front};
 }
 

@@ -16,7 +16,7 @@ struct Case {
     vec3 direction;
 
     Surface surface() const {
-        return make_surface(v[0], v[1], v[2], n[0], n[1], n[2], u, w, direction);
+        return make_surface({v[0], v[1], v[2], n[0], n[1], n[2]}, u, w, direction);
     }
 
     truth::Surface truth() const {

@@ -59,15 +59,18 @@ FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(Ca
     r.radiance_z = lit ? sample_.radiance.z : real(0.0);
     r.light_pdf = lit ? sample_.pdf : real(0.0);
     r.distance = lit ? sample_.distance : real(0.0);
-    vec3 origin, way, normal, flux;
-    light_emit(l, all_light_kinds, v, x, vec3(real(0.0)), real(4.0), origin, way, normal, flux);
-    r.origin_x = origin.x;
-    r.origin_y = origin.y;
-    r.origin_z = origin.z;
-    r.direction_x = way.x;
-    r.direction_y = way.y;
-    r.direction_z = way.z;
-    r.flux = flux.x;
+    Sphere bounds;
+    bounds.center = vec3(real(0.0));
+    bounds.radius = real(4.0);
+    EmittedPhoton photon;
+    light_emit(l, all_light_kinds, bounds, v, x, photon);
+    r.origin_x = photon.origin.x;
+    r.origin_y = photon.origin.y;
+    r.origin_z = photon.origin.z;
+    r.direction_x = photon.direction.x;
+    r.direction_y = photon.direction.y;
+    r.direction_z = photon.direction.z;
+    r.flux = photon.flux.x;
 
     vec3 a = vec3(l.x, l.y, l.z);
     vec3 b = vec3(l.dx, l.dy, l.dz);

@@ -13,18 +13,20 @@ FN void main() {
     vec4 u = vec4(a.x, a.y, v.x, v.y);
     real probability;
     LightRecord light = lights[choose_light(v.w, probability)];
-    vec3 origin, direction, normal, flux;
-    bool emitted = light_emit(light, light_kinds, u, vec4(v.z, v.w, v.x, v.y), scene_center(),
-                              scene[0].radius, origin, direction, normal, flux);
-    flux = emitted ? flux * (batch.inverse_total / probability) : vec3(real(0.0));
+    Sphere bounds;
+    bounds.center = scene_center();
+    bounds.radius = scene[0].radius;
+    EmittedPhoton p;
+    bool emitted = light_emit(light, light_kinds, bounds, u, vec4(v.z, v.w, v.x, v.y), p);
+    vec3 flux = emitted ? p.flux * (batch.inverse_total / probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
         differentials[slot] = differential_record(
-            light_differential(light, light_kinds, direction, normal, scene[0].radius,
-                               photons * probability, photons * batch.emitter_probability));
+            light_differential(light, light_kinds, p, scene[0].radius, photons * probability,
+                               photons * batch.emitter_probability));
     }
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, emitted ? far_away : -real(1.0),
-                           direction.x, direction.y, direction.z, 0u);
+    rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
+                           p.direction.x, p.direction.y, p.direction.z, 0u);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);
     uvec3 units = uvec3(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
                         flux_units(flux.z, batch.flux_unit));

@@ -9,10 +9,8 @@ FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
     if (!smooth_normals) {
         return vec3(real(0.0));
     }
-    uvec4 t = triangles[hit.triangle];
-    return shading_normal_change(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]),
-                                 vec3(normals[t.x]), vec3(normals[t.y]), vec3(normals[t.z]),
-                                 vec2(hit.u, hit.v), surface.shading_normal, offset);
+    return shading_normal_change(load_triangle(hit.triangle), vec2(hit.u, hit.v),
+                                 surface.shading_normal, offset);
 }
 
 // A photon at its hit on a surface.
@@ -84,17 +82,18 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
     } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {
-        vec3 n = a.surface.shading_normal;
-        vec3 dn_du = normal_change(a.hit, a.surface, d.dp_du);
-        vec3 dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
+        NormalDifferential normal;
+        normal.n = a.surface.shading_normal;
+        normal.dn_du = normal_change(a.hit, a.surface, d.dp_du);
+        normal.dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
         if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
             // The pdf includes the choice of the lobe.
-            gloss_differential(d, a.direction, out_of.direction, n, dn_du, dn_dv, emitted,
+            gloss_differential(d, a.direction, out_of.direction, normal, emitted,
                                s.pdf / s.probability);
         } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
-            reflect_differential(d, a.direction, n, dn_du, dn_dv);
+            reflect_differential(d, a.direction, normal);
         } else if (has(LOBE_TRANSMIT)) {
-            refract_differential(d, a.direction, n, dn_du, dn_dv, inversesqrt(s.eta_scale));
+            refract_differential(d, a.direction, normal, inversesqrt(s.eta_scale));
         }
     }
 }
