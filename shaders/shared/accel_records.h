@@ -48,8 +48,8 @@ struct ForestCost {
 // TriangleBvh::triangles.
 struct RayNode {
     float32 low_x, low_y, low_z; // origin of the grid
-    // biased binary exponents of the cell sizes, x in the lowest byte; highest byte: number of
-    // children
+    // Biased binary exponents of the cell sizes, x in the lowest byte; highest byte: number of
+    // children.
     uint scales;
     uint low_cells_x, low_cells_y, low_cells_z; // one byte per child, the first lowest
     uint high_cells_x, high_cells_y, high_cells_z;

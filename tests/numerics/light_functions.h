@@ -116,8 +116,8 @@ FN Footprint footprint_at(IN(Arguments) a, int k) {
     return f;
 }
 
-FN Values evaluate_lights(uint function, IN(Arguments) a) {
-    Values r = no_values();
+// Evaluates functions of lights and emitted photons. Returns false for any other.
+FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
     real s, t;
     if (function == of_spot_falloff) {
         r.y[0] = spot_falloff(number_at(a, 0), number_at(a, 1), number_at(a, 2));
@@ -129,18 +129,6 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
                          vec2_at(a, 4)));
     } else if (function == of_light_weight) {
         r.y[0] = light_weight_of_emitter(vec3_at(a, 0));
-    } else if (function == of_transfer_differential) {
-        PhotonDifferential d = differential_at(a, 7);
-        transfer_differential(d, vec3_at(a, 0), number_at(a, 3), vec3_at(a, 4));
-        r = differential_values(d);
-    } else if (function == of_reflect_differential) {
-        PhotonDifferential d = differential_at(a, 12);
-        reflect_differential(d, vec3_at(a, 0), normal_differential_at(a, 3));
-        r = differential_values(d);
-    } else if (function == of_refract_differential) {
-        PhotonDifferential d = differential_at(a, 13);
-        refract_differential(d, vec3_at(a, 0), normal_differential_at(a, 3), number_at(a, 12));
-        r = differential_values(d);
     } else if (function == of_spot_solid_angles) {
         r.y[0] = spot_solid_angles(number_at(a, 0), number_at(a, 1), s, t);
         r.y[1] = s;
@@ -176,6 +164,26 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));
         put3(r, 4, p.direction);
         put3(r, 7, p.flux);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Evaluates differentials of photons. Returns false for any other.
+FN bool evaluate_differential(uint function, IN(Arguments) a, INOUT(Values) r) {
+    if (function == of_transfer_differential) {
+        PhotonDifferential d = differential_at(a, 7);
+        transfer_differential(d, vec3_at(a, 0), number_at(a, 3), vec3_at(a, 4));
+        r = differential_values(d);
+    } else if (function == of_reflect_differential) {
+        PhotonDifferential d = differential_at(a, 12);
+        reflect_differential(d, vec3_at(a, 0), normal_differential_at(a, 3));
+        r = differential_values(d);
+    } else if (function == of_refract_differential) {
+        PhotonDifferential d = differential_at(a, 13);
+        refract_differential(d, vec3_at(a, 0), normal_differential_at(a, 3), number_at(a, 12));
+        r = differential_values(d);
     } else if (function == of_photon_spacing) {
         r.y[0] = photon_spacing(number_at(a, 0), number_at(a, 1));
     } else if (function == of_direction_axes) {
@@ -231,7 +239,18 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
         r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)),
                                                    all_light_kinds, p, number_at(a, 6),
                                                    number_at(a, 7), number_at(a, 7)));
-    } else if (function == of_footprint_scale) {
+    } else if (function == of_differential_record) {
+        PhotonDifferential d = load_differential(differential_record(differential_at(a, 0)));
+        r = must_be(differential_values(d), differential_values(differential_at(a, 0)));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Evaluates footprints. Returns false for any other.
+FN bool evaluate_footprint(uint function, IN(Arguments) a, INOUT(Values) r) {
+    if (function == of_footprint_scale) {
         FootprintScale scale = some_footprint_scale(number_at(a, 0), number_at(a, 1), 0u);
         r.y[0] = real(scale.spacing);
         r.y[1] = real(scale.diffuse);
@@ -284,9 +303,16 @@ FN Values evaluate_lights(uint function, IN(Arguments) a) {
     } else if (function == of_dual_read) {
         uvec2 packed = pack_dual(vec3_at(a, 0));
         put3(r, 0, must_be(unpack_dual(packed.x, packed.y), vec3_at(a, 0)));
-    } else if (function == of_differential_record) {
-        PhotonDifferential d = load_differential(differential_record(differential_at(a, 0)));
-        r = must_be(differential_values(d), differential_values(differential_at(a, 0)));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+FN Values evaluate_lights(uint function, IN(Arguments) a) {
+    Values r = no_values();
+    if (!evaluate_light(function, a, r) && !evaluate_differential(function, a, r)) {
+        evaluate_footprint(function, a, r);
     }
     return r;
 }

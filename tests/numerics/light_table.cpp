@@ -88,9 +88,7 @@ void put_duals(Draw& d, glm::vec3 n) {
     d.put(rounded(b * size * double(d.magnitude(0, 10))));
 }
 
-} // namespace
-
-std::vector<Function> light_table() {
+std::vector<Function> spots_and_power() {
     return {
         {"spot_falloff", of_spot_falloff, "cosines across the ramp, cones 10^-3 … 1.57 rad",
          [](Draw& d) {
@@ -145,6 +143,11 @@ std::vector<Function> light_table() {
              d.put(d.magnitude(-20, 0));
          },
          6, "1", ulp, 8},
+    };
+}
+
+std::vector<Function> light_samples_and_photons() {
+    return {
         {"light_sample", of_light_sample,
          "all kinds, points 2^-10 … 2^10, corners of [0, 1)²; emitters edge-on down to a cosine of "
          "10^-6 (of absolute error)",
@@ -177,6 +180,11 @@ std::vector<Function> light_table() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          22, "d333", conditioned, 4},
+    };
+}
+
+std::vector<Function> spreads() {
+    return {
         {"photon_spacing", of_photon_spacing, "photons 0 … 2^30, densities 0 … 2^40",
          [](Draw& d) {
              d.put(d.once_in(8) ? 0 : d.magnitude(-1, 30));
@@ -227,6 +235,11 @@ std::vector<Function> light_table() {
              d.put(d.index_ratio());
          },
          13, "3", conditioned, 8},
+    };
+}
+
+std::vector<Function> differentials() {
+    return {
         {"transfer_differential", of_transfer_differential,
          "any differential, distances 2^-10 … 2^10, grazing by 10^-7",
          [](Draw& d) {
@@ -289,6 +302,11 @@ std::vector<Function> light_table() {
              put_differential(d);
          },
          26, "3333", conditioned, 8},
+    };
+}
+
+std::vector<Function> differentials_of_lights_and_normals() {
+    return {
         {"shading_normal_change", of_shading_normal_change,
          "triangles 2^-10 … 2^10, normals up to 30° apart",
          [](Draw& d) {
@@ -328,6 +346,11 @@ std::vector<Function> light_table() {
              }
          },
          22, "3333", conditioned, 6},
+    };
+}
+
+std::vector<Function> footprints() {
+    return {
         {"make_footprint_scale", of_footprint_scale, "photons 1 … 2^30, scene sizes 2^-40 … 2^40",
          [](Draw& d) {
              d.put(d.magnitude(0, 30));
@@ -392,6 +415,11 @@ std::vector<Function> light_table() {
              d.put(d.magnitude(-4, 0));
          },
          16, "1", conditioned, 3},
+    };
+}
+
+std::vector<Function> packed_footprints() {
+    return {
         {"pack_dual", of_pack_dual, "vectors 2^-90 … 2^90, zeros",
          [](Draw& d) {
              const int size = static_cast<int>(d.bits() % 180) - 90;
@@ -420,6 +448,13 @@ std::vector<Function> light_table() {
         {"load_differential of differential_record: the differential", of_differential_record,
          "any differential", put_differential, 12, "dddddddddddd", ulp, 0},
     };
+}
+
+} // namespace
+
+std::vector<Function> light_table() {
+    return joined({spots_and_power(), light_samples_and_photons(), spreads(), differentials(),
+                   differentials_of_lights_and_normals(), footprints(), packed_footprints()});
 }
 
 } // namespace argand::testing

@@ -44,8 +44,8 @@ CONSTANT uint of_flux_units = 28u;
 CONSTANT uint of_disc_radius = 29u;
 CONSTANT uint end_of_maths = 30u;
 
-FN Values evaluate_maths(uint function, IN(Arguments) a) {
-    Values r = no_values();
+// Evaluates functions of numbers, vectors and frames. Returns false for any other.
+FN bool evaluate_vectors(uint function, IN(Arguments) a, INOUT(Values) r) {
     real s, c;
     if (function == of_sincos_2pi) {
         sincos_2pi(number_at(a, 0), s, c);
@@ -77,7 +77,16 @@ FN Values evaluate_maths(uint function, IN(Arguments) a) {
         put3(r, 0, to_world(make_frame(vec3_at(a, 0)), vec3_at(a, 3)));
     } else if (function == of_to_local) {
         put3(r, 0, to_local(make_frame(vec3_at(a, 0)), vec3_at(a, 3)));
-    } else if (function == of_disc_radius) {
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Evaluates samplers, codes and random numbers. Returns false for any other.
+FN bool evaluate_samplers(uint function, IN(Arguments) a, INOUT(Values) r) {
+    real s;
+    if (function == of_disc_radius) {
         r.y[0] = disc_radius(vec2_at(a, 0), s);
         r.y[1] = s;
     } else if (function == of_sample_disc) {
@@ -139,6 +148,16 @@ FN Values evaluate_maths(uint function, IN(Arguments) a) {
         r.y[0] = kernel_weight(number_at(a, 0));
     } else if (function == of_flux_units) {
         r.y[0] = real(flux_units(number_at(a, 0), number_at(a, 1)));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+FN Values evaluate_maths(uint function, IN(Arguments) a) {
+    Values r = no_values();
+    if (!evaluate_vectors(function, a, r)) {
+        evaluate_samplers(function, a, r);
     }
     return r;
 }

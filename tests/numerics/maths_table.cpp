@@ -33,9 +33,7 @@ void put_point_and_box(Draw& d) {
     d.put(high);
 }
 
-} // namespace
-
-std::vector<Function> maths_table() {
+std::vector<Function> elementary_functions() {
     return {
         {"sincos_2pi", of_sincos_2pi, "turns: [0, 1) and 2^-60 … 1, both signs",
          [](Draw& d) { d.put(d.sign() * (d.once_in(4) ? d.magnitude(-60, 0) : d.unit())); }, 1,
@@ -56,6 +54,11 @@ std::vector<Function> maths_table() {
                        : static_cast<float>(d.between(-85, 88) / std::log(double(x))));
          },
          2, "1", ulp, 2},
+    };
+}
+
+std::vector<Function> vectors_and_frames() {
+    return {
         {"unit_and_length", of_unit_and_length, "components 2^-100 … 2^100, mixed, zeros",
          [](Draw& d) {
              const int middle = static_cast<int>(d.bits() % 180) - 90;
@@ -92,6 +95,11 @@ std::vector<Function> maths_table() {
              d.put(d.vector(-20, 20));
          },
          6, "3", ulp, 4},
+    };
+}
+
+std::vector<Function> samplers() {
+    return {
         {"sample_disc", of_sample_disc, "[0, 1)², corners and centre",
          [](Draw& d) {
              d.put(d.unit());
@@ -122,6 +130,11 @@ std::vector<Function> maths_table() {
              d.put(d.unit());
          },
          2, "11", ulp, 3},
+    };
+}
+
+std::vector<Function> codes_and_random_numbers() {
+    return {
         {"pack_unit", of_pack_unit, "directions", [](Draw& d) { d.put(d.direction()); }, 3, "cc",
          ulp, 0},
         {"unpack_unit", of_unpack_unit, "two codes 1 … 65,535",
@@ -155,6 +168,11 @@ std::vector<Function> maths_table() {
          0, "dddd", ulp, 0},
         {"fixed_add", of_fixed_add, "any words", [](Draw& d) { put_words(d, 4); }, 0, "dddd", ulp,
          0},
+    };
+}
+
+std::vector<Function> query_cells_and_photons() {
+    return {
         {"query_cell", of_query_cell, "points 2^-10 … 2^4 on surfaces facing ±z, cells 2^-14 … 2",
          [](Draw& d) {
              const float largest = d.magnitude(-6, 0);
@@ -194,6 +212,13 @@ std::vector<Function> maths_table() {
          },
          2, "d", ulp, 0},
     };
+}
+
+} // namespace
+
+std::vector<Function> maths_table() {
+    return joined({elementary_functions(), vectors_and_frames(), samplers(),
+                   codes_and_random_numbers(), query_cells_and_photons()});
 }
 
 } // namespace argand::testing

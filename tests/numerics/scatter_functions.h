@@ -83,8 +83,8 @@ FN uvec2 path_by_vertices(uint vertices, uint followed) {
 }
 #endif
 
-FN Values evaluate_scatter(uint function, IN(Arguments) a) {
-    Values r = no_values();
+// Evaluates lobes of materials. Returns false for any other.
+FN bool evaluate_lobes(uint function, IN(Arguments) a, INOUT(Values) r) {
     real s;
     if (function == of_fresnel_dielectric) {
         real reflectance = fresnel_dielectric(number_at(a, 0), number_at(a, 1), s);
@@ -123,7 +123,15 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         fresnel_dielectric(wo.z, eta, s);
         r.y[0] = s > real(0.0) ? real(1.0) : real(0.0);
         put3(r, 1, s > real(0.0) ? vec3(-wo.x / eta, -wo.y / eta, -s) : vec3(real(0.0)));
-    } else if (function == of_lobe_probabilities) {
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Evaluates whole BSDFs and states of paths. Returns false for any other.
+FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
+    if (function == of_lobe_probabilities) {
         put3(r, 0, lobe_probabilities(material_at(a, 1), number_at(a, 0), LOBES_ALL));
     } else if (function == of_bsdf_albedo) {
         put3(r, 0, bsdf_albedo(material_at(a, 3), vec3_at(a, 0), small_at(a, 17) != 0u, LOBES_ALL));
@@ -175,7 +183,16 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         put3(r, 4, sample_.weight);
         // Skip the density: it belongs to the rounded direction, and bsdf_eval covers it.
         r.y[7] = scattered ? sample_.eta_scale : real(0.0);
-    } else if (function == of_ray_shear) {
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Evaluates functions of rays, surfaces and cameras. Returns false for any other.
+FN bool evaluate_rays(uint function, IN(Arguments) a, INOUT(Values) r) {
+    real s;
+    if (function == of_ray_shear) {
         RayShear shear = ray_shear(vec3_at(a, 0));
         r.y[0] = real(shear.axis);
         r.y[1] = shear.x;
@@ -234,6 +251,16 @@ FN Values evaluate_scatter(uint function, IN(Arguments) a) {
         camera_ray(camera, number_at(a, 0), number_at(a, 1), origin, direction);
         put3(r, 0, origin);
         put3(r, 3, direction);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+FN Values evaluate_scatter(uint function, IN(Arguments) a) {
+    Values r = no_values();
+    if (!evaluate_lobes(function, a, r) && !evaluate_bsdf(function, a, r)) {
+        evaluate_rays(function, a, r);
     }
     return r;
 }

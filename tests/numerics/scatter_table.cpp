@@ -155,9 +155,7 @@ void put_camera(Draw& d, bool orthographic) {
     d.put(orthographic ? 1 : 0);
 }
 
-} // namespace
-
-std::vector<Function> scatter_table() {
+std::vector<Function> microfacets() {
     return {
         {"fresnel_dielectric", of_fresnel_dielectric,
          "cosines 0 … 1, at the critical angle; ratios 0.1 … 10, 1 ± 10^-7",
@@ -208,6 +206,11 @@ std::vector<Function> scatter_table() {
              d.put(d.magnitude(-30, 0));
          },
          3, "1", ulp, 5},
+    };
+}
+
+std::vector<Function> phong_lobes() {
+    return {
         {"phong_power", of_phong_power, "exponents 0 … 2^21, directions near the mirror's and far",
          [](Draw& d) {
              const glm::vec3 wo = d.upper();
@@ -232,6 +235,11 @@ std::vector<Function> scatter_table() {
              d.put(d.share());
          },
          2, "111", ulp, 5},
+    };
+}
+
+std::vector<Function> bsdfs() {
+    return {
         {"bsdf_delta_lobes", of_bsdf_delta_lobes, "cosines 0 … 1, any material",
          [](Draw& d) {
              d.put(d.share());
@@ -270,6 +278,11 @@ std::vector<Function> scatter_table() {
          "as bsdf_eval_and_pdf, whose density is equal; any lobes, from below as well (below "
          "10^-30 of absolute error)",
          put_scattering_by_lobes, 20, "1d", conditioned, 7},
+    };
+}
+
+std::vector<Function> paths_and_samples() {
+    return {
         {"followed_lobes, estimated_lobes, is_lambertian", of_followed_lobes,
          "any material, Lambertian ones among them; --follow-roughness 0 … 1 and equal to the "
          "material's",
@@ -303,6 +316,11 @@ std::vector<Function> scatter_table() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          20, "d331", conditioned, 50, 0.06},
+    };
+}
+
+std::vector<Function> rays() {
+    return {
         {"ray_shear", of_ray_shear, "components 2^-60 … 2^60, zeros",
          [](Draw& d) { d.put(d.once_in(2) ? d.direction() : d.nonzero_vector(-60, 60)); }, 3,
          "d111", ulp, 1},
@@ -342,6 +360,11 @@ std::vector<Function> scatter_table() {
              d.put(d.above(n) * d.sign());
          },
          12, "3", ulp, 4},
+    };
+}
+
+std::vector<Function> surfaces_and_cameras() {
+    return {
         {"normalize_or", of_normalize_or, "vectors 2^-100 … 2^100, zeros, any fallback",
          [](Draw& d) {
              const int middle = static_cast<int>(d.bits() % 180) - 90;
@@ -377,6 +400,13 @@ std::vector<Function> scatter_table() {
          "any pixel of images up to 4096², any size and position",
          [](Draw& d) { put_camera(d, true); }, 14, "33", conditioned, 4},
     };
+}
+
+} // namespace
+
+std::vector<Function> scatter_table() {
+    return joined({microfacets(), phong_lobes(), bsdfs(), paths_and_samples(), rays(),
+                   surfaces_and_cameras()});
 }
 
 } // namespace argand::testing

@@ -2,15 +2,16 @@
 
 #include "draw.hpp"
 
+#include <initializer_list>
 #include <vector>
 
 namespace argand::testing {
 
 /// Unit of an error's bound.
 enum class Measure {
+    ulp, ///< units in the last place of the result; for a vector, of its length
     /// Change of the result when half a unit in the last place is added to every input and to the
     /// result.
-    ulp, ///< units in the last place of the result; for a vector, of its length
     conditioned
 };
 
@@ -32,6 +33,15 @@ struct Function {
     /// Largest share of borderline cases; higher if inputs are drawn from borderlines on purpose.
     double borderline = 0.015;
 };
+
+/// One table after another.
+inline std::vector<Function> joined(std::initializer_list<std::vector<Function>> parts) {
+    std::vector<Function> all;
+    for (const std::vector<Function>& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+}
 
 std::vector<Function> maths_table();
 std::vector<Function> scatter_table();
