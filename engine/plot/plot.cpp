@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace argand {
 
@@ -94,26 +95,35 @@ std::string title_of(const Results& results, const Measurement& m) {
     return title + "\n" + m.options;
 }
 
+void add_label(Plot& plot, Place place, PlotLabel::Align align, std::string text,
+               std::uint32_t color) {
+    PlotLabel label;
+    label.place = place;
+    label.align = align;
+    label.text = std::move(text);
+    label.color = color;
+    plot.labels.push_back(std::move(label));
+}
+
 void add_axes(Plot& plot, const Frame& frame) {
     using Align = PlotLabel::Align;
     for (const double tick : frame.x.ticks) {
         const Place low = frame.at(tick, frame.y.low);
         plot.lines.push_back({LineKind::grid, low, frame.at(tick, frame.y.high), grid, 1});
-        plot.labels.push_back(
-            {{low.x, low.y + 18}, Align::middle, fmt::format("{:g}", tick), black});
+        add_label(plot, {low.x, low.y + 18}, Align::middle, fmt::format("{:g}", tick), black);
     }
     for (const double tick : frame.y.ticks) {
         const Place low = frame.at(frame.x.low, tick);
         plot.lines.push_back({LineKind::grid, low, frame.at(frame.x.high, tick), grid, 1});
-        plot.labels.push_back({{low.x - 8, low.y}, Align::right, fmt::format("{:g}", tick), black});
+        add_label(plot, {low.x - 8, low.y}, Align::right, fmt::format("{:g}", tick), black);
     }
     const Place origin = frame.at(frame.x.low, frame.y.low);
     const Place end = frame.at(frame.x.high, frame.y.high);
     plot.lines.push_back({LineKind::axis, origin, {end.x, origin.y}, black, 1.5});
     plot.lines.push_back({LineKind::axis, origin, {origin.x, end.y}, black, 1.5});
-    plot.labels.push_back(
-        {{0.5 * (origin.x + end.x), origin.y + 44}, Align::middle, "seconds to render", black});
-    plot.labels.push_back({{16, end.y - 26}, Align::left, "error (relMSE)", black});
+    add_label(plot, {0.5 * (origin.x + end.x), origin.y + 44}, Align::middle, "seconds to render",
+              black);
+    add_label(plot, {16, end.y - 26}, Align::left, "error (relMSE)", black);
 }
 
 /// The scene, and which direction is better.
@@ -125,11 +135,9 @@ void add_title(Plot& plot, const Results& results) {
                 ": error against time";
     }
     const double middle = 0.5 * (left + plot.width - right);
-    plot.labels.push_back({{middle, 18}, PlotLabel::Align::middle, title, black});
-    plot.labels.push_back({{middle, 42},
-                           PlotLabel::Align::middle,
-                           "better is down (more accurate) and to the left (faster)",
-                           gray});
+    add_label(plot, {middle, 18}, PlotLabel::Align::middle, title, black);
+    add_label(plot, {middle, 42}, PlotLabel::Align::middle,
+              "better is down (more accurate) and to the left (faster)", gray);
 }
 
 void add_noise(Plot& plot, const Results& results, const Frame& frame) {
@@ -139,11 +147,9 @@ void add_noise(Plot& plot, const Results& results, const Frame& frame) {
             {LineKind::noise, from, frame.at(frame.x.high, *level), noise_color, 1.5});
         // No points hide a label in the lower left, which only an ideal setting would reach.
         const bool is_noise = *level > results.least_error;
-        plot.labels.push_back(
-            {{from.x + 8, from.y + (is_noise ? 12 : -12)},
-             PlotLabel::Align::left,
-             is_noise ? "below: within the reference's noise" : "on this line: no error found",
-             noise_color});
+        add_label(plot, {from.x + 8, from.y + (is_noise ? 12 : -12)}, PlotLabel::Align::left,
+                  is_noise ? "below: within the reference's noise" : "on this line: no error found",
+                  noise_color);
     }
 }
 
@@ -173,12 +179,12 @@ void add_legend(Plot& plot, const Results& results) {
         if (std::any_of(results.measurements.begin(), results.measurements.end(),
                         [&](const Measurement& m) { return m.method == method; })) {
             plot.points.push_back({{x, y}, color_of(results, method), true, method});
-            plot.labels.push_back({{x + 14, y}, PlotLabel::Align::left, method, black});
+            add_label(plot, {x + 14, y}, PlotLabel::Align::left, method, black);
             y += 24;
         }
     }
     plot.lines.push_back({LineKind::front, {x - 8, y}, {x + 8, y}, front_color, 2});
-    plot.labels.push_back({{x + 14, y}, PlotLabel::Align::left, "Pareto front", black});
+    add_label(plot, {x + 14, y}, PlotLabel::Align::left, "Pareto front", black);
 }
 
 void add_front(Plot& plot, const Results& results, const Frame& frame,
