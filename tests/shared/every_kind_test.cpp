@@ -4,9 +4,19 @@
 #include "materials.hpp"
 #include "shared/follow.h"
 #include "shared/light_differential.h"
-#include "shared/query_bsdf.h"
 
 #include <gtest/gtest.h>
+
+// As in shaders/cuda/kernel.h: clang before version 16 takes only braces.
+#if defined(__clang__) && __clang_major__ < 16
+// clang-format off
+#define QueryBsdfRecord(...) QueryBsdfRecord{__VA_ARGS__}
+#define MaterialRecord(...) MaterialRecord{__VA_ARGS__}
+// clang-format on
+#endif
+#include "shared/query_bsdf.h"
+#undef QueryBsdfRecord
+#undef MaterialRecord
 
 namespace argand::testing {
 namespace {
