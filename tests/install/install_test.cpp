@@ -2,6 +2,7 @@
 #include "support/scratch_directory.hpp"
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
@@ -19,8 +20,8 @@ namespace fs = std::filesystem;
 class Install : public ::testing::Test {
 protected:
     void SetUp() override {
-        ASSERT_EQ(run(std::string(ARGAND_CMAKE) + " --install " ARGAND_BINARY_DIR " --prefix " +
-                      prefix().string()),
+        ASSERT_EQ(run(fmt::format("{} --install {} --prefix {}", ARGAND_CMAKE, ARGAND_BINARY_DIR,
+                                  prefix().string())),
                   0)
             << log();
     }
@@ -30,22 +31,22 @@ protected:
 
     /// Exit status of a shell command; `log` then is what it printed. -1: ended by a signal.
     int run(const std::string& command) const {
-        const int status = std::system(("(cd " + directory_.path().string() + " && " + command +
-                                        ") >" + file("log").string() + " 2>&1")
-                                           .c_str());
+        const std::string logged = fmt::format("(cd {} && {}) >{} 2>&1", directory_.path().string(),
+                                               command, file("log").string());
+        const int status = std::system(logged.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     std::string log() const { return read_text(file("log")); }
 
     /// Configures and builds a project that finds Argand in the prefix.
     void build(const fs::path& source) const {
-        ASSERT_EQ(run(std::string(ARGAND_CMAKE) +
-                      " -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=" +
-                      ARGAND_CXX_COMPILER + " -DCMAKE_PREFIX_PATH=" + prefix().string() + " -S " +
-                      source.string() + " -B build"),
-                  0)
+        ASSERT_EQ(
+            run(fmt::format("{} -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER={} "
+                            "-DCMAKE_PREFIX_PATH={} -S {} -B build",
+                            ARGAND_CMAKE, ARGAND_CXX_COMPILER, prefix().string(), source.string())),
+            0)
             << log();
-        ASSERT_EQ(run(std::string(ARGAND_CMAKE) + " --build build"), 0) << log();
+        ASSERT_EQ(run(fmt::format("{} --build build", ARGAND_CMAKE)), 0) << log();
     }
 
 private:
