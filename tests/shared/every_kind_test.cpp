@@ -106,12 +106,11 @@ TEST(EveryLight, IsInEveryFunction) {
             ASSERT_TRUE(argand::light_sample(l, known, vec3(0), vec2(0.3f, 0.6f), s));
             EXPECT_GT(s.radiance.y, 0);
             EXPECT_EQ(s.delta, s.pdf == 0);
-            vec3 origin, direction, normal, flux;
-            ASSERT_TRUE(argand::light_emit(l, known, vec4(0.3f, 0.6f, 0.2f, 0.7f), vec4(0.4f),
-                                           vec3(0), 4.0f, origin, direction, normal, flux));
-            EXPECT_EQ(flux, argand::light_power(l, known, 4.0f));
-            const PhotonDifferential d =
-                light_differential(l, known, direction, normal, 4.0f, 1000.0f, 1000.0f);
+            EmittedPhoton p;
+            ASSERT_TRUE(argand::light_emit(l, known, {vec3(0), 4.0f}, vec4(0.3f, 0.6f, 0.2f, 0.7f),
+                                           vec4(0.4f), p));
+            EXPECT_EQ(p.flux, argand::light_power(l, known, 4.0f));
+            const PhotonDifferential d = light_differential(l, known, p, 4.0f, 1000.0f, 1000.0f);
             EXPECT_GT(glm::length(d.dp_du) + glm::length(d.dd_du), 0);
             EXPECT_GT(glm::length(d.dp_dv) + glm::length(d.dd_dv), 0);
         }
