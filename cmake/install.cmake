@@ -13,6 +13,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine/ DESTINATION ${CMAKE_INSTALL_INCL
         FILES_MATCHING PATTERN "*.hpp"
         REGEX "/engine/device/(cuda|vulkan)$" EXCLUDE
         REGEX "/engine/(image/exr_context|scene/gltf_[a-z_]+)\\.hpp$" EXCLUDE)
+# Of the generated headers, those of the bound groups, which world/device_scene.hpp includes.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/argand
+        FILES_MATCHING PATTERN "*_bindings.hpp")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/shared DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/argand
         FILES_MATCHING PATTERN "*.h" PATTERN kernels EXCLUDE)
 

@@ -9,9 +9,9 @@ FN void main() {
     uint pixel = batch.first_pixel + interleave(slot / batch.samples, batch.pixels);
     uint sample_index = batch.first_sample + slot % batch.samples;
     vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u);
+    uint row = pixel / batch.width;
     vec3 origin, direction;
-    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(pixel / batch.width) + u.y, origin,
-               direction);
+    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, origin, direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, 0u);
     paths[slot] =
