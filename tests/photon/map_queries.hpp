@@ -62,7 +62,7 @@ inline PhotonQueries upload_queries(Device& device, const std::vector<Query>& qu
     const Buffer number = upload(
         device, "counts", std::vector<std::uint32_t>{static_cast<std::uint32_t>(n), 0, 0, 0});
     return {.points = upload(device, "queries", records),
-            .bsdfs = device.allocate("query BSDFs", sizeof(QueryBsdfRecord)),
+            .bsdfs = device.allocate("query BSDFs", n * sizeof(QueryBsdfRecord)),
             .slots = upload(device, "slots", slots),
             .count = Count(number, 0, n),
             .estimates = upload(device, "estimates", std::vector<EstimateRecord>(n)),
