@@ -73,8 +73,8 @@ FN uint atomicMin(uint& to, uint value) {
 #define GatherRecord(...) GatherRecord{__VA_ARGS__}
 #define HitRecord(...) HitRecord{__VA_ARGS__}
 #define LayersRecord(...) LayersRecord{__VA_ARGS__}
-#define MaterialRecord(...) MaterialRecord{__VA_ARGS__}
 #define LeafSums(...) LeafSums{__VA_ARGS__}
+#define MaterialRecord(...) MaterialRecord{__VA_ARGS__}
 #define NearestRecord(...) NearestRecord{__VA_ARGS__}
 #define PathRecord(...) PathRecord{__VA_ARGS__}
 #define PhotonPathRecord(...) PhotonPathRecord{__VA_ARGS__}
