@@ -11,7 +11,7 @@ using namespace testing_gltf;
 
 GltfBuilder with_camera(const json& camera, json node = json::object()) {
     GltfBuilder builder = one_triangle();
-    builder.root["cameras"] = {camera};
+    builder.root["cameras"] = nlohmann::json::array({camera});
     node["camera"] = 0;
     builder.add_node(node);
     return builder;

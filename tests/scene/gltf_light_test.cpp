@@ -14,7 +14,7 @@ using namespace testing_gltf;
 GltfBuilder with_light(const json& light, json node = json::object()) {
     GltfBuilder builder = one_triangle();
     builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
-    builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+    builder.root["extensions"]["KHR_lights_punctual"]["lights"] = nlohmann::json::array({light});
     node["extensions"]["KHR_lights_punctual"]["light"] = 0;
     builder.add_node(node);
     return builder;

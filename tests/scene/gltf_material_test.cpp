@@ -10,7 +10,7 @@ using namespace testing_gltf;
 
 GltfBuilder with_material(const json& material) {
     GltfBuilder builder = one_triangle();
-    builder.root["materials"] = {material};
+    builder.root["materials"] = nlohmann::json::array({material});
     builder.root["meshes"][0]["primitives"][0]["material"] = 0;
     return builder;
 }

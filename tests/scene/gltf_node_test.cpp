@@ -170,7 +170,7 @@ TEST(GltfNode, NestsDeeply) {
     for (int i = 1; i <= depth; ++i) {
         builder.root["nodes"].push_back({{"children", {i - 1}}, {"translation", {0, 0, 1}}});
     }
-    builder.root["scenes"][0]["nodes"] = {depth};
+    builder.root["scenes"][0]["nodes"] = nlohmann::json::array({depth});
     EXPECT_EQ(builder.load().positions[0].z, depth);
 }
 
