@@ -157,7 +157,7 @@ std::vector<Option> photon_map_options() {
             wide_codes_option(), photon_sampling_option(), final_gather_option()};
 }
 
-std::vector<Option> all_photon_map_options(std::vector<Option> own) {
+std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {
     std::vector<Option> options{samples_option(), bounces_option(), follow_roughness_option()};
     for (const std::vector<Option>& more : {photon_map_options(), own}) {
         options.insert(options.end(), more.begin(), more.end());

@@ -16,7 +16,7 @@ Option follow_roughness_option();
 std::vector<Option> photon_map_options();
 
 /// `samples_option` and all that follow above, then a method's own.
-std::vector<Option> all_photon_map_options(std::vector<Option> own);
+std::vector<Option> all_photon_map_options(const std::vector<Option>& own);
 
 /// Whether density estimation has photons to find: what most options of photon maps need to
 /// matter.
