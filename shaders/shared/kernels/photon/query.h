@@ -48,8 +48,7 @@ FN Query make_query(uint slot) {
     q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
     if (glossy) {
         // Lambertian surfaces leave no record, and do not use what is read here. A read by some
-        // lanes only would make the material a value that loops carry, which made gathers on
-        // lavapipe 1.6 times as slow.
+        // lanes only would make the material a value that loops carry.
         QueryBsdfRecord bsdf = query_bsdfs[slot];
         q.material = material_of_query(bsdf, material_features);
         q.frame = make_frame(unpack_unit(bsdf.shading_normal));
