@@ -60,17 +60,14 @@ struct BsdfSample {
 // Whether any material of the scene may have one of these features. Kernels specialised to a scene
 // know the answer at compile time, so code for absent features vanishes. The result is the same for
 // every material of the scene.
-FN bool may_have(IN(MaterialRecord) m, uint bits) { return (m.absent & bits) != bits; }
+FN bool may_have(uint absent, uint bits) { return (absent & bits) != bits; }
+FN bool may_have(IN(MaterialRecord) m, uint bits) { return may_have(m.absent, bits); }
 FN bool wants_lobe(IN(MaterialRecord) m, uint lobes, uint lobe) {
     return may_have(m, lobe) && (lobes & lobe) != 0u;
 }
 
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
-// Modified Phong is non-metallic and opaque; its roughness is set to match the width of its lobe.
-FN bool is_phong(IN(MaterialRecord) m) {
-    return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0);
-}
 FN real coverage(IN(MaterialRecord) m) {
     return may_have(m, LOBE_PASS) ? real(m.coverage) : real(1.0);
 }
@@ -80,13 +77,13 @@ FN real metallic(IN(MaterialRecord) m) {
 FN real transmission(IN(MaterialRecord) m) {
     return may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID) ? real(m.transmission) : real(0.0);
 }
-FN vec3 phong_specular(IN(MaterialRecord) m) {
-    return vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m);
+// Whether metal, layer or Phong lobe of this alpha reflects like a mirror. Says nothing about other
+// lobes.
+FN bool alpha_is_delta(uint absent, real alpha) {
+    return may_have(absent, LOBE_MIRROR) &&
+           (!may_have(absent, LOBE_GLOSSY) || alpha < SMALLEST_ALPHA);
 }
-// Whether metal, layer or Phong lobe reflects like a mirror. Says nothing about other lobes.
-FN bool roughness_is_delta(IN(MaterialRecord) m) {
-    return may_have(m, LOBE_MIRROR) && (!may_have(m, LOBE_GLOSSY) || ggx_alpha(m) < SMALLEST_ALPHA);
-}
+FN bool roughness_is_delta(IN(MaterialRecord) m) { return alpha_is_delta(m.absent, ggx_alpha(m)); }
 
 // Shares of the surface: absent, metal, and dielectric, the last split into opaque and clear by the
 // transmission factor.
@@ -109,35 +106,72 @@ FN vec3 dielectric_f0(IN(MaterialRecord) m) {
     return min(f0, vec3(real(1.0))) * real(m.specular);
 }
 
-FN vec3 dielectric_fresnel(IN(MaterialRecord) m, real cosine) {
-    if (!may_have(m, MATERIAL_LAYER)) {
+// What the diffuse lobe and the layer need of a material: everything that does not depend on
+// directions. Loops over directions compute it once.
+struct RoughLobes {
+    vec3 base_color;
+    // Reflectance at normal incidence of the dielectric's layer; for Phong, of the specular lobe.
+    vec3 f0;
+    real f90; // of the dielectric's layer
+    real opaque_share, metal_share;
+    real layer_share; // of the dielectric under the layer
+    real alpha;
+    real exponent; // of modified Phong, or negative
+    uint absent;   // as in MaterialRecord
+};
+
+// Modified Phong is non-metallic and opaque; its roughness is set to match the width of its lobe.
+FN bool is_phong(IN(RoughLobes) r) {
+    return may_have(r.absent, MATERIAL_PHONG) && r.exponent >= real(0.0);
+}
+FN bool is_phong(IN(MaterialRecord) m) {
+    return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0);
+}
+
+FN RoughLobes rough_lobes(IN(MaterialRecord) m) {
+    RoughLobes r;
+    r.base_color = base_color(m);
+    r.f0 = is_phong(m) ? vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m)
+                       : dielectric_f0(m);
+    r.f90 = real(m.specular);
+    r.opaque_share = opaque_share(m);
+    r.metal_share = metal_share(m);
+    r.layer_share = is_solid(m) ? r.opaque_share : dielectric_share(m);
+    r.alpha = ggx_alpha(m);
+    r.exponent = real(m.exponent);
+    r.absent = m.absent;
+    return r;
+}
+
+// Reflectance of the dielectric's layer.
+FN vec3 dielectric_fresnel(IN(RoughLobes) r, real cosine) {
+    if (!may_have(r.absent, MATERIAL_LAYER)) {
         return vec3(real(0.0));
     }
-    return fresnel_schlick(dielectric_f0(m), real(m.specular), cosine);
+    return fresnel_schlick(r.f0, r.f90, cosine);
 }
 
 // Reflectance of metal and layer together, without the interface of a solid. For Phong, the albedo
 // of the specular lobe with `cosine` belonging to wo.
-FN vec3 layer_reflectance(IN(MaterialRecord) m, real cosine) {
-    if (is_phong(m)) {
-        return phong_specular(m) * phong_albedo(real(m.exponent), cosine);
+FN vec3 layer_reflectance(IN(RoughLobes) r, real cosine) {
+    if (is_phong(r)) {
+        return r.f0 * phong_albedo(r.exponent, cosine);
     }
-    if (!may_have(m, MATERIAL_LAYER)) {
+    if (!may_have(r.absent, MATERIAL_LAYER)) {
         return vec3(real(0.0));
     }
-    real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
-    return fresnel_schlick(base_color(m), real(1.0), cosine) * metal_share(m) +
-           dielectric_fresnel(m, cosine) * layer_share;
+    return fresnel_schlick(r.base_color, real(1.0), cosine) * r.metal_share +
+           dielectric_fresnel(r, cosine) * r.layer_share;
 }
 
 // Reflectance of the diffuse lobe for light that passes the layer at this cosine to the half
 // vector.
-FN vec3 diffuse_reflectance(IN(MaterialRecord) m, real cosine) {
-    if (is_phong(m)) {
-        return base_color(m) * opaque_share(m);
+FN vec3 diffuse_reflectance(IN(RoughLobes) r, real cosine) {
+    if (is_phong(r)) {
+        return r.base_color * r.opaque_share;
     }
-    return base_color(m) *
-           (opaque_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+    return r.base_color *
+           (r.opaque_share * (real(1.0) - max_component(dielectric_fresnel(r, cosine))));
 }
 
 // Reflectance and transmittance of the delta lobes.
@@ -154,7 +188,8 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
     DeltaLobes delta;
     delta.eta = real(1.0);
     delta.cosine_refracted = cosine;
-    delta.reflected = roughness_is_delta(m) ? layer_reflectance(m, cosine) : vec3(real(0.0));
+    RoughLobes rough = rough_lobes(m);
+    delta.reflected = roughness_is_delta(m) ? layer_reflectance(rough, cosine) : vec3(real(0.0));
     delta.transmitted = vec3(real(0.0));
     if (!may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID)) {
         return delta;
@@ -162,7 +197,7 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
     if (!is_solid(m)) {
         delta.transmitted =
             base_color(m) *
-            (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(m, cosine))));
+            (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(rough, cosine))));
         return delta;
     }
     vec3 reflectance = vec3(real(1.0));
@@ -213,12 +248,13 @@ FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS
 // solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
+    RoughLobes rough = rough_lobes(m);
     if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
         // For most wi the half vector stays near wo, where Fresnel's factor is little above f0.
-        albedo += diffuse_reflectance(m, real(1.0));
+        albedo += diffuse_reflectance(rough, real(1.0));
     }
     if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
-        albedo += layer_reflectance(m, wo.z);
+        albedo += layer_reflectance(rough, wo.z);
     }
     if (wants_lobe(m, lobes, LOBES_DELTA)) {
         DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
@@ -235,9 +271,10 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
 FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec3 p = vec3(real(0.0));
-    vec3 layer = layer_reflectance(m, cosine);
+    RoughLobes rough = rough_lobes(m);
+    vec3 layer = layer_reflectance(rough, cosine);
     if (wants_lobe(m, present, LOBE_DIFFUSE)) {
-        p.x = mean_component(diffuse_reflectance(m, real(1.0)));
+        p.x = mean_component(diffuse_reflectance(rough, real(1.0)));
     }
     if (wants_lobe(m, present, LOBE_GLOSSY)) {
         p.y = mean_component(layer);
@@ -258,7 +295,7 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
 
 // Value of the masked diffuse and glossy lobes without the cosine [1/sr], and the solid-angle
 // density of wi given the probabilities of these lobes.
-FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, vec3 probabilities,
+FN vec3 bsdf_eval_and_pdf(IN(RoughLobes) r, vec3 wo, vec3 wi, uint lobes, vec3 probabilities,
                           OUT(real) pdf) {
     vec3 f = vec3(real(0.0));
     pdf = real(0.0);
@@ -268,34 +305,37 @@ FN vec3 bsdf_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes, ve
         return f;
     }
     real cosine = min(real(0.5) * sqrt(h2), real(1.0)); // between wo (or wi) and the half vector
-    if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
-        f = diffuse_reflectance(m, cosine) * INV_PI;
+    if (may_have(r.absent, LOBE_DIFFUSE) && (lobes & LOBE_DIFFUSE) != 0u) {
+        f = diffuse_reflectance(r, cosine) * INV_PI;
         pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
     }
-    if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
-        if (!may_have(m, MATERIAL_GGX) || is_phong(m)) {
-            real power = phong_power(real(m.exponent), wo, wi);
-            pdf += probabilities.y * phong_pdf(real(m.exponent), power);
-            return f + phong_specular(m) * phong_lobe(real(m.exponent), power);
+    if (may_have(r.absent, LOBE_GLOSSY) && (lobes & LOBE_GLOSSY) != 0u &&
+        !alpha_is_delta(r.absent, r.alpha)) {
+        if (!may_have(r.absent, MATERIAL_GGX) || is_phong(r)) {
+            real power = phong_power(r.exponent, wo, wi);
+            pdf += probabilities.y * phong_pdf(r.exponent, power);
+            return f + r.f0 * phong_lobe(r.exponent, power);
         }
-        real alpha = ggx_alpha(m);
-        real distribution = ggx_distribution(alpha, h, h2);
-        f += layer_reflectance(m, cosine) * (distribution * ggx_visibility(alpha, wo.z, wi.z));
-        pdf += probabilities.y * ggx_reflection_pdf(alpha, distribution, wo.z);
+        real distribution = ggx_distribution(r.alpha, h, h2);
+        f += layer_reflectance(r, cosine) * (distribution * ggx_visibility(r.alpha, wo.z, wi.z));
+        pdf += probabilities.y * ggx_reflection_pdf(r.alpha, distribution, wo.z);
     }
     return f;
 }
 
-FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
+FN vec3 bsdf_eval(IN(RoughLobes) r, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
-    return bsdf_eval_and_pdf(m, wo, wi, lobes, vec3(real(0.0)), pdf);
+    return bsdf_eval_and_pdf(r, wo, wi, lobes, vec3(real(0.0)), pdf);
+}
+FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
+    return bsdf_eval(rough_lobes(m), wo, wi, lobes);
 }
 
 // Solid-angle density with which bsdf_sample, given this mask, returns wi from a diffuse or glossy
 // lobe.
 FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
-    bsdf_eval_and_pdf(m, wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
+    bsdf_eval_and_pdf(rough_lobes(m), wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
     return pdf;
 }
 
@@ -352,10 +392,10 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (!(wo.z > real(0.0)) || !(p.x + p.y + p.z > real(0.0))) {
         return false;
     }
-    real rough = p.x + p.y;
-    if (may_have(m, LOBES_DELTA) && p.z > real(0.0) && u.x >= rough) {
+    real not_delta = p.x + p.y;
+    if (may_have(m, LOBES_DELTA) && p.z > real(0.0) && u.x >= not_delta) {
         // The remainder of u.x is uniform again.
-        real left = min((u.x - rough) / p.z, real(0.99999994));
+        real left = min((u.x - not_delta) / p.z, real(0.99999994));
         s.probability = p.z;
         return sample_delta_lobe(m, wo, front, lobes, left, s);
     }
@@ -376,15 +416,16 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (!(s.wi.z > real(0.0))) {
         return false; // below the surface: energy that single scattering loses
     }
-    vec3 f = bsdf_eval_and_pdf(m, wo, s.wi, lobes, p, s.pdf);
+    RoughLobes rough = rough_lobes(m);
+    vec3 f = bsdf_eval_and_pdf(rough, wo, s.wi, lobes, p, s.pdf);
     if (!(s.pdf > real(0.0))) {
         return false;
     }
     if (p.x == real(1.0)) {
         vec3 sum = wo + s.wi;
-        s.weight = diffuse_reflectance(
-            // all other factors cancel exactly
-            m, min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0)));
+        // All other factors cancel exactly.
+        real cosine = min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0));
+        s.weight = diffuse_reflectance(rough, cosine);
     } else {
         s.weight = f * (s.wi.z / s.pdf);
     }

@@ -7,19 +7,27 @@
 ARGAND_SHARED_BEGIN
 
 // direction: towards the eye; both vectors are packed by pack_unit.
-FN QueryBsdfRecord query_bsdf(IN(MaterialRecord) m, uint direction, uint shading_normal) {
-    return QueryBsdfRecord(m.base_r, m.base_g, m.base_b, m.metallic, m.specular_r, m.specular_g,
-                           m.specular_b, m.specular, m.roughness, m.transmission, m.ior,
-                           m.thickness, m.coverage, m.exponent, direction, shading_normal);
+FN QueryBsdfRecord query_bsdf(IN(RoughLobes) r, uint direction, uint shading_normal) {
+    return QueryBsdfRecord(float32(r.base_color.x), float32(r.base_color.y),
+                           float32(r.base_color.z), float32(r.opaque_share), float32(r.f0.x),
+                           float32(r.f0.y), float32(r.f0.z), float32(r.f90), float32(r.metal_share),
+                           float32(r.layer_share), float32(r.alpha), float32(r.exponent), direction,
+                           shading_normal);
 }
 
-// The material with which bsdf_eval gives the diffuse and glossy lobes at a query; it does not
-// emit. features: complement of MaterialRecord::absent.
-FN MaterialRecord material_of_query(IN(QueryBsdfRecord) q, uint features) {
-    return MaterialRecord(q.base_r, q.base_g, q.base_b, q.metallic, q.specular_r, q.specular_g,
-                          q.specular_b, q.specular, float32(0.0), float32(0.0), float32(0.0), 0u,
-                          q.roughness, q.transmission, q.ior, q.thickness, q.coverage, q.exponent,
-                          ~features, 0u);
+// No lobe is known to be absent; kernels set that as load_material does.
+FN RoughLobes rough_lobes(IN(QueryBsdfRecord) q) {
+    RoughLobes r;
+    r.base_color = vec3(q.base_r, q.base_g, q.base_b);
+    r.f0 = vec3(q.f0_r, q.f0_g, q.f0_b);
+    r.f90 = real(q.f90);
+    r.opaque_share = real(q.opaque_share);
+    r.metal_share = real(q.metal_share);
+    r.layer_share = real(q.layer_share);
+    r.alpha = real(q.alpha);
+    r.exponent = real(q.exponent);
+    r.absent = 0u;
+    return r;
 }
 
 ARGAND_SHARED_END

@@ -16,13 +16,12 @@ struct QueryRecord {
     uint material; // index; queries of different materials share no answer
 };
 
-// BSDF parameters at a query on a non-Lambertian surface, as in MaterialRecord, and the vectors
+// BSDF parameters at a query on a non-Lambertian surface (RoughLobes, bsdf.h), and the vectors
 // needed to evaluate it. Scenes without such surfaces have no such records.
 struct QueryBsdfRecord {
-    float32 base_r, base_g, base_b, metallic;
-    float32 specular_r, specular_g, specular_b, specular;
-    float32 roughness, transmission, ior, thickness;
-    float32 coverage, exponent;
+    float32 base_r, base_g, base_b, opaque_share;
+    float32 f0_r, f0_g, f0_b, f90;
+    float32 metal_share, layer_share, alpha, exponent;
     uint direction;      // towards the eye, packed
     uint shading_normal; // packed
 };

@@ -19,7 +19,7 @@ struct Query {
     uint most_scatterings; // of a photon that counts; only with final_gather
     bool lambertian;
     vec3 reflectance; // of a Lambertian surface [1/sr]; the next four are for all others
-    MaterialRecord material;
+    RoughLobes surface;
     uint lobes;
     Frame frame; // of the shading normal
     vec3 wo;
@@ -46,11 +46,11 @@ FN Query make_query(uint slot) {
     q.front = (record.flags & query_front) != 0u;
     q.own_normal = pack_photon_normal(q.normal, false);
     q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
-    if (glossy) {
-        // Lambertian surfaces leave no record, and do not use what is read here. A read by some
-        // lanes only would make the material a value that loops carry.
+    if (glossy) { // Lambertian surfaces leave no record and do not use what they read here.
         QueryBsdfRecord bsdf = query_bsdfs[slot];
-        q.material = material_of_query(bsdf, material_features);
+        q.surface = rough_lobes(bsdf);
+        // Not an argument: as one, Mesa 22 leaves the code of absent lobes in the loop.
+        q.surface.absent = ~material_features;
         q.frame = make_frame(unpack_unit(bsdf.shading_normal));
         q.wo = to_local(q.frame, unpack_unit(bsdf.direction));
     }
@@ -80,7 +80,7 @@ FN vec3 scattered(IN(Query) q, uvec4 carried) {
         return flux * q.reflectance;
     }
     vec3 wi = to_local(q.frame, unpack_unit(carried.w));
-    return flux * (wi.z > real(0.0) ? bsdf_eval(q.material, q.wo, wi, q.lobes) : vec3(real(0.0)));
+    return flux * (wi.z > real(0.0) ? bsdf_eval(q.surface, q.wo, wi, q.lobes) : vec3(real(0.0)));
 }
 
 // place: a photon's first four words.
