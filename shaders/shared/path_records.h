@@ -11,11 +11,15 @@ struct PathRecord {
     // Solid-angle density of the current ray; 0: emission that it hits counts in full.
     float32 pdf;
     uint pixel, sample_index;
-    uint vertices; // scattering vertices so far
+    // Low half: scattering vertices so far. High half: the upper bits of a float, by which
+    // refraction has scaled the throughput (BsdfSample::eta_scale).
+    uint vertices;
     // path_* bits; the low half counts scatterings after the first estimated vertex.
     uint state;
 };
 
+CONSTANT uint path_vertices_mask = 0xffffu;
+CONSTANT uint path_unscaled = 0x3f800000u; // no vertices, no refraction
 CONSTANT uint path_depth_mask = 0xffffu;
 // The path has passed an estimated vertex, so what it finds is reflected light.
 CONSTANT uint path_estimated = 0x10000u;

@@ -84,10 +84,10 @@ TEST_F(Agreement, SlowErrorFallsAsPhotonsGrowAndTheRadiusShrinks) {
 TEST_F(Agreement, SlowErrorFallsWithPhotonsAtDefaultSettings) {
     for (const char* name : {"cornell_area.glb", "glossy.glb", "courtyard.glb"}) {
         const Scene scene = load_asset(name);
-        const Reference truth = reference(scene, 48, 1024);
+        const Reference truth = reference(scene, 32, 1024);
         double before[2] = {1e9, 1e9};
         for (const std::uint64_t count : {10'000u, 100'000u, 1'000'000u}) {
-            RenderSettings settings = settings_of("footprints", 48, 64);
+            RenderSettings settings = settings_of("footprints", 32, 64);
             settings.photons = count;
             const RenderResult found = render(scene, settings);
             const double now[2] = {error(found, truth), error(found, truth, "indirect")};
@@ -107,8 +107,8 @@ TEST_F(Agreement, SlowCornellBoxes) {
                                                             {"cornell_glass.glb", 512}};
     for (const auto& [name, samples] : scenes) {
         const Scene scene = load_asset(name);
-        const Reference truth = reference(scene, 128, samples);
-        const RenderResult found = photons(scene, 128, 200'000);
+        const Reference truth = reference(scene, 48, samples);
+        const RenderResult found = photons(scene, 48, 200'000);
         EXPECT_LT(error(found, truth), 0.02) << name;
         // A tenth of this is noise of the reference.
         EXPECT_LT(error(found, truth, "indirect"), 0.025) << name;

@@ -62,6 +62,23 @@ TEST_P(DirectLight, SpotLightOnAPlane) {
     }
 }
 
+// Near an emitter the light sampled by area has no bound: only a scattered ray finds it often
+// enough.
+TEST_P(DirectLight, EmitterThatTouchesTheFloor) {
+    Scene scene = floor_scene(lambertian(glm::vec3(albedo)));
+    const std::uint32_t lamp = add_material(scene, emitter(glm::vec3(2)));
+    add_quad(scene, {0, 0, 1}, {0, 0, -2}, {0, 1, 0}, lamp); // faces +x
+    RenderSettings settings = settings_of(GetParam(), 32, 64);
+    settings.bounces = 0;
+    scene.cameras = {look_at({0.2f, 0.6f, 0}, {0.05f, 0, 0}, 12)};
+    const Image found = layer(render(scene, settings), "direct");
+    settings.seed = 1;
+    settings.samples = 1024;
+    settings.method = "path";
+    const Image truth = layer(render(scene, settings), "direct");
+    EXPECT_LT(compare(found, truth).rel_mse, 0.01);
+}
+
 TEST_P(DirectLight, LightsAddUp) {
     Scene scene = floor_scene(lambertian(glm::vec3(albedo)));
     double expected = 0;

@@ -48,6 +48,31 @@ TEST_P(Specular, SlabOfGlassLetsThroughWhatFresnelSays) {
     }
 }
 
+// Entering glass divides radiance by the index squared, and leaving multiplies it again. Roulette
+// must not end paths for that.
+TEST_P(Specular, PathsSurviveManyPanesOfGlass) {
+    Scene scene;
+    const std::uint32_t pane = add_material(scene, glass(ior, true));
+    double clear = 1;
+    for (int i = 0; i < 4; ++i) {
+        const auto z = static_cast<float>(i);
+        add_box(scene, {-50, -50, z}, {50, 50, z + 0.1f}, pane, false);
+        clear *= std::pow(1 - fresnel(1, ior), 2);
+    }
+    add_quad(scene, {-100, -100, -0.5f}, {200, 0, 0}, {0, 200, 0},
+             add_material(scene, emitter(glm::vec3(1))));
+    scene.cameras = {look_at({0, 0, 5}, {0, 0, 0}, 1)};
+    RenderSettings settings = settings_of(GetParam(), 16, 16);
+    settings.photons = 1000;
+    const Image image = layer(render(scene, settings), "");
+    double variance = 0;
+    for (const glm::vec3& pixel : image.pixels) {
+        variance += std::pow(pixel.g - mean(image).g, 2) / static_cast<double>(image.pixels.size());
+    }
+    EXPECT_GT(mean(image).g, clear);     // reflections between the panes add to the straight path
+    EXPECT_LT(16 * variance, 2 * clear); // per sample; 8 if each entry ended half of the paths
+}
+
 TEST_P(Specular, InsideGlassRadianceIsScaledByTheIndexSquared) {
     Scene scene;
     add_box(scene, {-50, -50, -1}, {50, 50, 1}, add_material(scene, glass(ior, true)), false);

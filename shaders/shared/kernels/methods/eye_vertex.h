@@ -43,10 +43,22 @@ FN RayRecord make_ray(IN(Surface) surface, vec3 direction, real t_max) {
     return RayRecord(o.x, o.y, o.z, t_max, direction.x, direction.y, direction.z, 0u);
 }
 
+FN uint vertices_of(IN(PathRecord) path) { return path.vertices & path_vertices_mask; }
+
+// Multiplies the scale that refraction has given to the path's throughput. Returns it.
+FN real scale_by_refraction(INOUT(PathRecord) path, IN(MaterialRecord) m, real scale) {
+    if (!may_have(m, MATERIAL_SOLID)) {
+        return real(1.0);
+    }
+    real all = bits_float(path.vertices & ~path_vertices_mask) * scale;
+    path.vertices = vertices_of(path) | (float_bits(all) & ~path_vertices_mask);
+    return all;
+}
+
 FN bool behind_estimated(IN(PathRecord) path) { return (path.state & path_estimated) != 0u; }
 
 FN bool seeks_emission(IN(PathRecord) path) {
-    return final_gather && (path.state & path_seeks_emission) != 0u;
+    return photon_map && (path.state & path_seeks_emission) != 0u;
 }
 
 // Caustics come from photons if there is a final gather, and must not count twice.
@@ -61,10 +73,10 @@ FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
 FN void add_sky(uint slot, IN(PathRecord) path, vec3 throughput) {
     vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
     if (has_light(light_sky) && max_component(sky) > real(0.0)) {
-        bool found_twice = path.pdf > real(0.0) && !seeks_emission(path);
         real weight =
-            found_twice ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI)
-                        : real(1.0);
+            path.pdf > real(0.0)
+                ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI)
+                : real(1.0);
         add_emission(slot, path, throughput * sky * weight);
     }
 }
@@ -86,6 +98,14 @@ FN void add_surface_emission(IN(Vertex) v, real distance) {
     }
 }
 
+// Largest probability with which the last estimated vertex sends a ray that seeks emission. On
+// diffuse surfaces the ray matters only under the sky and near emissive triangles, and it costs a
+// round of tracing. Followed lobes need most of the rays for themselves.
+FN real seek_probability(IN(Vertex) v) {
+    bool often = has_light(light_sky) || (v.estimated & LOBE_GLOSSY) != 0u;
+    return often && v.followed == 0u ? real(1.0) : real(0.25);
+}
+
 // Decides which lobes scatter the path, and with which probabilities.
 FN void split_lobes(INOUT(Vertex) v) {
     v.frame = make_frame(v.surface.shading_normal);
@@ -97,14 +117,18 @@ FN void split_lobes(INOUT(Vertex) v) {
                          : real(0.0);
     v.ends = photon_map && (!final_gather || behind_estimated(v.path));
     // The map accounts for all other light behind the last estimated vertex. But if only shadow
-    // rays found lights that a glossy lobe reflects there, these would become fireflies, so one
-    // more ray looks for them.
-    v.onward = !v.ends ? v.estimated : final_gather ? v.estimated & LOBE_GLOSSY : 0u;
+    // rays found lights there, those that touch the surface or that a glossy lobe reflects would
+    // become fireflies. One more ray looks for them.
+    bool seeks = has_light(light_triangle) || has_light(light_sky);
+    v.onward = !v.ends || seeks ? v.estimated : 0u;
     real estimated_albedo =
         v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
                        : real(0.0);
     v.albedo = followed_albedo + estimated_albedo;
     v.estimated_probability = v.albedo > real(0.0) ? estimated_albedo / v.albedo : real(0.0);
+    if (v.ends) {
+        v.estimated_probability = min(v.estimated_probability, seek_probability(v));
+    }
 }
 
 // A sample of a light, as seen from the vertex.
@@ -113,16 +137,14 @@ struct SeenLight {
     LightSample s;
     vec3 wi; // in the vertex's frame
     real choice_probability;
-    bool sky_by_cosine; // the sky for which there is no other sample; sampled by the cosine
 };
 
 // Chooses a light and samples it. Returns false if no light arrives.
 FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     PathRecord path = v.path;
     Surface surface = v.surface;
-    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 1u);
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 1u);
     LightRecord light = lights[choose_light(u.x, l.choice_probability)];
-    l.sky_by_cosine = false;
     l.wi = vec3(real(0.0));
     l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                  surface.geometric_normal);
@@ -130,14 +152,6 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
         return false;
     }
     l.wi = to_local(v.frame, l.s.wi);
-    l.sky_by_cosine = v.ends && is_light(light, light_kinds, light_sky);
-    if (l.sky_by_cosine) {
-        // No other ray finds the sky for the diffuse lobe here. Directions over the whole sphere,
-        // half of which lies below the surface, would be noisier.
-        l.wi = sample_cosine_hemisphere(vec2(u.y, u.z));
-        l.s.wi = to_world(v.frame, l.wi);
-        l.s.radiance = light_color(light) * (PI / max(l.wi.z, real(1e-6)));
-    }
     return dot(l.s.wi, surface.geometric_normal) > real(0.0);
 }
 
@@ -154,10 +168,8 @@ FN void sample_light(IN(Vertex) v) {
     real weight = real(1.0);
     if (!s.delta && v.onward != 0u) {
         real density = l.choice_probability * s.pdf;
-        weight = l.sky_by_cosine
-                     ? real(0.0)
-                     : power_heuristic(density, v.estimated_probability *
-                                                    bsdf_pdf(v.material, v.wo, l.wi, v.onward));
+        weight = power_heuristic(density, v.estimated_probability *
+                                              bsdf_pdf(v.material, v.wo, l.wi, v.onward));
     }
     vec3 e = arriving * weight * bsdf_eval(v.material, v.wo, l.wi, v.onward);
     if (v.onward != v.estimated) {
@@ -251,7 +263,7 @@ FN void leave_query(IN(Vertex) v) {
 // scattered.
 FN void continue_path(INOUT(Vertex) v) {
     PathRecord path = v.path;
-    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, path.vertices * 2u + 2u);
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 2u);
     bool takes_estimated = u.w < v.estimated_probability;
     BsdfSample s;
     uint lobes = takes_estimated ? v.onward : v.followed;
@@ -270,8 +282,10 @@ FN void continue_path(INOUT(Vertex) v) {
     vec3 throughput = v.throughput;
     throughput *= s.weight * (s.eta_scale / probability);
     path.vertices += 1u;
-    if (path.vertices >= 3u) {
-        real survival = min(max_component(throughput), real(0.95));
+    real refracted = scale_by_refraction(path, v.material, s.eta_scale);
+    if (vertices_of(path) >= 3u) {
+        // What refraction takes from radiance it gives back when the path leaves the solid.
+        real survival = min(max_component(throughput) / refracted, real(0.95));
         // The remainder of the number that chose between the lobes is uniform again.
         real left =
             takes_estimated ? u.w / probability : (u.w - v.estimated_probability) / probability;
