@@ -1,8 +1,7 @@
 #pragma once
 
+#include "kernels/query_bindings.hpp"
 #include "photon/estimator.hpp"
-
-#include <type_traits>
 
 namespace argand {
 
@@ -15,32 +14,57 @@ inline PhotonGatherParams gather_params(const PhotonMap& map, const PhotonQuerie
             .part = queries.part};
 }
 
-/// Calls `use` with std::type_identity of the kernel that reads the map from storage buffers, or of
-/// the one that reads it as texels where that is faster.
-template <class Storage, class Texels, class Use>
-void with_map_kernel(const Device& device, const PhotonMap& map, const Use& use) {
-    if (read_as_texels(device, map.lbvh.nodes, map.photons)) {
-        use(std::type_identity<Texels>());
-    } else {
-        use(std::type_identity<Storage>());
-    }
+/// Buffers for the member `query` of a gather's kernel.
+inline kernels::QueryBindings query_bindings(const PhotonMap& map, const PhotonQueries& queries,
+                                             const Buffer& unfinished) {
+    return {.nodes = map.lbvh.nodes,
+            .photons = map.photons,
+            .counters = map.counters,
+            .active_slots = queries.slots,
+            .counts = queries.count.buffer,
+            .queries = queries.points,
+            .query_bsdfs = queries.bsdfs,
+            .unfinished = unfinished,
+            .estimates = queries.estimates};
 }
 
-/// Calls `run(params, unfinished)` once, or until it leaves no query unfinished.
+/// Specialization constants for the member `query` of its constants.
+inline kernels::QueryConstants query_constants(const Plan& plan, const PhotonQueries& queries) {
+    return {.glossy = plan.needs(Feature::glossy_estimates),
+            .final_gather = queries.final_gather,
+            .caustics = plan.needs(Feature::caustics)};
+}
+
+/// Calls `run(params, bindings)` once, or until it leaves no query unfinished.
 template <class Run>
-void run_queries(Device& device, const PhotonQueries& queries, PhotonGatherParams params,
-                 const Run& run) {
+void run_queries(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+                 PhotonGatherParams params, const Run& run) {
     params.first = 1;
     if (!queries.until_complete) {
-        run(params, queries.unfinished);
+        run(params, query_bindings(map, queries, queries.unfinished));
         return;
     }
     const Buffer unfinished = device.allocate("unfinished queries", 4);
     do {
         device.fill(unfinished, 0);
-        run(params, unfinished);
+        run(params, query_bindings(map, queries, unfinished));
         params.first = 0;
     } while (download<std::uint32_t>(device, unfinished, 1)[0] > 0);
+}
+
+/// The same with run.operator()<Kernel>(params, bindings): Kernel reads the map from storage
+/// buffers, or as texels where that is faster.
+template <class Storage, class Texels, class Run>
+void gather(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+            const PhotonGatherParams& params, const Run& run) {
+    run_queries(device, map, queries, params,
+                [&](const PhotonGatherParams& now, const kernels::QueryBindings& bindings) {
+                    if (read_as_texels(device, map.lbvh.nodes, map.photons)) {
+                        run.template operator()<Texels>(now, bindings);
+                    } else {
+                        run.template operator()<Storage>(now, bindings);
+                    }
+                });
 }
 
 } // namespace argand

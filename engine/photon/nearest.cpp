@@ -32,43 +32,32 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
         words_ = device_.allocate("nearest photons: bins", places * nearest_words * 4);
     }
 
-    const auto use = [&]<class Kernel>(std::type_identity<Kernel>) {
-        const auto kernel = [&](const PhotonGatherParams& now, const Buffer& unfinished) {
-            return Kernel{.nodes = map.lbvh.nodes,
-                          .photons = map.photons,
-                          .counters = map.counters,
-                          .active_slots = queries.slots,
-                          .counts = count.buffer,
-                          .queries = queries.points,
-                          .query_bsdfs = queries.bsdfs,
-                          .states = states_,
-                          .unfinished = unfinished,
-                          .estimates = queries.estimates,
-                          .suspended_words = words_,
-                          .params = now,
-                          .constants = {.glossy = plan_.needs(Feature::glossy_estimates),
-                                        .final_gather = queries.final_gather,
-                                        .caustics = plan_.needs(Feature::caustics),
-                                        .material_features = plan_.material_features()}};
-        };
-        if (!queries.until_complete) {
-            run_queries(device_, queries, params,
-                        [&](const PhotonGatherParams& now, const Buffer& unfinished) {
-                            dispatch_indirect(device_, kernel(now, unfinished), count.buffer,
-                                              count.index);
-                        });
-            return;
-        }
-        for (std::uint64_t first = 0; first < number; first += places) {
-            params.first_query = static_cast<std::uint32_t>(first);
-            run_queries(device_, queries, params,
-                        [&](const PhotonGatherParams& now, const Buffer& unfinished) {
-                            dispatch(device_, kernel(now, unfinished),
-                                     std::min(places, number - first));
-                        });
-        }
+    const auto run = [&](const auto& dispatch_kernel) {
+        gather<kernels::nearest_gather, kernels::nearest_gather_texels>(
+            device_, map, queries, params,
+            [&]<class Kernel>(const PhotonGatherParams& now,
+                              const kernels::QueryBindings& bindings) {
+                dispatch_kernel(
+                    Kernel{.query = bindings,
+                           .states = states_,
+                           .suspended_words = words_,
+                           .params = now,
+                           .constants = {.query = query_constants(plan_, queries),
+                                         .material_features = plan_.material_features()}});
+            });
     };
-    with_map_kernel<kernels::nearest_gather, kernels::nearest_gather_texels>(device_, map, use);
+    if (!queries.until_complete) {
+        run([&](const auto& kernel) {
+            dispatch_indirect(device_, kernel, count.buffer, count.index);
+        });
+        return;
+    }
+    for (std::uint64_t first = 0; first < number; first += places) {
+        params.first_query = static_cast<std::uint32_t>(first);
+        run([&](const auto& kernel) {
+            dispatch(device_, kernel, std::min(places, number - first));
+        });
+    }
 }
 
 } // namespace argand

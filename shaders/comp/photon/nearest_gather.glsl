@@ -2,7 +2,7 @@
 #include "photon/query.glsl"
 #include "shared/nearest_records.h"
 
-layout(set = 0, binding = 7) buffer States { NearestRecord states[]; };
+layout(set = 0, binding = 9) buffer States { NearestRecord states[]; };
 layout(set = 0, binding = 10) buffer Words { uint suspended_words[]; };
 
 shared uint words[nearest_words * nearest_group];
