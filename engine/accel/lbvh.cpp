@@ -21,15 +21,6 @@ bool needs_fences(const Device& device) {
     return device.info().driver.find("llvmpipe") == std::string::npos;
 }
 
-template <class Kernel>
-void dispatch_count(Device& device, const Kernel& kernel, const Count& count) {
-    if (count.on_device()) {
-        dispatch_indirect(device, kernel, count.buffer, count.index);
-    } else {
-        dispatch(device, kernel, count.bound);
-    }
-}
-
 /// What the tree is built over. It refers to the buffers.
 struct Leaves {
     const Buffer& boxes;
@@ -45,20 +36,20 @@ void fit(Device& device, const Lbvh& bvh, const Leaves& leaves) {
     const Buffer ends = device.scratch("lbvh: ends", std::max<std::uint64_t>(count.bound, 1) *
                                                          sizeof(std::uint32_t));
     device.fill(ends, lbvh_end);
-    dispatch_count(device,
-                   kernels::lbvh_fit{.boxes = boxes,
-                                     .distances = distances,
-                                     .order = bvh.order,
-                                     .counts = counts_or(count, distances),
-                                     .ends = ends,
-                                     .nodes = bvh.nodes,
-                                     .costs = for_rays ? bvh.costs : ends,
-                                     .parents = for_rays ? bvh.parents : ends,
-                                     .params = {count_record(count)},
-                                     .constants = {.fences = needs_fences(device),
-                                                   .for_rays = for_rays,
-                                                   .in_order = in_order}},
-                   count);
+    dispatch(device,
+             kernels::lbvh_fit{.boxes = boxes,
+                               .distances = distances,
+                               .order = bvh.order,
+                               .counts = counts_or(count, distances),
+                               .ends = ends,
+                               .nodes = bvh.nodes,
+                               .costs = for_rays ? bvh.costs : ends,
+                               .parents = for_rays ? bvh.parents : ends,
+                               .params = {count_record(count)},
+                               .constants = {.fences = needs_fences(device),
+                                             .for_rays = for_rays,
+                                             .in_order = in_order}},
+             count);
 }
 
 } // namespace
@@ -80,14 +71,14 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
     const Buffer& counts = counts_or(count, bounds);
 
     reduce_box(device, boxes, bounds, 0, count);
-    dispatch_count(device,
-                   kernels::lbvh_codes{.boxes = boxes,
-                                       .bounds = bounds,
-                                       .counts = counts,
-                                       .codes = codes,
-                                       .order = bvh.order,
-                                       .params = params},
-                   count);
+    dispatch(device,
+             kernels::lbvh_codes{.boxes = boxes,
+                                 .bounds = bounds,
+                                 .counts = counts,
+                                 .codes = codes,
+                                 .order = bvh.order,
+                                 .params = params},
+             count);
     radix_sort_pairs(device, codes, bvh.order, count, code_bits);
     const Buffer distances = code_distances(device, codes, count, false);
     fit(device, bvh, {boxes, distances, count, false});
@@ -97,13 +88,13 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
 Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide) {
     Buffer distances = device.scratch("code distances", std::max<std::uint64_t>(count.bound, 1) *
                                                             sizeof(std::uint32_t));
-    dispatch_count(device,
-                   kernels::code_distances{.codes = codes,
-                                           .counts = counts_or(count, codes),
-                                           .distances = distances,
-                                           .params = {count_record(count)},
-                                           .constants = {.wide = wide}},
-                   count);
+    dispatch(device,
+             kernels::code_distances{.codes = codes,
+                                     .counts = counts_or(count, codes),
+                                     .distances = distances,
+                                     .params = {count_record(count)},
+                                     .constants = {.wide = wide}},
+             count);
     return distances;
 }
 

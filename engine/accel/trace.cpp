@@ -78,9 +78,8 @@ void run_to_the_end(const Work& work, RunKernel run_kernel) {
     TraceParams params = make_params(work);
     std::uint64_t count = work.batch.count.bound;
     if (work.batch.count.on_device()) {
-        count = std::min<std::uint64_t>(count, download<std::uint32_t>(work.device,
-                                                                       work.batch.count.buffer, 1,
-                                                                       work.batch.count.index)[0]);
+        count = std::min<std::uint64_t>(
+            count, download_word(work.device, work.batch.count.buffer, work.batch.count.index));
     }
     params.count.on_device = 0;
     for (std::uint64_t first = 0; first < count; first += params.slot_count) {
@@ -90,7 +89,7 @@ void run_to_the_end(const Work& work, RunKernel run_kernel) {
         work.device.fill(
             BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
         run_kernel(work, params, false, params.count.number - params.first);
-        while (download<std::uint32_t>(work.device, work.traversal.suspended, 1, 1)[0] > 0) {
+        while (download_word(work.device, work.traversal.suspended, 1) > 0) {
             work.device.fill(
                 BufferView(work.traversal.suspended, sizeof(std::uint32_t), sizeof(std::uint32_t)),
                 0);

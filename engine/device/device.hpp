@@ -1,6 +1,7 @@
 #pragma once
 
 #include "device/buffer.hpp"
+#include "device/count.hpp"
 #include "device/info.hpp"
 #include "device/kernel.hpp"
 
@@ -124,6 +125,14 @@ void dispatch_indirect(Device& device, const Kernel& kernel, const Buffer& count
     device.dispatch_indirect(Kernel::info, kernel.arguments(), counts, count_index);
 }
 
+template <class Kernel> void dispatch(Device& device, const Kernel& kernel, const Count& count) {
+    if (count.on_device()) {
+        dispatch_indirect(device, kernel, count.buffer, count.index);
+    } else {
+        dispatch(device, kernel, count.bound);
+    }
+}
+
 /// Allocates a buffer for the elements and uploads them. The buffer has room for at least one
 /// element so that it can be bound.
 template <class T> // NOLINTNEXTLINE(performance-unnecessary-value-param): moved below
@@ -147,6 +156,14 @@ std::vector<T> download(Device& device, const Buffer& from, std::size_t count,
         device.download(from, first * sizeof(T), std::as_writable_bytes(std::span<T>(data)));
     }
     return data;
+}
+
+/// Uploads and downloads one uint of a buffer. index: in uints.
+inline void upload_word(Device& device, const Buffer& to, std::size_t index, std::uint32_t word) {
+    device.upload(to, index * sizeof(word), std::as_bytes(std::span(&word, 1)));
+}
+inline std::uint32_t download_word(Device& device, const Buffer& from, std::size_t index = 0) {
+    return download<std::uint32_t>(device, from, 1, index)[0];
 }
 
 /// Whether a kernel should read these buffers of 16-byte records as texels. lavapipe reads four

@@ -39,7 +39,7 @@ void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const Ey
                                   .active_slots = w.active,
                                   .batch = batch},
              slots);
-    device.upload(w.counts, 0, std::as_bytes(std::span(&slots, 1)));
+    upload_word(device, w.counts, 0, slots);
 }
 
 /// Shades the vertices that the active paths have reached: leaves shadow rays, queries, and the
@@ -127,7 +127,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         device.submit();
         const bool looks =
             vertex % vertices_between_checks == 0 || (lookup != nullptr && vertex == 1);
-        if (looks && download<std::uint32_t>(device, w.counts, 1)[0] == 0) {
+        if (looks && download_word(device, w.counts) == 0) {
             break;
         }
     }
@@ -191,8 +191,8 @@ public:
     QueryCollector(Device& device, std::size_t slots) : device_(device), slots_(slots) {}
 
     void estimate(const PhotonMap&, const PhotonQueries& queries) override {
-        const auto count =
-            download<std::uint32_t>(device_, queries.count.buffer, 1, queries.count.index)[0];
+        const std::uint32_t count =
+            download_word(device_, queries.count.buffer, queries.count.index);
         const auto records = download<QueryRecord>(device_, queries.points, slots_);
         for (const std::uint32_t slot : download<std::uint32_t>(device_, queries.slots, count)) {
             const QueryRecord& record = records[slot];
@@ -255,8 +255,7 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
             const EyeBatch batch = make_batch(w, pass, most, sample, pixel);
             pixel += batch.pixels;
             trace_batch(device, scene, w, batch, lookup);
-            if (!w.traversal.careful &&
-                download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] > 0) {
+            if (!w.traversal.careful && download_word(device, w.traversal.unfinished) > 0) {
                 w.traversal.careful = true;
                 trace_batch(device, scene, w, batch, lookup);
             }

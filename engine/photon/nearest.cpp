@@ -19,7 +19,7 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
 
     std::uint64_t number = 0;
     if (queries.until_complete) {
-        number = download<std::uint32_t>(device_, count.buffer, 1, count.index)[0];
+        number = download_word(device_, count.buffer, count.index);
         const std::uint64_t places = std::clamp<std::uint64_t>(
             std::min(nearest_places, device_.info().limits.storage_range / (nearest_words * 4)), 1,
             std::max<std::uint64_t>(number, 1));

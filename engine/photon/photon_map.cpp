@@ -49,6 +49,13 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.heads = device.allocate("photon map heads", capacity * 4);
 }
 
+/// Copies the first bytes of a buffer, if any.
+void copy_bytes(Device& device, const Buffer& from, const Buffer& to, std::uint64_t bytes) {
+    if (bytes > 0) {
+        device.copy(BufferView(from, 0, bytes), BufferView(to, 0, bytes));
+    }
+}
+
 /// Makes room for so many records, as far as the device's storage range goes, and keeps those that
 /// are stored.
 void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
@@ -59,13 +66,8 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     const Buffer photons = w.photons;
     const Buffer offsets = w.offsets;
     allocate_stored(device, w, capacity);
-    const auto keep = [&](const Buffer& from, const Buffer& to, std::uint64_t bytes) {
-        if (bytes > 0) {
-            device.copy(BufferView(from, 0, bytes), BufferView(to, 0, bytes));
-        }
-    };
-    keep(photons, w.photons, stored * sizeof(PhotonRecord));
-    keep(offsets, w.offsets, w.footprints ? stored * sizeof(glm::uvec4) : 0);
+    copy_bytes(device, photons, w.photons, stored * sizeof(PhotonRecord));
+    copy_bytes(device, offsets, w.offsets, w.footprints ? stored * sizeof(glm::uvec4) : 0);
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -87,7 +89,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                                     .quasi_random = w.quasi_random,
                                                     .scene = scene.constants()}},
                  batch.count);
-        device.upload(w.counters, counter_active * 4, std::as_bytes(std::span(&batch.count, 1)));
+        upload_word(device, w.counters, counter_active, batch.count);
     }
     for (std::uint32_t bounce = 0;; ++bounce) {
         const Count active(w.counters, counter_active, batch.count);
@@ -96,27 +98,27 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
             trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
         }
         const StageScope stage(device, "scatter photons");
-        dispatch_indirect(device,
-                          kernels::photon_scatter{
-                              .scene = scene.bindings(),
-                              .hits = w.hits,
-                              .active_slots = w.active,
-                              .counters = w.counters,
-                              .rays = w.rays,
-                              .paths = w.paths,
-                              .ledgers = w.ledgers,
-                              .photons = w.photons,
-                              .alive = w.alive,
-                              .differentials = w.differentials,
-                              .offsets = w.offsets,
-                              .batch = batch,
-                              .constants = {.footprints = w.footprints,
-                                            .reemission = w.reemission,
-                                            .quasi_random = w.quasi_random,
-                                            .followed_paths = plan.needs(Feature::followed_paths),
-                                            .scene = scene.constants(),
-                                            .material_features = plan.material_features()}},
-                          w.counters, counter_active);
+        dispatch(device,
+                 kernels::photon_scatter{
+                     .scene = scene.bindings(),
+                     .hits = w.hits,
+                     .active_slots = w.active,
+                     .counters = w.counters,
+                     .rays = w.rays,
+                     .paths = w.paths,
+                     .ledgers = w.ledgers,
+                     .photons = w.photons,
+                     .alive = w.alive,
+                     .differentials = w.differentials,
+                     .offsets = w.offsets,
+                     .batch = batch,
+                     .constants = {.footprints = w.footprints,
+                                   .reemission = w.reemission,
+                                   .quasi_random = w.quasi_random,
+                                   .followed_paths = plan.needs(Feature::followed_paths),
+                                   .scene = scene.constants(),
+                                   .material_features = plan.material_features()}},
+                 active);
         compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
                 active);
         std::swap(w.active, w.next_active);
@@ -129,12 +131,11 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         device.submit();
         if (bounce == batch.bounces ||
             (bounce % bounces_between_checks == bounces_between_checks - 1 &&
-             download<std::uint32_t>(device, w.counters, 1, counter_active)[0] == 0)) {
+             download_word(device, w.counters, counter_active) == 0)) {
             break;
         }
     }
-    return download<std::uint32_t>(device, w.traversal.unfinished, 1)[0] == 0 ||
-           w.traversal.careful;
+    return download_word(device, w.traversal.unfinished) == 0 || w.traversal.careful;
 }
 
 /// Memory that nobody else holds: `last`, or if its map is still in use or it is too small, new
@@ -152,8 +153,7 @@ Buffer unshared(Device& device, Buffer& last, const char* name, std::uint64_t by
 std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                const StoredPhotons& stored, const PhotonMapSettings& settings) {
     // Drops the samples of a map that was built before.
-    const auto photon_slots = static_cast<std::uint32_t>(stored.slots);
-    device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&photon_slots, 1)));
+    upload_word(device, w.counters, counter_stored_slots, static_cast<std::uint32_t>(stored.slots));
     // A ninth of the samples wanted is enough. A single one cannot be: the step between two samples
     // has 32 bits.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
@@ -176,32 +176,31 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
                             .triangle_count = scene.record.triangle_count,
                             .capacity = static_cast<std::uint32_t>(w.capacity)}},
              samples);
-    const auto slots = static_cast<std::uint32_t>(stored.slots + samples);
-    device.upload(w.counters, counter_stored_slots * 4, std::as_bytes(std::span(&slots, 1)));
+    upload_word(device, w.counters, counter_stored_slots,
+                static_cast<std::uint32_t>(stored.slots + samples));
     return samples;
 }
 
 /// Sorts the places of the records by code into w.order, and counts the records.
 void sort_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w, bool wide_codes) {
     const Count slots(w.counters, counter_stored_slots, w.capacity);
-    dispatch_indirect(device,
-                      kernels::photon_codes{.scene = scene.scene,
-                                            .counters = w.counters,
-                                            .photons = w.photons,
-                                            .codes = w.codes,
-                                            .order = w.order,
-                                            .constants = {.wide = wide_codes}},
-                      w.counters, counter_stored_slots);
+    dispatch(device,
+             kernels::photon_codes{.scene = scene.scene,
+                                   .counters = w.counters,
+                                   .photons = w.photons,
+                                   .codes = w.codes,
+                                   .order = w.order,
+                                   .constants = {.wide = wide_codes}},
+             slots);
     if (wide_codes) {
         radix_sort_pairs64(device, w.codes, w.order, slots);
     } else {
         radix_sort_pairs(device, w.codes, w.order, slots);
     }
-    dispatch_indirect(device,
-                      kernels::photon_count{.codes = w.codes,
-                                            .counters = w.counters,
-                                            .constants = {.wide = wide_codes}},
-                      w.counters, counter_stored_slots);
+    dispatch(device,
+             kernels::photon_count{
+                 .codes = w.codes, .counters = w.counters, .constants = {.wide = wide_codes}},
+             slots);
 }
 
 /// Computes the footprints of the map's records. Waits for the device.
@@ -215,21 +214,21 @@ void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& 
     constexpr double least_overlap = 4;
     params.least_area_radius = static_cast<float>(std::sqrt(
         least_overlap * scene.surface_area / (std::numbers::pi * std::max(map.area_samples, 1u))));
-    const std::uint32_t none = 0;
-    device.upload(w.counters, counter_area_places * 4, std::as_bytes(std::span(&none, 1)));
+    upload_word(device, w.counters, counter_area_places, 0);
     const Buffer area_places =
         device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
+    const Count stored(w.counters, counter_stored, w.capacity);
     // `heads` is free until the tree's leaves are marked.
-    dispatch_indirect(device,
-                      kernels::photon_footprints{.photons = w.photons,
-                                                 .order = w.order,
-                                                 .counters = w.counters,
-                                                 .offsets = w.offsets,
-                                                 .footprints = map.footprints,
-                                                 .shares = w.heads,
-                                                 .area_places = area_places,
-                                                 .params = params},
-                      w.counters, counter_stored);
+    dispatch(device,
+             kernels::photon_footprints{.photons = w.photons,
+                                        .order = w.order,
+                                        .counters = w.counters,
+                                        .offsets = w.offsets,
+                                        .footprints = map.footprints,
+                                        .shares = w.heads,
+                                        .area_places = area_places,
+                                        .params = params},
+             stored);
     dispatch_indirect(device,
                       kernels::area_footprints{.photons = map.photons,
                                                .area_places = area_places,
@@ -237,10 +236,9 @@ void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& 
                                                .footprints = map.footprints,
                                                .params = params},
                       w.counters, counter_area_places);
-    reduce_sum(device, w.heads, w.counters, counter_footprints,
-               Count(w.counters, counter_stored, w.capacity));
+    reduce_sum(device, w.heads, w.counters, counter_footprints, stored);
     map.mean_footprints =
-        double(download<std::uint32_t>(device, w.counters, 1, counter_footprints)[0]) / area_shares;
+        double(download_word(device, w.counters, counter_footprints)) / area_shares;
 }
 
 /// Builds the tree over the sorted records. Waits for the device.
@@ -248,17 +246,16 @@ void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& 
     const Count photons(w.counters, counter_stored, w.capacity);
     const Buffer distances = code_distances(device, w.codes, photons, wide_codes);
     // The order of the sort is not needed any more; its memory takes the leaves.
-    dispatch_indirect(device,
-                      kernels::photon_leaves{.distances = distances,
-                                             .counters = w.counters,
-                                             .leaves = w.order,
-                                             .heads = w.heads,
-                                             .params = {.leaf_size = map.leaf_size}},
-                      w.counters, counter_stored);
+    dispatch(device,
+             kernels::photon_leaves{.distances = distances,
+                                    .counters = w.counters,
+                                    .leaves = w.order,
+                                    .heads = w.heads,
+                                    .params = {.leaf_size = map.leaf_size}},
+             photons);
     const Buffer compacted = device.scratch("photon map leaves", w.capacity * 4);
     compact(device, w.heads, w.order, compacted, {w.counters, counter_leaves}, photons);
-    const std::uint64_t leaf_count =
-        download<std::uint32_t>(device, w.counters, 1, counter_leaves)[0];
+    const std::uint64_t leaf_count = download_word(device, w.counters, counter_leaves);
     const std::uint64_t allocated = std::max<std::uint64_t>(leaf_count, 1);
     const Buffer boxes = device.scratch("photon map boxes", allocated * sizeof(BoxRecord));
     const Buffer leaf_distances = device.scratch("photon map leaf distances", allocated * 4);
@@ -275,7 +272,7 @@ void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& 
                  .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
              leaf_count);
     const Buffer leaves = device.allocate("photon map leaves", allocated * 4);
-    device.copy(BufferView(compacted, 0, allocated * 4), BufferView(leaves, 0, allocated * 4));
+    copy_bytes(device, compacted, leaves, allocated * 4);
     map.lbvh = build_lbvh_in_order(device, boxes, leaf_distances, leaves, Count(leaf_count));
 }
 
@@ -335,8 +332,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
             const std::vector<std::uint32_t> before =
                 download<std::uint32_t>(device, w.counters, counter_count);
             const bool traced = trace_batch(device, scene, w, batch);
-            const bool fits =
-                download<std::uint32_t>(device, w.counters, 1, counter_overflow)[0] == 0;
+            const bool fits = download_word(device, w.counters, counter_overflow) == 0;
             if (traced && fits) {
                 break;
             }
@@ -391,8 +387,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
     build_tree(device, w, settings.wide_codes, map);
     map.counters = device.allocate("photon map counters", counter_count * 4);
-    device.copy(BufferView(w.counters, 0, counter_count * 4),
-                BufferView(map.counters, 0, counter_count * 4));
+    copy_bytes(device, w.counters, map.counters, counter_count * 4);
     return map;
 }
 

@@ -10,7 +10,7 @@ namespace argand {
 namespace {
 
 std::uint32_t stored(Device& device, const PhotonMap& map) {
-    return download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];
+    return download_word(device, map.counters, counter_stored);
 }
 
 template <class Record>

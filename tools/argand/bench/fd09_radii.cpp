@@ -26,7 +26,7 @@ void measure_radii(Device& device, const Scene& scene, const RenderSettings& ren
     scale.radius_max = scale.caustic_max = unclamped * paper.scene.record.radius;
     scale.caustic_min = scale.radius_min;
     const PhotonMap map = build(device, paper, 0);
-    const auto count = download<std::uint32_t>(device, map.counters, 1, counter_stored)[0];
+    const std::uint32_t count = download_word(device, map.counters, counter_stored);
     const auto photons = download<PhotonRecord>(device, map.photons, count);
     const auto footprints = download<glm::uvec4>(device, map.footprints, count);
     std::array<std::uint64_t, bins> histogram{};

@@ -31,7 +31,7 @@ public:
 
     void estimate(const PhotonMap&, const PhotonQueries& queries) override {
         const std::uint32_t count =
-            download<std::uint32_t>(device_, queries.count.buffer, 1, queries.count.index)[0];
+            download_word(device_, queries.count.buffer, queries.count.index);
         queries_ += count;
         if (count == 0) {
             return;
