@@ -106,16 +106,19 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
     EyeQueries q{.view = view, .final_gather = plan.needs(Feature::final_gather)};
     const bool needed = plan.needs(Feature::photon_map);
     // A kernel takes at least an element of each of its buffers.
-    q.points = device.allocate("photon map queries", (needed ? slots : 1) * sizeof(QueryRecord));
+    const auto per_slot = [&](const char* name, std::uint64_t bytes, bool all = true) {
+        return device.allocate(name, (all ? slots : 1) * bytes);
+    };
     const bool glossy = needed && plan.needs(Feature::glossy_estimates);
-    q.bsdfs = device.allocate("query BSDFs", (glossy ? slots : 1) * sizeof(QueryBsdfRecord));
-    q.asks = device.allocate("eye path flags", (needed ? slots : 1) * 4);
+    q.points = per_slot("photon map queries", sizeof(QueryRecord), needed);
+    q.bsdfs = per_slot("query BSDFs", sizeof(QueryBsdfRecord), glossy);
+    q.asks = per_slot("eye path flags", 4, needed);
     if (needed) {
-        q.chosen = device.allocate("eye path flags", slots * 4);
-        q.slots = device.allocate("asking eye paths", slots * 4);
-        q.estimates = device.allocate("photon map answers", slots * sizeof(EstimateRecord));
-        q.suspended = device.allocate("unfinished query sums", slots * sizeof(GatherRecord));
-        q.sources = device.allocate("photon map answers' slots", slots * 4);
+        q.chosen = per_slot("eye path flags", 4);
+        q.slots = per_slot("asking eye paths", 4);
+        q.estimates = per_slot("photon map answers", sizeof(EstimateRecord));
+        q.suspended = per_slot("unfinished query sums", sizeof(GatherRecord));
+        q.sources = per_slot("photon map answers' slots", 4);
         const std::uint64_t entries = std::bit_ceil(slots + 1);
         q.cells = device.allocate("cells of queries", entries * 4);
         q.owners = device.allocate("owners of cells", entries * 4);
@@ -126,20 +129,19 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
 void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                     const ActivePaths& paths, const PhotonLookup& lookup) {
     const QuerySharing& sharing = queries.sharing;
-    const double caustic_cell =
-        sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0;
     const bool two_parts = sharing.caustics_apart && !queries.final_gather;
-    Round whole{.cell = sharing.cell, .pixel_sized = sharing.pixel_sized};
-    whole.part = two_parts ? map_indirect : map_whole;
-    answer_round(device, queries, paths, whole, lookup);
-    Round caustics{.cell = caustic_cell, .pixel_sized = true};
-    if (two_parts) {
-        caustics.part = map_caustic;
-        answer_round(device, queries, paths, caustics, lookup);
-    } else if (queries.final_gather && plan.needs(Feature::caustics)) {
-        caustics.asks = asks_caustics;
-        caustics.part = sharing.caustics_apart ? map_caustic : map_whole;
-        answer_round(device, queries, paths, caustics, lookup);
+    const std::uint32_t caustic_part = sharing.caustics_apart ? map_caustic : map_whole;
+    const auto answer = [&](const Round& round) {
+        answer_round(device, queries, paths, round, lookup);
+    };
+    answer({.part = two_parts ? map_indirect : map_whole,
+            .cell = sharing.cell,
+            .pixel_sized = sharing.pixel_sized});
+    if (two_parts || (queries.final_gather && plan.needs(Feature::caustics))) {
+        answer({.asks = two_parts ? asks_map : asks_caustics,
+                .part = caustic_part,
+                .cell = sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0,
+                .pixel_sized = true});
     }
 }
 
