@@ -1,5 +1,7 @@
 #include "plot/plot.hpp"
 
+#include "plot/measurements.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
@@ -14,20 +16,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Measurement measurement(const std::string& method, double seconds, double error) {
-    return {.method = method,
-            .knob = "default",
-            .options = "--method " + method,
-            .wall_seconds = seconds,
-            .rel_mse = {error, 0},
-            .ssim = {1, 0}};
-}
-
-Results results() {
-    return {.measurements = {measurement("path", 1, 0.1), measurement("photons", 10, 0.001),
-                             measurement("photons", 10, 0.05)}};
-}
 
 std::vector<std::string> texts(const Plot& plot) {
     std::vector<std::string> all;

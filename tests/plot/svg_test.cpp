@@ -1,4 +1,6 @@
 #include "plot/plot.hpp"
+
+#include "plot/measurements.hpp"
 #include "plot/xml.hpp"
 
 #include <algorithm>
@@ -21,21 +23,6 @@ using ::testing::SizeIs;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Measurement measurement(const std::string& method, double seconds, double error) {
-    return {.method = method,
-            .knob = "default",
-            .options = "--method " + method,
-            .wall_seconds = seconds,
-            .rel_mse = {error, 0},
-            .ssim = {1, 0}};
-}
-
-/// Two points on the front, and one that is not.
-Results results() {
-    return {.measurements = {measurement("path", 1, 0.1), measurement("photons", 10, 0.001),
-                             measurement("photons", 20, 0.05)}};
-}
 
 XmlElement parsed(const Results& some) { return XmlParser::parse(to_svg(lay_out(some))); }
 
