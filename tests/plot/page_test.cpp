@@ -1,6 +1,5 @@
 #include "plot/page.hpp"
 
-#include "base/error.hpp"
 #include "sweep/fake.hpp"
 
 #include <regex>
@@ -23,13 +22,12 @@ protected:
 TEST_F(PageTest, AResumedSweepHasThePageOfACompleteOne) {
     FakeRenderer whole;
     const std::string expected = page("whole", run(whole, scene_, request("whole")));
-    for (std::size_t stop = 0; stop < whole.keys.size(); stop += 3) {
-        const std::string folder = "part" + std::to_string(stop);
-        FakeRenderer first(static_cast<int>(stop)), second;
-        draw_results(scratch_ / folder, run(first, scene_, request(folder)));
-        EXPECT_EQ(page(folder, run(second, scene_, request(folder))), expected) << stop;
-        EXPECT_EQ(text(folder + "/tradeoff.svg"), text("whole/tradeoff.svg")) << stop;
-    }
+    interrupt(whole, [&](const std::string& folder, const Results& before) {
+        draw_results(scratch_ / folder, before);
+        FakeRenderer second;
+        EXPECT_EQ(page(folder, run(second, scene_, request(folder))), expected);
+        EXPECT_EQ(text(folder + "/tradeoff.svg"), text("whole/tradeoff.svg"));
+    });
 }
 
 TEST_F(PageTest, DrawsNothingWithoutAReference) {
@@ -40,14 +38,12 @@ TEST_F(PageTest, DrawsNothingWithoutAReference) {
 
 TEST_F(PageTest, ListsFailures) {
     FakeRenderer renderer;
-    const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+    renderer.before = [](const RenderSettings& s) {
         if (s.method == "photons" && s.photons == 10'000) {
-            fail("allocating 'photons': the device is out of memory");
+            run_out_of_memory();
         }
-        return renderer.trials()(s, seeds);
     };
-    const Results results =
-        measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    const Results results = run(renderer, scene_, request("a"));
     EXPECT_THAT(page("a", results), HasSubstr("out of memory"));
 }
 

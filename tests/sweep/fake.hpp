@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/error.hpp"
 #include "methods/scenes.hpp"
 #include "scene/gltf.hpp"
 #include "support/noisy_image.hpp"
@@ -11,6 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <string>
+
 namespace argand::testing {
 
 /// A fake renderer. `path` has only noise; all other methods also have bias, which falls with the
@@ -23,6 +27,7 @@ public:
     RenderTrials trials() {
         return [this](const RenderSettings& s,
                       std::span<const std::uint32_t> seeds) -> std::optional<Trials> {
+            before(s);
             if (left_-- <= 0) {
                 return std::nullopt;
             }
@@ -46,6 +51,8 @@ public:
     }
 
     std::vector<std::string> keys;
+    /// Called before a setting is rendered. Throws if the setting is to fail.
+    std::function<void(const RenderSettings& settings)> before = [](const RenderSettings&) {};
 
 private:
     int left_;
@@ -53,6 +60,11 @@ private:
 
 inline Results run(FakeRenderer& renderer, const Scene& scene, const TradeoffRequest& request) {
     return measure_tradeoff(request, scene, renderer.trials(), [](std::string_view, double) {});
+}
+
+/// Fails as a device does that lacks memory.
+[[noreturn]] inline void run_out_of_memory() {
+    fail("allocating 'photons': the device is out of memory");
 }
 
 /// Results of a scene without light, from a renderer of black pictures, with one seed.
@@ -84,6 +96,17 @@ protected:
     }
 
     std::string text(const std::string& file) const { return read_text(scratch_ / file); }
+
+    /// Sweeps as `whole` did, interrupted after every third setting, in a folder each. Calls
+    /// `check(folder, results)` after each.
+    template <class Check> void interrupt(const FakeRenderer& whole, const Check& check) const {
+        for (std::size_t stop = 0; stop < whole.keys.size(); stop += 3) {
+            SCOPED_TRACE(stop);
+            const std::string folder = "part" + std::to_string(stop);
+            FakeRenderer first(static_cast<int>(stop));
+            check(folder, run(first, scene_, request(folder)));
+        }
+    }
 
     ScratchDirectory scratch_;
     Scene scene_ = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_area.glb");

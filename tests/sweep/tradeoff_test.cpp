@@ -27,21 +27,18 @@ TEST_F(TradeoffTest, MeasuresEverySettingOnce) {
 TEST_F(TradeoffTest, ResumesAnInterruptedSweep) {
     FakeRenderer whole;
     run(whole, scene_, request("whole"));
-    for (std::size_t stop = 0; stop < whole.keys.size(); stop += 3) {
-        const std::string folder = "part" + std::to_string(stop);
-        FakeRenderer first(static_cast<int>(stop)), second;
-        const Results before = run(first, scene_, request(folder));
+    interrupt(whole, [&](const std::string& folder, const Results& before) {
         EXPECT_FALSE(before.complete);
+        FakeRenderer second;
         const Results after = run(second, scene_, request(folder));
         EXPECT_TRUE(after.complete);
         for (const Measurement& known : before.measurements) {
             EXPECT_THAT(second.keys, Not(::testing::Contains(known.key)));
         }
         for (const char* file : {"tradeoff.json", "tradeoff.csv", "reference.exr"}) {
-            EXPECT_EQ(text(folder + "/" + file), text(std::string("whole/") + file))
-                << file << " after " << stop;
+            EXPECT_EQ(text(folder + "/" + file), text(std::string("whole/") + file)) << file;
         }
-    }
+    });
 }
 
 TEST_F(TradeoffTest, RendersNothingIfComplete) {
@@ -61,14 +58,12 @@ TEST_F(TradeoffTest, MeasuresASettingAgainIfItsPictureIsLost) {
 
 TEST_F(TradeoffTest, ContinuesAfterASettingThatFails) {
     FakeRenderer renderer;
-    const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+    renderer.before = [](const RenderSettings& s) {
         if (s.method == "photons" && s.photons == 10'000) {
-            fail("allocating 'photons': the device is out of memory");
+            run_out_of_memory();
         }
-        return renderer.trials()(s, seeds);
     };
-    const Results results =
-        measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    const Results results = run(renderer, scene_, request("a"));
     EXPECT_TRUE(results.complete);
     ASSERT_EQ(results.failures.size(), 1u);
     EXPECT_EQ(results.failures[0].options, "--method photons --photons 10000");
@@ -83,35 +78,30 @@ TEST_F(TradeoffTest, MeasuresOtherSettingsIfTheLargestRunsOutOfMemory) {
     const auto measured_with = [&](const std::string& folder,
                                    const std::function<void()>& give_up) {
         FakeRenderer renderer;
-        const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+        renderer.before = [&](const RenderSettings& s) {
             if (s.method == "photons" && s.photons == 1'000'000) {
                 give_up();
             }
-            return renderer.trials()(s, seeds);
         };
-        const Results results =
-            measure_tradeoff(request(folder), scene_, failing, [](std::string_view, double) {});
+        const Results results = run(renderer, scene_, request(folder));
         EXPECT_TRUE(results.complete);
         EXPECT_EQ(results.failures.size(), 1u);
         EXPECT_EQ(results.failures.at(0).options, "--method photons --photons 1000000");
         EXPECT_THAT(results.failures.at(0).why, HasSubstr("out of memory"));
         return results.measurements.size();
     };
-    EXPECT_EQ(measured_with("a", [] { fail("allocating 'photons': the device is out of memory"); }),
-              all - 1);
+    EXPECT_EQ(measured_with("a", run_out_of_memory), all - 1);
     EXPECT_EQ(measured_with("b", [] { throw std::bad_alloc(); }), all - 1);
 }
 
 TEST_F(TradeoffTest, MeasuresOtherMethodsIfOneCannotBeRendered) {
     FakeRenderer renderer;
-    const auto failing = [&](const RenderSettings& s, std::span<const std::uint32_t> seeds) {
+    renderer.before = [](const RenderSettings& s) {
         if (s.method == "photons") {
-            fail("allocating 'photons': the device is out of memory");
+            run_out_of_memory();
         }
-        return renderer.trials()(s, seeds);
     };
-    const Results results =
-        measure_tradeoff(request("a"), scene_, failing, [](std::string_view, double) {});
+    const Results results = run(renderer, scene_, request("a"));
     EXPECT_TRUE(results.complete);
     EXPECT_EQ(results.measurements.size(),
               sweep(scene_, request("a").base, {"path"}, {}, Extent::quick).size());
