@@ -53,9 +53,7 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
         return settings.parts.empty() || std::find(settings.parts.begin(), settings.parts.end(),
                                                    part) != settings.parts.end();
     };
-    PaperTable linear{"Table 1: linear build, 10^3 queries/s over leaf sizes"};
-    PaperTable heuristic{"Table 1: voxel volume heuristic, 10^3 queries/s over leaf sizes"};
-    PaperTable builds{"Section 6.2: the two builds, at T_auto"};
+    TreeTables trees;
     PaperTable estimators{"Table 2: time at equal error"};
     PaperTable radii{"Table 3: footprints by radius, r_max = 0.7"};
     PaperTable kernels{"Figure 4: kernels"};
@@ -70,7 +68,7 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
         render.bounces = bounces;
         render.photons = settings.photons > 0 ? settings.photons : photons_in_paper(scene.name);
         if (includes("table1")) {
-            measure_trees(device, scene, render, settings.runs, linear, heuristic, builds);
+            measure_trees(device, scene, render, settings.runs, trees);
         }
         if (includes("table3")) {
             measure_radii(device, scene, render, radii);
@@ -92,8 +90,8 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
         }
     }
     std::vector<PaperTable> tables;
-    for (PaperTable* table :
-         {&linear, &heuristic, &builds, &estimators, &radii, &kernels, &shares, &budgets}) {
+    for (PaperTable* table : {&trees.linear, &trees.heuristic, &trees.builds, &estimators, &radii,
+                              &kernels, &shares, &budgets}) {
         if (!table->rows.empty()) {
             tables.push_back(std::move(*table));
         }

@@ -30,6 +30,13 @@ struct PaperTable {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
 };
 
+/// Table 1 and section 6.2: the linear build, the voxel volume heuristic, and both compared.
+struct TreeTables {
+    PaperTable linear{"Table 1: linear build, 10^3 queries/s over leaf sizes"};
+    PaperTable heuristic{"Table 1: voxel volume heuristic, 10^3 queries/s over leaf sizes"};
+    PaperTable builds{"Section 6.2: the two builds, at T_auto"};
+};
+
 std::vector<std::string> fd09_parts();
 
 /// Measures one scene after the other.
@@ -42,7 +49,7 @@ std::string markdown(const PaperTable& table);
 
 /// Table 1: gathering rates over leaf sizes for both builds, and the build times.
 void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs,
-                   PaperTable& linear, PaperTable& heuristic, PaperTable& builds);
+                   TreeTables& tables);
 
 /// Table 2 and figure 4: time at equal error, of estimators and of kernels.
 void measure_errors(Device& device, const Scene& scene, const RenderSettings& render,

@@ -91,7 +91,7 @@ nlohmann::ordered_json row_of(const std::string& scene, const PaperMap& paper,
 } // namespace
 
 void measure_trees(Device& device, const Scene& scene, const RenderSettings& render, int runs,
-                   PaperTable& linear, PaperTable& heuristic, PaperTable& builds) {
+                   TreeTables& tables) {
     PaperMap paper = trace_paper_map(device, scene, render);
     const PhotonMap automatic = build(device, paper, 0);
     const std::vector<BoxRecord> boxes = footprint_boxes(device, automatic);
@@ -120,19 +120,19 @@ void measure_trees(Device& device, const Scene& scene, const RenderSettings& ren
     const std::uint64_t queries = gather_with_each(device, paper, candidates, runs);
 
     const std::span<const Candidate> all(candidates);
-    linear.rows.push_back(row_of(scene.name, paper, all.first(of_each), queries));
-    heuristic.rows.push_back(row_of(scene.name, paper, all.last(of_each), queries));
-    const double ratio = heuristic.rows.back()["T_auto's kqueries/s"].get<double>();
+    tables.linear.rows.push_back(row_of(scene.name, paper, all.first(of_each), queries));
+    tables.heuristic.rows.push_back(row_of(scene.name, paper, all.last(of_each), queries));
+    const char* const rate = "T_auto's kqueries/s";
+    const double linear_rate = tables.linear.rows.back()[rate].get<double>();
+    const double heuristic_rate = tables.heuristic.rows.back()[rate].get<double>();
     const double linear_built = median(linear_seconds);
     const double heuristic_built = median(heuristic_seconds);
-    builds.rows.push_back(
-        {{"scene", scene.name},
-         {"in the map", boxes.size()},
-         {"linear build [ms]", 1e3 * linear_built},
-         {"VVH build [ms]", 1e3 * heuristic_built},
-         {"VVH / linear, building", heuristic_built / linear_built},
-         {"linear / VVH, rate [%]",
-          100 * linear.rows.back()["T_auto's kqueries/s"].get<double>() / ratio}});
+    tables.builds.rows.push_back({{"scene", scene.name},
+                                  {"in the map", boxes.size()},
+                                  {"linear build [ms]", 1e3 * linear_built},
+                                  {"VVH build [ms]", 1e3 * heuristic_built},
+                                  {"VVH / linear, building", heuristic_built / linear_built},
+                                  {"linear / VVH, rate [%]", 100 * linear_rate / heuristic_rate}});
 }
 
 } // namespace argand
