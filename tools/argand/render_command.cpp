@@ -183,6 +183,15 @@ std::vector<std::string> notes_on(const RenderOptions& options, const Rendered& 
     return notes;
 }
 
+/// Tells the user, unless to be quiet.
+void print_notes(const RenderOptions& options, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        if (!options.quiet) {
+            fmt::print(stderr, "argand: note: {}\n", note);
+        }
+    }
+}
+
 void render_file(RenderOptions& options, const CLI::App& command) {
     const PictureSize size = parse_picture_size(options.size);
     options.settings.width = size.width;
@@ -199,11 +208,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     const Scene scene = load_gltf(options.scene);
     times.load = seconds_since(start);
     options.settings.camera = find_camera(scene, options.camera);
-    if (!options.quiet) {
-        for (const std::string& note : scene.notes) {
-            fmt::print(stderr, "argand: note: {}\n", note);
-        }
-    }
+    print_notes(options, scene.notes);
     const Clock::time_point opened = Clock::now();
     std::unique_ptr<Device> device = open_backend(options.backend, options.device, options.quiet);
     times.open = seconds_since(opened);
@@ -254,10 +259,8 @@ void render_file(RenderOptions& options, const CLI::App& command) {
             "argand: note: {} samples were not finite and are left out; please report the scene\n",
             result.statistics.non_finite);
     }
+    print_notes(options, notes);
     if (!options.quiet) {
-        for (const std::string& note : notes) {
-            fmt::print(stderr, "argand: note: {}\n", note);
-        }
         fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(options.outputs, ", "),
                    options.settings.method, options.settings.width, options.settings.height,
                    device->info().name, seconds_since(start),
