@@ -26,9 +26,9 @@ PAGES = [
     ("Error at default settings", "errors.md", "tools/results"),
     ("Time from start to picture", "start.md", "tools/results"),
     ("Errors and times on request", "targets.md", "tools/results_targets"),
-    ("Error at equal time", "budgets.md", "argand bench --paper fd09 --part budgets"),
+    ("Error at equal time", "budgets.md", "a script outside the repository"),
     ("Fabianowski and Dingliana 2009", "fd09.md", "argand bench --paper fd09"),
-    ("Bandwidth", "bandwidth.md", "argand render, argand compare"),
+    ("Bandwidth", "bandwidth.md", "a script outside the repository"),
     ("Footprints: choices", "footprints.md", "argand render, argand compare"),
     ("Final gather", "final_gather.md", "argand render, argand compare"),
     ("Quasi-random photons", "quasi_random.md", "argand render, argand compare"),
@@ -57,5 +57,6 @@ def write_index():
     for figure, page, command in PAGES:
         if (folder / page).exists():
             of = ", ".join(revisions((folder / page).read_text()))
-            lines.append(f"| [{figure}]({page}) | `{command}` | {of} |")
+            how = command if command.startswith("a ") else f"`{command}`"
+            lines.append(f"| [{figure}]({page}) | {how} | {of} |")
     (folder / "README.md").write_text("\n".join([*lines, ""]))
