@@ -5,14 +5,8 @@
 
 namespace argand {
 
-/// relMSE of a picture of n passes, with the exponents of photon mapping:
-///   E(n) = (fixed + density n^(1/3)) / n + bias n^(-1/3).
-/// Bandwidths of density estimation shrink as n^(-1/6) (photon/radius.hpp) and the areas of the
-/// kernels as n^(-1/3); the noise of density estimation grows with one over that area. Squared bias
-/// falls as n^(-2/3) on smooth surfaces, where bias is proportional to the area, and as n^(-1/6)
-/// along edges, in bands one bandwidth across. Together this is about n^(-1/3), as measured
-/// (docs/results/targets.md).
-/// A render that continues a pilot made its first `initial_passes` passes with the initial
+/// relMSE of an image of n passes by an ErrorLaw (methods/method_info.hpp). A render that continues
+/// a pilot made its first `initial_passes` passes with the initial
 /// bandwidth, that of a render of one pass. Their noise and bias are part of the mean.
 struct ErrorModel {
     double fixed = 0;   ///< variance of one pass that no bandwidth changes: eye paths, direct light

@@ -38,7 +38,8 @@ struct ErrorLaw {
 inline constexpr ErrorLaw photon_mapping_law{.noise_growth = 1.0 / 3, .bias_fall = 1.0 / 3};
 
 /// The place of a method in a search for the fastest one to an error (autotune/exploration.hpp).
-/// Unbiased methods are tried anyway: they tell the bias of the others.
+/// The first unbiased method is tried anyway: it tells the bias of the others. Exactly one method
+/// is `first`.
 enum class TrialOrder : std::uint8_t { never, first, later };
 
 /// A row of the method table.

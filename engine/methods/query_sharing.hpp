@@ -10,9 +10,9 @@ struct QuerySharing {
     double cell = 0; ///< largest edge of a cell, in the scene's units; 0: queries share nothing
     bool pixel_sized = false;    ///< no cell is larger than a pixel, because estimates may change
                                  ///< from one pixel to the next
-    bool caustics_apart = false; ///< the map's caustic part has queries of its own, in cells no
-                                 ///< larger than a pixel
-    bool sharp_caustics = false; ///< or, if also set, without sharing
+    bool caustics_apart = false; ///< the caustic part of the map is queried separately, and shared
+                                 ///< in cells no larger than a pixel
+    bool sharp_caustics = false; ///< with caustics_apart: caustic queries share nothing
 };
 
 /// Device memory for the photon map queries of eye paths.
@@ -25,7 +25,7 @@ struct EyeQueries {
     Buffer sources;              ///< uint per slot: the slot whose estimate it takes, or no_query
     Buffer cells, owners;        ///< hash table of cells, see query_cells.h
     CameraRecord view{};         ///< of the picture, for the size of its pixels
-    bool final_gather = false;   ///< paths query the map one scattering later, but for caustics
+    bool final_gather = false;   ///< paths query the map one scattering later, except for caustics
     QuerySharing sharing;
 };
 

@@ -9,7 +9,7 @@ namespace argand {
 
 namespace {
 
-/// Parts of about so many elements, their sizes multiples of `grain`.
+/// Parts of about `elements_a_part` elements, each a multiple of `grain`.
 PartsRecord parts_of(std::uint64_t bound, std::uint64_t elements_a_part, std::uint64_t most,
                      std::uint32_t grain) {
     const std::uint64_t wanted = (bound + elements_a_part - 1) / elements_a_part;

@@ -35,8 +35,8 @@ const Buffer& counts_or(const Count& count, const Buffer& bound_anyway);
 void reduce_parts(Device& device, const Buffer& in, const Division& division, const Buffer& results,
                   uint first_out, uint op);
 
-/// The same into scratch memory of this name. If there is only one part its result is left
-/// undefined, for no part lies behind it.
+/// As reduce_parts, into scratch memory of this name. With a single part the result is undefined:
+/// no later part needs it.
 Buffer reduce_each_part(Device& device, const char* name, const Buffer& in,
                         const Division& division, uint op);
 

@@ -30,13 +30,13 @@ namespace {
 
 constexpr std::uint64_t slots_on_cpu = 1u << 18;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
-// Room for photons stored per photon emitted, before more is asked for.
+// Initial room for stored photons, per emitted photon.
 constexpr std::uint64_t stored_per_emitted = 3;
 constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
 // T_auto of Fabianowski and Dingliana 2009 (§5.3), who have it grow with the number of footprints
-// on a point. With as wide estimates as are made here one size is best, or within 3 % of it, from 2
-// to 350 of them: docs/results/fd09.md.
+// on a point. With the bandwidths used here 16 is best, or within 3 % of it, for 2 to 350
+// footprints on a point: docs/results/fd09.md.
 constexpr std::uint32_t automatic_leaf_size = 16;
 
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
@@ -56,8 +56,8 @@ void copy_bytes(Device& device, const Buffer& from, const Buffer& to, std::uint6
     }
 }
 
-/// Makes room for so many records, as far as the device's storage range goes, and keeps those that
-/// are stored.
+/// Grows the buffers to `wanted` records, at most the device's storage range, and keeps the first
+/// `stored`.
 void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
     const std::uint64_t capacity = std::min(wanted, max_stored_photons(device));
     if (capacity <= w.capacity) {

@@ -79,7 +79,7 @@ CONSTANT uint max_ray_nodes = 0x1000000u;
 // (lbvh_end: the ray is done), the children left to visit there, the height of its stack, and the
 // stack.
 CONSTANT uint suspended_head = 2u;
-CONSTANT uint suspended_stride = 4u + 62u;
+CONSTANT uint suspended_stride = 4u + ray_stack_size;
 
 struct TraceParams {
     CountRecord count;

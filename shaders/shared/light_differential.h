@@ -7,11 +7,11 @@
 
 ARGAND_SHARED_BEGIN
 
-// Differential of a photon at its emission by light_emit. radius: of the
-// scene's bounding sphere. photons: expected from this light in the pass, that is all photons times
-// the light's probability. emitter_photons: expected from all triangles of the same emitter
-// together (from all emissive triangles if emitters are not known), so that dividing an emitter
-// into many triangles does not widen its differentials; used by triangle lights only.
+// Differential of a photon at its emission by light_emit. radius: of the scene's bounding sphere.
+// photons: expected from this light in the pass, that is all photons times the light's probability.
+// emitter_photons: expected from all triangles of the same emitter together (from all emissive
+// triangles if emitters are not known), so that dividing an emitter into many triangles does not
+// widen its differentials; used by triangle lights only.
 FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(EmittedPhoton) p,
                                          real radius, real photons, real emitter_photons) {
     vec3 direction = p.direction;

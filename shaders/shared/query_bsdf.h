@@ -15,7 +15,7 @@ FN QueryBsdfRecord query_bsdf(IN(RoughLobes) r, uint direction, uint shading_nor
                            shading_normal);
 }
 
-// No lobe is known to be absent; kernels set that as load_material does.
+// Leaves `absent` 0, which excludes no lobe; the kernel sets it, as load_material() does.
 FN RoughLobes rough_lobes(IN(QueryBsdfRecord) q) {
     RoughLobes r;
     r.base_color = vec3(q.base_r, q.base_g, q.base_b);

@@ -22,8 +22,14 @@ using Sources = std::map<std::string, std::string>;
 
 /// The folders of engine/ from the bottom up. Folders on one level must not include each other.
 inline const std::vector<std::vector<std::string>> levels = {
-    {"base"},  {"image", "scene", "device"}, {"plan", "parallel"}, {"accel"},
-    {"world"}, {"photon", "imagespace"},     {"methods"},          {"autotune", "sweep", "compare"},
+    {"base"},
+    {"image", "scene", "device"},
+    {"plan", "parallel"},
+    {"accel"},
+    {"world"},
+    {"photon"},
+    {"methods"},
+    {"autotune", "sweep", "compare"},
     {"plot"},
 };
 
@@ -79,8 +85,8 @@ inline std::string part_of(const std::string& file) {
         folders.push_back(folder);
     if (folders.size() > 1 && (folders[0] == "engine" || folders[0] == "shaders"))
         folders.erase(folders.begin());
-    const bool one_folder = folders.size() < 2 || (folders[0] != "tools" && folders[0] != "comp" &&
-                                                   folders[0] != "raster" && folders[0] != "cuda");
+    const bool one_folder = folders.size() < 2 ||
+                            (folders[0] != "tools" && folders[0] != "comp" && folders[0] != "cuda");
     return folders.empty() ? "" : one_folder ? folders[0] : folders[0] + "/" + folders[1];
 }
 
@@ -107,7 +113,7 @@ inline std::string objection(const std::string& from, const std::string& to) {
         return to == "shared" || to == "cuda" || to == "kernels" || to == "device"
                    ? ""
                    : "twins see only shaders/shared, shaders/cuda, device and generated kernels";
-    if (kind == "comp" || kind == "raster")
+    if (kind == "comp")
         return to == "shared" || to == "comp"
                    ? ""
                    : "kernels see only shaders/shared and their own folder";

@@ -81,7 +81,8 @@ void check_autotuned(const RenderOptions& options, const CLI::App& command) {
                                          options.method().name));
         }
     } else {
-        // An option that one of the candidates does not use has no effect if that one is chosen.
+        // Every photon-mapping candidate must have the option; `path`, which may be picked too, is
+        // not checked.
         for (const MethodInfo& method : methods) {
             if (method.trial != TrialOrder::never) {
                 check_method_options(command, method, methods);

@@ -82,7 +82,7 @@ Json parameters_json(const RenderReport& render) {
     if (statistics.footprint_scale) {
         parameters.update(footprints_json(settings.footprints, *statistics.footprint_scale));
     }
-    // Options that are new with the method.
+    // Options without a key above.
     for (const Option& option : render.method.options) {
         if (!parameters.contains(option.report_key)) {
             parameters[option.report_key] = option_json(option, settings);

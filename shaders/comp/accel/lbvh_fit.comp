@@ -9,7 +9,7 @@ layout(set = 0, binding = 0) readonly buffer Boxes { vec4 boxes[]; };
 layout(set = 0, binding = 1) readonly buffer Distances { uint distances[]; };
 layout(set = 0, binding = 2) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 3) readonly buffer Counts { uint counts[]; };
-// The invocation of which of two children arrives first at the parent.
+// Which of two siblings arrives first at their parent depends on scheduling.
 //@ incidental(ends)
 layout(set = 0, binding = 4) coherent buffer Ends { uint ends[]; };
 //@ holds(nodes, LbvhNode)

@@ -3,5 +3,5 @@
 #include "shared/intersect.h"
 #include "accel/traverse_bindings.glsl"
 
-layout(constant_id = 0) const bool resume = false;  // goes on with suspended rays
+layout(constant_id = 0) const bool resume = false;  // resumes suspended rays
 layout(push_constant) uniform Push { TraceParams params; };

@@ -26,7 +26,7 @@ layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: the photon map provides the light that estimated lobes scatter more than once.
 layout(constant_id = 0) const bool photon_map = false;
-// Whether paths query the map one scattering later, but for caustics.
+// Whether paths query the map one scattering later, except for caustics.
 layout(constant_id = 1) const bool final_gather = false;
 // Whether some surface has followed lobes; else there are no caustics.
 layout(constant_id = 2) const bool followed_paths = true;

@@ -1,4 +1,4 @@
-// What all estimators read and write. They define TEXELS (0 or 1) first.
+// Buffers and constants that all estimators share. They define TEXELS (0 or 1) first.
 #include "shared/accel_records.h"
 #include "shared/compensated.h"
 #include "shared/photon.h"

@@ -7,10 +7,9 @@
 // - A first walk counts photons in a histogram, whose bins are ranges of the bits of squared
 //   distances. It shrinks its radius whenever the bins below it hold k photons.
 // - If the bin of the k-th photon holds many photons, it is divided into bins, and the walk
-// repeated.
+//   repeated.
 // - A second walk adds up all photons in lower bins, and lists the few photons of that bin, of
-// which
-//   the nearest are selected.
+//   which the nearest are selected.
 // Epanechnikov's kernel is linear in the squared distance, so the sums of flux and of flux times
 // squared distance are enough: the kernel's radius need not be known during the walk.
 #include "shared/kernels/photon/query.h"

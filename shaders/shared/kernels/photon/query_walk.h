@@ -1,5 +1,5 @@
-// One walk of a query through the map, from leaf to leaf, which may go on in a later dispatch. What
-// includes this defines the estimator:
+// One walk of a query through the map, from leaf to leaf, and may be resumed in a later dispatch.
+// The including file defines the estimator:
 // - Bandwidth make_bandwidth(): what it needs to know for every query;
 // - real search_radius2(Bandwidth): square of the distance within which leaves count;
 // - void add_photon(Bandwidth, uint j, Query, LeafSums): adds photon j of a leaf;
