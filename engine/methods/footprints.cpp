@@ -7,7 +7,7 @@ namespace argand {
 namespace {
 
 /// Density over each photon's own footprint (Fabianowski and Dingliana 2009).
-class Footprints : public DensityEstimator {
+class Footprints : public EstimationStrategy {
 public:
     Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const override {
         Bandwidth bandwidth = learn_radii(first, settings);

@@ -44,8 +44,8 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
 
 class PhotonMapping : public Method {
 public:
-    PhotonMapping(RenderContext& context, std::unique_ptr<DensityEstimator> estimator)
-        : c_(context), estimator_(std::move(estimator)) {
+    PhotonMapping(RenderContext& context, std::unique_ptr<EstimationStrategy> strategy)
+        : c_(context), strategy_(std::move(strategy)) {
         // Without indirect light no photon is ever looked up.
         const bool indirect = c_.settings.bounces > 0 && c_.on_device.record.light_count > 0;
         emitted_ = indirect ? c_.settings.photons : 0;
@@ -62,7 +62,7 @@ public:
                                   .stored = *first_,
                                   .queries = queries,
                                   .passes = static_cast<double>(split_.passes)};
-            return estimator_->learn(first, c_.settings);
+            return strategy_->learn(first, c_.settings);
         });
     }
 
@@ -88,7 +88,7 @@ private:
     PhotonMap build_map(const PassNumbers& numbers);
 
     RenderContext& c_;
-    std::unique_ptr<DensityEstimator> estimator_;
+    std::unique_ptr<EstimationStrategy> strategy_;
     std::uint64_t emitted_ = 0; ///< photons of the whole image, as the settings request
     PassSplit split_;
     double flux_unit_ = 0; ///< of the fixed-point sums
@@ -163,9 +163,9 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
 
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
     footprint_scale_ =
-        estimator_->footprints(bandwidth_, c_.settings.footprints,
-                               static_cast<double>(split_.photons), c_.on_device.record);
-    const double radius = estimator_->typical_radius(bandwidth_);
+        strategy_->footprints(bandwidth_, c_.settings.footprints,
+                              static_cast<double>(split_.photons), c_.on_device.record);
+    const double radius = strategy_->typical_radius(bandwidth_);
     PhotonMap map =
         build_photon_map(c_.device, c_.on_device, photons_, stored_,
                          {.area_samples = area_samples(c_.on_device.surface_area, radius),
@@ -184,10 +184,10 @@ bool PhotonMapping::pass(const Pass& pass, const OnPart& on_part) {
     stored_ = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
     first_.reset();
     const PhotonMap map = build_map(pass.numbers);
-    c_.eye.queries.sharing = estimator_->sharing(
-        bandwidth_, c_.settings.query_cell * estimator_->typical_radius(bandwidth_),
+    c_.eye.queries.sharing = strategy_->sharing(
+        bandwidth_, c_.settings.query_cell * strategy_->typical_radius(bandwidth_),
         c_.settings.query_cell > 0 || c_.settings.final_gather);
-    const std::unique_ptr<PhotonEstimator> estimator = estimator_->make(c_, map, bandwidth_);
+    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, bandwidth_);
     const PhotonLookup lookup{.map = map, .estimator = *estimator};
     const EyePass eye{.seed = pass.numbers.seed,
                       .first_sample =
@@ -220,8 +220,8 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
 } // namespace
 
 std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
-                                            std::unique_ptr<DensityEstimator> estimator) {
-    return std::make_unique<PhotonMapping>(context, std::move(estimator));
+                                            std::unique_ptr<EstimationStrategy> strategy) {
+    return std::make_unique<PhotonMapping>(context, std::move(strategy));
 }
 
 } // namespace argand

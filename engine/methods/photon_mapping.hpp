@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/density_estimator.hpp"
+#include "methods/estimation_strategy.hpp"
 
 #include <memory>
 
@@ -10,6 +10,6 @@ namespace argand {
 /// least once, density estimation where eye rays meet estimated lobes, direct light by shadow rays.
 /// Each pass has its own photons and its own eye paths, so that memory is bounded.
 std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
-                                            std::unique_ptr<DensityEstimator> estimator);
+                                            std::unique_ptr<EstimationStrategy> strategy);
 
 } // namespace argand

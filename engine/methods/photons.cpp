@@ -8,7 +8,7 @@ namespace {
 
 /// Density over discs of one radius, as in each pass of progressive photon mapping (Hachisuka et
 /// al. 2008). Caustics have a radius of their own.
-class FixedRadius : public DensityEstimator {
+class FixedRadius : public EstimationStrategy {
 public:
     QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const override {
         const bool sharp = bandwidth.radii.caustic < bandwidth.radii.indirect;

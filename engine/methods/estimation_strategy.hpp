@@ -5,11 +5,11 @@
 
 namespace argand {
 
-/// How radiance is estimated from a photon map: what one photon-mapping method has and another has
-/// not. All else is theirs in common (photon_mapping.hpp).
-class DensityEstimator {
+/// What distinguishes photon-mapping methods: how they choose a bandwidth and estimate radiance.
+/// photon_mapping.hpp has what they share.
+class EstimationStrategy {
 public:
-    virtual ~DensityEstimator() = default;
+    virtual ~EstimationStrategy() = default;
 
     /// The bandwidth of a picture, from its first pass. Values that the user has set are kept.
     virtual Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const {

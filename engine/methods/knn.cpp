@@ -1,6 +1,6 @@
-#include "photon/nearest.hpp"
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
+#include "photon/nearest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr double typical_over_max = 0.3;
 constexpr double reach = 2.5;
 
 /// Density over the disc that the k nearest photons fill (Jensen 1996).
-class Nearest : public DensityEstimator {
+class Nearest : public EstimationStrategy {
 public:
     Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const override {
         Bandwidth bandwidth = learn_radii(first, settings, settings.neighbours);
