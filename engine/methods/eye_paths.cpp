@@ -61,7 +61,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                             .shadows = w.shadows,
                             .queries = w.queries.points,
                             .alive = w.alive,
-                            .asks = w.queries.asks,
+                            .query_kinds = w.queries.kinds,
                             .query_bsdfs = w.queries.bsdfs,
                             .batch = batch,
                             .constants = {.photon_map = photon_map,
@@ -180,8 +180,8 @@ EyeBatch make_batch(const EyeWorkspace& w, const EyePass& pass, const Batching& 
     batch.shares_queries = w.queries.sharing.cell > 0 ? 1 : 0;
     // A final gather's noise is that of the scattered directions, so all samples have queries.
     batch.query_step = w.queries.final_gather ? 1 : samples_per_query;
-    const std::uint32_t asking = (batch.samples + batch.query_step - 1) / batch.query_step;
-    batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(asking);
+    const std::uint32_t querying = (batch.samples + batch.query_step - 1) / batch.query_step;
+    batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(querying);
     return batch;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// The queries that are answered together.
 struct Round {
-    std::uint32_t asks = asks_map; ///< asks_*
+    std::uint32_t kind = query_kind_map; ///< query_kind_*
     std::uint32_t part = map_whole;
     double cell = 0;
     bool pixel_sized = false;
@@ -23,7 +23,7 @@ struct Round {
 
 QueryShareParams share_params(const EyeQueries& queries, const Round& round) {
     QueryShareParams p{.pixel = 3e38f};
-    p.asks = round.asks;
+    p.query_kind = round.kind;
     p.cell = round.cell > 0 ? std::max(static_cast<float>(round.cell), 1e-30f) : 0;
     if (round.pixel_sized) {
         const CameraRecord& view = queries.view;
@@ -50,7 +50,7 @@ void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& 
     dispatch_indirect(device,
                       kernels::query_cells{.active_slots = paths.slots,
                                            .counts = paths.counts,
-                                           .asks = queries.asks,
+                                           .query_kinds = queries.kinds,
                                            .queries = queries.points,
                                            .table = queries.cells,
                                            .owners = queries.owners,
@@ -62,7 +62,7 @@ void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& 
                       kernels::query_owners{.active_slots = paths.slots,
                                             .counts = paths.counts,
                                             .owners = queries.owners,
-                                            .asks = queries.asks,
+                                            .query_kinds = queries.kinds,
                                             .sources = queries.sources,
                                             .chosen = queries.chosen,
                                             .params = params},
@@ -112,10 +112,10 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
     const bool glossy = needed && plan.needs(Feature::glossy_estimates);
     q.points = per_slot("photon map queries", sizeof(QueryRecord), needed);
     q.bsdfs = per_slot("query BSDFs", sizeof(QueryBsdfRecord), glossy);
-    q.asks = per_slot("eye path flags", 4, needed);
+    q.kinds = per_slot("kinds of queries", 4, needed);
     if (needed) {
         q.chosen = per_slot("eye path flags", 4);
-        q.slots = per_slot("asking eye paths", 4);
+        q.slots = per_slot("querying eye paths", 4);
         q.estimates = per_slot("photon map answers", sizeof(EstimateRecord));
         q.suspended = per_slot("unfinished query sums", sizeof(GatherRecord));
         q.sources = per_slot("photon map answers' slots", 4);
@@ -138,7 +138,7 @@ void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
             .cell = sharing.cell,
             .pixel_sized = sharing.pixel_sized});
     if (two_parts || (queries.final_gather && plan.needs(Feature::caustics))) {
-        answer({.asks = two_parts ? asks_map : asks_caustics,
+        answer({.kind = two_parts ? query_kind_map : query_kind_caustics,
                 .part = caustic_part,
                 .cell = sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0,
                 .pixel_sized = true});

@@ -18,7 +18,7 @@ struct QuerySharing {
 /// Device memory for the photon map queries of eye paths.
 struct EyeQueries {
     Buffer points, bsdfs;        ///< QueryRecord and QueryBsdfRecord per slot
-    Buffer asks;                 ///< uint per active path: asks_*, which queries its vertex has
+    Buffer kinds;                ///< uint per active path: query_kind_* of its query, or 0
     Buffer chosen, slots;        ///< flags of the active paths, and slots, of the queries that the
                                  ///< estimator answers; the others share their estimates
     Buffer estimates, suspended; ///< see PhotonQueries

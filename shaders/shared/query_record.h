@@ -42,9 +42,9 @@ CONSTANT uint query_steps_mask = 0x3fu;
 // The bits from here up: LOBE_* to estimate (bsdf.h).
 CONSTANT uint query_lobes_shift = 16u;
 
-// Flags of paths that query. Queries with the same flags are answered together.
-CONSTANT uint asks_map = 1u;
-CONSTANT uint asks_caustics = 2u; // with query_caustics
+// What an eye path queries; 0: nothing. Queries of one kind are answered together.
+CONSTANT uint query_kind_map = 1u;
+CONSTANT uint query_kind_caustics = 2u; // with query_caustics
 
 // Answer of the photon map: radiance towards the eye.
 struct EstimateRecord {
@@ -59,7 +59,7 @@ struct QueryShareParams {
     float32 pixel, pixel_slope;
     uint mask; // entries of the hash table - 1; the number of entries is a power of two
     float32 eye_x, eye_y, eye_z;
-    uint asks; // asks_*: which queries to process
+    uint query_kind; // query_kind_*: which queries to process
 };
 
 CONSTANT uint no_query = 0xffffffffu;

@@ -20,7 +20,7 @@ layout(set = 0, binding = 13) writeonly buffer ShadowRays { RayRecord shadow_ray
 layout(set = 0, binding = 14) writeonly buffer Shadows { ShadowRecord shadows[]; };
 layout(set = 0, binding = 15) writeonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 16) writeonly buffer Alive { uint alive[]; };
-layout(set = 0, binding = 17) writeonly buffer Asks { uint asks[]; };
+layout(set = 0, binding = 17) writeonly buffer QueryKinds { uint query_kinds[]; };
 layout(set = 0, binding = 18) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0) readonly buffer Active { uint active_slots[]; };
 layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
-layout(set = 0, binding = 2) readonly buffer Asks { uint asks[]; };
+layout(set = 0, binding = 2) readonly buffer QueryKinds { uint query_kinds[]; };
 layout(set = 0, binding = 3) readonly buffer Queries { QueryRecord queries[]; };
 // Which entry of the table a cell of queries gets depends on who comes first; its owner does not.
 //@ incidental(table)

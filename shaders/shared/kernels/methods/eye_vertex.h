@@ -209,17 +209,18 @@ FN vec3 lambertian_reflectance(IN(Vertex) v, uint direction, uint shading_normal
 
 // Writes a query of the photon map for the estimated lobes.
 FN void leave_query(IN(Vertex) v) {
-    uint asks_for = asks_map;
+    uint kind = query_kind_map;
     uint flags = v.surface.front ? query_front : 0u;
     uint scatterings = batch.bounces; // most scatterings of a photon that counts
     if (final_gather && behind_estimated(v.path)) {
         flags |= query_gathers;
         scatterings -= (v.path.state & path_depth_mask) + 1u; // including the one at this vertex
     } else if (final_gather) {
-        asks_for = asks_caustics;
+        kind = query_kind_caustics;
         flags |= query_caustics;
     }
-    bool wanted = v.estimated != 0u && scatterings > 0u && (asks_for == asks_map || followed_paths);
+    bool wanted =
+        v.estimated != 0u && scatterings > 0u && (kind == query_kind_map || followed_paths);
     // If paths share estimates, every path queries; else every few samples do, and their answers
     // count for all.
     bool shares = batch.shares_queries != 0u;
@@ -253,7 +254,7 @@ FN void leave_query(IN(Vertex) v) {
         query_bsdfs[v.slot] = query_bsdf(rough_lobes(v.material), direction, shading_normal);
     }
     vec3 p = v.surface.position;
-    asks[v.index] = asks_for;
+    query_kinds[v.index] = kind;
     queries[v.slot] = QueryRecord(p.x, p.y, p.z, pack_unit(v.surface.geometric_normal), counts_by.x,
                                   counts_by.y, counts_by.z, flags, reflectance.x, reflectance.y,
                                   reflectance.z, triangles[v.triangle].w);
@@ -328,7 +329,7 @@ FN void main() {
         shadow_rays[v.slot] = no_ray();
     }
     if (photon_map) {
-        asks[i] = 0u;
+        query_kinds[i] = 0u;
     }
     if (hit.triangle == no_triangle) {
         add_sky(v.slot, v.path, v.throughput);

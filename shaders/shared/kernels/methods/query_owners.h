@@ -6,7 +6,7 @@ FN void main() {
         return;
     }
     chosen[i] = 0u;
-    if (asks[i] != params.asks) {
+    if (query_kinds[i] != params.query_kind) {
         return;
     }
     uint slot = active_slots[i];
