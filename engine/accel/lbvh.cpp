@@ -85,7 +85,7 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
     return bvh;
 }
 
-Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide) {
+Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool codes64) {
     Buffer distances = device.scratch("code distances", std::max<std::uint64_t>(count.bound, 1) *
                                                             sizeof(std::uint32_t));
     dispatch(device,
@@ -93,7 +93,7 @@ Buffer code_distances(Device& device, const Buffer& codes, const Count& count, b
                                      .counts = counts_or(count, codes),
                                      .distances = distances,
                                      .params = {count_record(count)},
-                                     .constants = {.wide = wide}},
+                                     .constants = {.codes64 = codes64}},
              count);
     return distances;
 }

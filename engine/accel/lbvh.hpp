@@ -21,8 +21,8 @@ struct Lbvh {
 Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays = false);
 
 /// The distance of each sorted code from the next one (code_distance of shared/morton.h), a uint
-/// each in scratch memory. wide: codes of 64 bits, low word first; else of 32 bits.
-Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool wide);
+/// each in scratch memory. codes64: codes of 64 bits, low word first; else of 32 bits.
+Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool codes64);
 
 /// As build_lbvh, over boxes in the order of codes with these distances. order: a uint per box to
 /// which the node of its leaf refers; it becomes Lbvh::order.

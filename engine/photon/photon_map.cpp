@@ -190,7 +190,7 @@ void sort_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w, 
                                    .photons = w.photons,
                                    .codes = w.codes,
                                    .order = w.order,
-                                   .constants = {.wide = wide_codes}},
+                                   .constants = {.codes64 = wide_codes}},
              slots);
     if (wide_codes) {
         radix_sort_pairs64(device, w.codes, w.order, slots);
@@ -199,7 +199,7 @@ void sort_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w, 
     }
     dispatch(device,
              kernels::photon_count{
-                 .codes = w.codes, .counters = w.counters, .constants = {.wide = wide_codes}},
+                 .codes = w.codes, .counters = w.counters, .constants = {.codes64 = wide_codes}},
              slots);
 }
 

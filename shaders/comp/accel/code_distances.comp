@@ -9,6 +9,6 @@ layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 2) writeonly buffer Distances { uint distances[]; };
 layout(push_constant) uniform Push { AccelParams params; };
 
-layout(constant_id = 0) const bool wide = false;    // codes of 64 bits; else of 32
+layout(constant_id = 0) const bool codes64 = false;  // codes of 64 bits; else of 32
 
 #include "shared/kernels/accel/code_distances.h"

@@ -11,6 +11,6 @@ layout(set = 0, binding = 2) readonly buffer Photons { PhotonRecord photons[]; }
 layout(set = 0, binding = 3) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = 4) writeonly buffer Order { uint order[]; };
 
-layout(constant_id = 0) const bool wide = false;    // codes of 64 bits, low word first; else of 32
+layout(constant_id = 0) const bool codes64 = false;  // codes of 64 bits, low word first; else of 32
 
 #include "shared/kernels/photon/photon_codes.h"

@@ -1,7 +1,7 @@
 #include "shared/kernels/count.h"
 
 FN uvec2 code(uint i) {
-    return wide ? uvec2(codes[2u * i], codes[2u * i + 1u]) : uvec2(0u, codes[i]);
+    return codes64 ? uvec2(codes[2u * i], codes[2u * i + 1u]) : uvec2(0u, codes[i]);
 }
 
 // Distance of each sorted code from the next one.

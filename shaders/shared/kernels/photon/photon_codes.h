@@ -12,7 +12,7 @@ FN void main() {
     vec3 position = vec3(p.x, p.y, p.z);
     bool empty = p.normal == no_photon;
     uint kind = photon_is_caustic(p.normal) ? photon_kind_bit : 0u;
-    if (wide) {
+    if (codes64) {
         uvec2 code = morton63(position, low, high);
         codes[2u * i] = empty ? no_photon : code.x;
         codes[2u * i + 1u] = empty ? no_photon : code.y | kind;

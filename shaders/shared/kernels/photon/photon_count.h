@@ -1,5 +1,5 @@
 // No photon's code has this high word.
-FN bool is_empty(uint i) { return codes[wide ? 2u * i + 1u : i] == no_photon; }
+FN bool is_empty(uint i) { return codes[codes64 ? 2u * i + 1u : i] == no_photon; }
 
 // The sorted codes end with those of empty slots. The invocation at the first of them knows the
 // number of photons.
