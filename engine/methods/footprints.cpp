@@ -56,8 +56,9 @@ Option caustic_smoothing_option() {
         "caustic-smoothing",
         "Size of the footprints of caustics at 200,000 photons, in distances between photons",
         [](RenderSettings & s) -> auto& { return s.footprints.caustic_smoothing; }, 1e-3, 1e3);
-    option.sweep = {.full = {"2", "8"}, .matters = [](const Turn& turn) {
-                        return turn.plan.needs(Feature::followed_paths) && finds_photons(turn);
+    option.sweep = {.full = {"2", "8"}, .matters = [](const Variation& variation) {
+                        return variation.plan.needs(Feature::followed_paths) &&
+                               finds_photons(variation);
                     }};
     return option;
 }

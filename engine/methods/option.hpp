@@ -16,22 +16,21 @@ namespace argand {
 enum class OptionKind : std::uint8_t { flag, integer, number, choice };
 
 /// One option changed in a scene's base settings, for a sweep to try.
-struct Turn {
+struct Variation {
     const Scene& scene;
     const Plan& plan; ///< of the scene for a method that uses everything there is
     const RenderSettings& base;
-    const RenderSettings& turned;
+    const RenderSettings& changed;
 };
 
 /// The values that `argand tradeoff` tries.
 struct OptionSweep {
     std::vector<std::string> quick, full; ///< by `--quick` and without
-    /// The value at `factor` times what the method chose by itself in the render that `learnt`
-    /// tells of, empty if it chose none. A sweep tries half of it and twice. Null: nothing to
-    /// learn.
+    /// The value to try at `factor` times the one that the method chose (`learnt`); empty if it
+    /// chose none. A sweep tries half of it and twice. Null: the method chooses none.
     std::function<std::string(const RenderStatistics& learnt, double factor)> around;
-    /// Whether the turn can change the picture; a sweep leaves out what cannot. Null: always.
-    std::function<bool(const Turn& turn)> matters;
+    /// Whether the variation can change the picture; a sweep leaves out what cannot. Null: always.
+    std::function<bool(const Variation& variation)> matters;
 };
 
 /// An option of `argand render` by which a method's picture is decided. Values are texts, as on the

@@ -10,24 +10,25 @@ namespace argand {
 
 namespace {
 
-bool has_estimated_light(const Turn& turn) {
-    return turn.plan.needs(Feature::diffuse) || turn.plan.needs(Feature::glossy_estimates);
+bool has_estimated_light(const Variation& variation) {
+    return variation.plan.needs(Feature::diffuse) ||
+           variation.plan.needs(Feature::glossy_estimates);
 }
 
-bool looks_up_photons(const Turn& turn) {
-    return has_estimated_light(turn) && turn.base.bounces > 0;
+bool looks_up_photons(const Variation& variation) {
+    return has_estimated_light(variation) && variation.base.bounces > 0;
 }
 
 /// Whether the roughness up to which lobes are followed makes another choice of lobes.
-bool follows_other_lobes(const Turn& turn) {
+bool follows_other_lobes(const Variation& variation) {
     const auto choice = [&](float roughness) {
         std::vector<std::uint32_t> lobes;
-        for (const Material& material : turn.scene.materials) {
+        for (const Material& material : variation.scene.materials) {
             lobes.push_back(followed_lobes(material_record(material), roughness));
         }
         return lobes;
     };
-    return choice(turn.turned.follow_roughness) != choice(turn.base.follow_roughness);
+    return choice(variation.changed.follow_roughness) != choice(variation.base.follow_roughness);
 }
 
 Option photons_option() {
@@ -112,7 +113,9 @@ Option final_gather_option() {
 
 } // namespace
 
-bool finds_photons(const Turn& turn) { return looks_up_photons(turn) && turn.base.photons > 0; }
+bool finds_photons(const Variation& variation) {
+    return looks_up_photons(variation) && variation.base.photons > 0;
+}
 
 std::string around_width(double learnt, double factor) {
     return learnt > 0 ? fmt::format("{:.3g}", factor * learnt) : "";
@@ -144,10 +147,11 @@ Option follow_roughness_option() {
         "Glossy reflection up to this roughness is followed from the eye like a mirror; rougher "
         "reflection is estimated",
         [](RenderSettings & s) -> auto& { return s.follow_roughness; }, 0, 1);
-    option.sweep = {.full = {"0", "0.5"}, .matters = [](const Turn& turn) {
-                        const bool glossy =
-                            turn.plan.needs(Feature::ggx) || turn.plan.needs(Feature::phong);
-                        return glossy && looks_up_photons(turn) && follows_other_lobes(turn);
+    option.sweep = {.full = {"0", "0.5"}, .matters = [](const Variation& variation) {
+                        const bool glossy = variation.plan.needs(Feature::ggx) ||
+                                            variation.plan.needs(Feature::phong);
+                        return glossy && looks_up_photons(variation) &&
+                               follows_other_lobes(variation);
                     }};
     return option;
 }

@@ -20,7 +20,7 @@ std::vector<Option> all_photon_map_options(const std::vector<Option>& own);
 
 /// Whether density estimation has photons to find: what most options of photon maps need to
 /// matter.
-bool finds_photons(const Turn& turn);
+bool finds_photons(const Variation& variation);
 
 /// The value at `factor` times a width that a method learnt, rounded so that it is easy to type;
 /// empty if it learnt none.

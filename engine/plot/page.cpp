@@ -60,7 +60,7 @@ std::string row(const Measurement& m, bool on_front) {
     constexpr double mebibyte = 1 << 20;
     const std::string cells[] = {
         m.method,
-        m.knob + " " + m.value,
+        m.option + " " + m.value,
         fmt::format("{:.3g}", m.wall_seconds),
         or_dash(m.device_seconds),
         fmt::format("{:.1f}", static_cast<double>(m.peak_bytes) / mebibyte),
@@ -84,7 +84,7 @@ std::string table(const std::vector<Measurement>& measurements,
         return measurements[a].wall_seconds < measurements[b].wall_seconds;
     });
     std::string html =
-        "<table>\n<tr><th>method</th><th>knob</th><th>wall, s</th><th>device, s</th><th>peak, "
+        "<table>\n<tr><th>method</th><th>option</th><th>wall, s</th><th>device, s</th><th>peak, "
         "MiB</th>"
         "<th>relMSE</th><th>bias²</th><th>variance</th><th>SSIM</th><th>argand render</th></tr>\n";
     for (const std::size_t i : order) {

@@ -79,8 +79,9 @@ std::optional<double> noise_level(const Results& results) {
 }
 
 std::string title_of(const Results& results, const Measurement& m) {
-    std::string title = m.knob == "default" ? m.method + ", default"
-                                            : fmt::format("{}, {} {}", m.method, m.knob, m.value);
+    std::string title = m.option == "default"
+                            ? m.method + ", default"
+                            : fmt::format("{}, {} {}", m.method, m.option, m.value);
     title += fmt::format("\n{:.3g} s, relMSE {:.3g} ± {:.1g}", m.wall_seconds, m.rel_mse.mean,
                          m.rel_mse.deviation);
     if (m.bias) {

@@ -68,7 +68,7 @@ Measurement measure(const Setting& setting, const Trials& trials, const Referenc
     }
     Measurement m{.key = setting.key,
                   .method = setting.render.method,
-                  .knob = setting.knob,
+                  .option = setting.option,
                   .value = setting.value,
                   .options = setting.options,
                   .seeds = pictures.size(),
@@ -89,7 +89,7 @@ Measurement measure(const Setting& setting, const Trials& trials, const Referenc
 Json to_json(const Measurement& m) {
     return {{"key", m.key},
             {"method", m.method},
-            {"knob", m.knob},
+            {"knob", m.option},
             {"value", m.value},
             {"options", m.options},
             {"picture", m.picture},
@@ -106,7 +106,7 @@ Json to_json(const Measurement& m) {
 Measurement measurement_from(const Json& json) {
     return {.key = json.at("key"),
             .method = json.at("method"),
-            .knob = json.at("knob"),
+            .option = json.at("knob"),
             .value = json.at("value"),
             .options = json.at("options"),
             .picture = json.at("picture"),

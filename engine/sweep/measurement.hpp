@@ -16,7 +16,7 @@ struct Spread {
 /// The cost and the error of a setting.
 struct Measurement {
     std::string key; ///< parameter_key() of the setting
-    std::string method, knob, value;
+    std::string method, option, value;
     std::string options; ///< of `argand render`
     std::string
         picture; ///< file with the picture of the first seed, relative to the sweep's folder

@@ -49,7 +49,7 @@ double number_or_infinity(const std::string& cell) {
 Measurement measurement_in(const std::vector<std::string>& cells) {
     return {.key = "",
             .method = cells.at(0),
-            .knob = cells.at(1),
+            .option = cells.at(1),
             .value = cells.at(2),
             .options = cells.at(14),
             .picture = "",
@@ -145,7 +145,7 @@ std::string to_csv(const Results& results) {
         const Measurement& m = results.measurements[i];
         const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
         const std::string cells[] = {m.method,
-                                     m.knob,
+                                     m.option,
                                      m.value,
                                      cell(m.wall_seconds),
                                      cell(m.device_seconds),

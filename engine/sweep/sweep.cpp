@@ -43,9 +43,9 @@ std::vector<const Option*> by_importance(const MethodInfo& method) {
 std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base,
                                   const RenderStatistics& learnt, Extent extent,
                                   MethodTable methods) {
-    const auto setting = [&](const std::string& knob, const std::string& value,
+    const auto setting = [&](const std::string& option, const std::string& value,
                              const RenderSettings& settings) {
-        return Setting{.knob = knob,
+        return Setting{.option = option,
                        .value = value,
                        .key = parameter_key(settings, methods),
                        .options = command_options(settings, methods),
@@ -59,15 +59,16 @@ std::vector<Setting> sweep_method(const Scene& scene, const RenderSettings& base
     std::set<std::string> seen{settings.front().key};
     for (const Option* option : by_importance(methods.at(base.method))) {
         for (const std::string& value : values_of(*option, learnt, extent)) {
-            RenderSettings turned = base;
-            option->set(turned, value);
-            const Turn turn{.scene = scene, .plan = plan, .base = base, .turned = turned};
-            if (option->sweep.matters && !option->sweep.matters(turn)) {
+            RenderSettings changed = base;
+            option->set(changed, value);
+            const Variation variation{
+                .scene = scene, .plan = plan, .base = base, .changed = changed};
+            if (option->sweep.matters && !option->sweep.matters(variation)) {
                 continue;
             }
-            Setting changed = setting(option->name, option->get(turned), turned);
-            if (seen.insert(changed.key).second) {
-                settings.push_back(std::move(changed));
+            Setting next = setting(option->name, option->get(changed), changed);
+            if (seen.insert(next.key).second) {
+                settings.push_back(std::move(next));
             }
         }
     }

@@ -11,7 +11,7 @@ namespace argand {
 
 /// One point of a sweep: the base settings of a method, or those with one option changed.
 struct Setting {
-    std::string knob;    ///< "default", or the option that differs from the base
+    std::string option;  ///< "default", or the option that differs from the base
     std::string value;   ///< of that option
     std::string key;     ///< parameter_key() of the settings
     std::string options; ///< command_options() of the settings

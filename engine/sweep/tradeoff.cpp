@@ -154,7 +154,7 @@ std::optional<Reference> make_reference(const TradeoffRequest& request,
 /// File name of a setting's picture, which tells users the setting.
 std::string picture_file(const Setting& setting) {
     const std::string value = setting.value.empty() ? "" : "-" + setting.value;
-    return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.knob, value);
+    return fmt::format("pictures/{}-{}{}.exr", setting.render.method, setting.option, value);
 }
 
 /// Adds a measurement or a failure to the results. Returns false if it was interrupted.

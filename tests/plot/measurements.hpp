@@ -8,7 +8,7 @@ namespace argand::testing {
 
 inline Measurement measurement(const std::string& method, double seconds, double error) {
     return {.method = method,
-            .knob = "default",
+            .option = "default",
             .options = "--method " + method,
             .wall_seconds = seconds,
             .rel_mse = {error, 0},

@@ -48,7 +48,7 @@ TEST(Results, CsvDoesNotClampErrors) {
 TEST(Results, CsvIsReadBack) {
     const testing::ScratchDirectory scratch;
     Results results{.measurements = {measurement(2, 0.1), measurement(3, 0.01)}};
-    results.measurements[0].knob = "spp";
+    results.measurements[0].option = "spp";
     results.measurements[0].value = "4";
     results.measurements[0].options = "--method path --spp 4";
     results.measurements[0].rel_mse.deviation = 0.001;

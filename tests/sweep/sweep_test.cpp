@@ -21,25 +21,25 @@ LearntBandwidths learnt() {
     return {{"footprints", statistics}, {"photons", statistics}, {"knn", statistics}};
 }
 
-std::set<std::string> knobs(const Scene& scene, const std::string& method,
-                            Extent extent = Extent::full, const RenderSettings& base = {}) {
+std::set<std::string> swept_options(const Scene& scene, const std::string& method,
+                                    Extent extent = Extent::full, const RenderSettings& base = {}) {
     std::set<std::string> names;
     for (const Setting& setting : sweep(scene, base, {method}, learnt(), extent)) {
         EXPECT_EQ(setting.render.method, method);
-        names.insert(setting.knob);
+        names.insert(setting.option);
     }
     return names;
 }
 
 TEST(Sweep, VariesEveryOptionOfAMethod) {
     const Scene glass = asset("cornell_glass.glb");
-    EXPECT_EQ(knobs(glass, "path"), (std::set<std::string>{"default", "spp", "bounces"}));
-    EXPECT_THAT(knobs(glass, "photons"),
+    EXPECT_EQ(swept_options(glass, "path"), (std::set<std::string>{"default", "spp", "bounces"}));
+    EXPECT_THAT(swept_options(glass, "photons"),
                 IsSupersetOf({"default", "spp", "photons", "radius", "query-cell", "leaf-size",
                               "wide-codes", "photon-sampling", "final-gather", "bounces"}));
-    EXPECT_THAT(knobs(glass, "knn"), Contains("k"));
-    EXPECT_THAT(knobs(glass, "photons"), Not(Contains("k")));
-    EXPECT_THAT(knobs(glass, "footprints"),
+    EXPECT_THAT(swept_options(glass, "knn"), Contains("k"));
+    EXPECT_THAT(swept_options(glass, "photons"), Not(Contains("k")));
+    EXPECT_THAT(swept_options(glass, "footprints"),
                 IsSupersetOf({"smoothing", "caustic-smoothing", "flatness", "uniform-kernel",
                               "paper-axes", "paper-reemission"}));
 }
@@ -53,42 +53,44 @@ TEST(Sweep, VariesOneOptionAtATime) {
             << parameter_key(setting.render);
         RenderSettings base;
         base.method = setting.render.method;
-        const auto turned = parameters(setting.render), usual = parameters(base);
-        ASSERT_EQ(turned.size(), usual.size());
-        for (std::size_t i = 0; i < turned.size(); ++i) {
-            EXPECT_EQ(turned[i] != usual[i], turned[i].first == setting.knob)
+        const auto changed = parameters(setting.render), usual = parameters(base);
+        ASSERT_EQ(changed.size(), usual.size());
+        for (std::size_t i = 0; i < changed.size(); ++i) {
+            EXPECT_EQ(changed[i] != usual[i], changed[i].first == setting.option)
                 << parameter_key(setting.render);
         }
     }
 }
 
 TEST(Sweep, LeavesOutCausticOptionsWithoutMirrorOrGlass) {
-    EXPECT_THAT(knobs(asset("cornell_area.glb"), "footprints"), Not(Contains("caustic-smoothing")));
+    EXPECT_THAT(swept_options(asset("cornell_area.glb"), "footprints"),
+                Not(Contains("caustic-smoothing")));
 }
 
 TEST(Sweep, VariesRoughnessOnlyIfItChangesTheFollowedLobes) {
-    EXPECT_THAT(knobs(asset("cornell_area.glb"), "photons"), Not(Contains("follow-roughness")));
-    EXPECT_THAT(knobs(asset("glossy.glb"), "photons"), Contains("follow-roughness"));
+    EXPECT_THAT(swept_options(asset("cornell_area.glb"), "photons"),
+                Not(Contains("follow-roughness")));
+    EXPECT_THAT(swept_options(asset("glossy.glb"), "photons"), Contains("follow-roughness"));
 }
 
 TEST(Sweep, VariesNothingInAnUnlitScene) {
     Scene dark;
     add_floor(dark, 1, 0, add_material(dark, lambertian(glm::vec3(0.5f))));
-    EXPECT_EQ(knobs(dark, "footprints"), std::set<std::string>{"default"});
-    EXPECT_EQ(knobs(dark, "path"), std::set<std::string>{"default"});
+    EXPECT_EQ(swept_options(dark, "footprints"), std::set<std::string>{"default"});
+    EXPECT_EQ(swept_options(dark, "path"), std::set<std::string>{"default"});
 }
 
 TEST(Sweep, LeavesOutPhotonOptionsIfNothingIsEstimated) {
     Scene scene;
     scene.sky = glm::vec3(1);
     add_floor(scene, 1, 0, add_material(scene, mirror()));
-    EXPECT_EQ(knobs(scene, "photons"), (std::set<std::string>{"default", "spp"}));
+    EXPECT_EQ(swept_options(scene, "photons"), (std::set<std::string>{"default", "spp"}));
 }
 
 TEST(Sweep, LeavesOutEstimationOptionsWithoutPhotons) {
     RenderSettings none;
     none.photons = 0;
-    EXPECT_EQ(knobs(asset("cornell_area.glb"), "photons", Extent::full, none),
+    EXPECT_EQ(swept_options(asset("cornell_area.glb"), "photons", Extent::full, none),
               (std::set<std::string>{"default", "spp", "photons", "bounces"}));
 }
 
@@ -103,7 +105,7 @@ TEST(Sweep, IgnoresAMethodNamedTwice) {
 
 TEST(Sweep, QuickVariesFewerOptions) {
     const Scene scene = asset("cornell_area.glb");
-    EXPECT_EQ(knobs(scene, "knn", Extent::quick),
+    EXPECT_EQ(swept_options(scene, "knn", Extent::quick),
               (std::set<std::string>{"default", "spp", "photons", "radius", "k"}));
 }
 

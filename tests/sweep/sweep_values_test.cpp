@@ -21,7 +21,7 @@ Values values(const std::string& method, Extent extent) {
     Values values;
     for (const Setting& setting : sweep(load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_glass.glb"),
                                         {}, {method}, {{method, learnt}}, extent)) {
-        EXPECT_TRUE(values[setting.knob].insert(setting.value).second) << setting.key;
+        EXPECT_TRUE(values[setting.option].insert(setting.value).second) << setting.key;
     }
     return values;
 }

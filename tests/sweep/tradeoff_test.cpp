@@ -196,7 +196,7 @@ TEST_F(TradeoffTest, CsvAgreesWithJson) {
         }
         ASSERT_EQ(cells.size(), columns);
         EXPECT_EQ(cells[0], m.method);
-        EXPECT_EQ(cells[1], m.knob);
+        EXPECT_EQ(cells[1], m.option);
         EXPECT_EQ(cells[2], m.value);
         EXPECT_EQ(std::stod(cells[3]), m.wall_seconds);
         EXPECT_EQ(std::stod(cells[4]), *m.device_seconds);
