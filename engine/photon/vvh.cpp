@@ -36,9 +36,7 @@ std::vector<BoxRecord> footprint_boxes(Device& device, const PhotonMap& map) {
     boxes.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const PhotonRecord& p = photons[i];
-        const glm::uvec4 packed = footprints[i];
-        const FootprintDuals duals{unpack_dual(packed.x, packed.y),
-                                   unpack_dual(packed.z, packed.w)};
+        const FootprintDuals duals = unpack_duals(footprints[i]);
         const Footprint f = footprint_of_duals(duals, unpack_photon_normal(p.normal), map.flatness);
         // Enlarged as in photon_boxes.h.
         const vec3 half_size = footprint_extent(f) * 1.001f;

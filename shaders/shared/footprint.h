@@ -223,6 +223,13 @@ FN vec3 unpack_dual(uint xy, uint zs) {
            scale;
 }
 
+FN FootprintDuals unpack_duals(uvec4 packed) {
+    FootprintDuals duals;
+    duals.a = unpack_dual(packed.x, packed.y);
+    duals.b = unpack_dual(packed.z, packed.w);
+    return duals;
+}
+
 ARGAND_SHARED_END
 
 #endif

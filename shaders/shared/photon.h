@@ -66,6 +66,9 @@ CONSTANT real same_surface_cosine = real(0.5);
 
 // Rounds a flux to units of the fixed-point sums.
 FN uint flux_units(real flux, real unit) { return uint(floor(flux / unit + real(0.5))); }
+FN uvec3 flux_units(vec3 flux, real unit) {
+    return uvec3(flux_units(flux.x, unit), flux_units(flux.y, unit), flux_units(flux.z, unit));
+}
 
 ARGAND_SHARED_END
 

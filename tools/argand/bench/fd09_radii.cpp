@@ -35,11 +35,8 @@ void measure_radii(Device& device, const Scene& scene, const RenderSettings& ren
         if ((photons[i].normal & area_sample_bit) != 0) {
             continue;
         }
-        const glm::uvec4 packed = footprints[i];
-        const FootprintDuals duals{unpack_dual(packed.x, packed.y),
-                                   unpack_dual(packed.z, packed.w)};
-        const Footprint f =
-            footprint_of_duals(duals, unpack_photon_normal(photons[i].normal), map.flatness);
+        const Footprint f = footprint_of_duals(
+            unpack_duals(footprints[i]), unpack_photon_normal(photons[i].normal), map.flatness);
         const double radius = parallelogram_side(f.u, f.v);
         sizes.push_back(radius);
         const double in_paper = radius / largest * paper_largest;

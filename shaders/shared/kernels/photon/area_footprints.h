@@ -7,12 +7,10 @@ FN real radius_nearby(uint i) {
     real count = real(0.0);
     for (uint j = first; j <= last; ++j) {
         if ((photons[j].normal & (area_sample_bit | photon_caustic_bit)) == 0u) {
-            uvec4 packed = footprints[j];
+            FootprintDuals duals = unpack_duals(footprints[j]);
             // The area spanned by the dual axes is the inverse of that of the axes, because the
             // axes are perpendicular to the normal and not parallel.
-            sum += real(1.0) / max(parallelogram_side(unpack_dual(packed.x, packed.y),
-                                                      unpack_dual(packed.z, packed.w)),
-                                   real(1e-30));
+            sum += real(1.0) / max(parallelogram_side(duals.a, duals.b), real(1e-30));
             count += real(1.0);
         }
     }

@@ -18,11 +18,8 @@ FN real search_radius2(IN(Bandwidth)) { return real(0.0); }
 
 FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf) {
     uvec4 place = PHOTONS(2u * j);
-    uvec4 packed = FOOTPRINTS(j);
     vec3 offset = q.p - bits_float(uvec3(place));
-    FootprintDuals duals;
-    duals.a = unpack_dual(packed.x, packed.y);
-    duals.b = unpack_dual(packed.z, packed.w);
+    FootprintDuals duals = unpack_duals(FOOTPRINTS(j));
     real x = dot3(duals.a, offset);
     real y = dot3(duals.b, offset);
     if (!(x * x + y * y > real(1.0)) && on_same_side(q, place.w)) {

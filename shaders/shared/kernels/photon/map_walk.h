@@ -25,6 +25,13 @@ FN uint first_node(uint part) {
     return others;
 }
 
+// Squared distance of p from a box, given the words of its corners.
+FN real distance2_to_box(vec3 p, uvec4 low, uvec4 high) {
+    vec3 outside =
+        max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+    return dot3(outside, outside);
+}
+
 // The photons i of a leaf: first <= i < end.
 struct PhotonRange {
     uint first, end;
@@ -40,9 +47,7 @@ FN PhotonRange next_leaf(vec3 p, real radius2, uint limit, INOUT(uint) node, INO
         ++steps;
         uvec4 low = NODES(2u * node);
         uvec4 high = NODES(2u * node + 1u);
-        vec3 outside =
-            max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
-        bool near = dot3(outside, outside) <= radius2;
+        bool near = distance2_to_box(p, low, high) <= radius2;
         bool leaf = (node & 1u) != 0u;
         if (near && leaf) {
             uint first = low.w & leaf_first_mask;

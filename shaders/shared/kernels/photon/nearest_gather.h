@@ -51,13 +51,10 @@ FN uint near_leaf(vec3 p, INOUT(uint) steps) {
         uvec4 low = NODES(2u * left);
         uvec4 high = NODES(2u * left + 1u);
         uint right = high.w;
-        vec3 to_left =
-            max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
+        real to_left = distance2_to_box(p, low, high);
         low = NODES(2u * right);
         high = NODES(2u * right + 1u);
-        vec3 to_right =
-            max(max(bits_float(uvec3(low)) - p, p - bits_float(uvec3(high))), vec3(real(0.0)));
-        node = dot3(to_left, to_left) <= dot3(to_right, to_right) ? left : right;
+        node = to_left <= distance2_to_box(p, low, high) ? left : right;
     }
     return node;
 }

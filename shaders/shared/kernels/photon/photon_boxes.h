@@ -1,11 +1,8 @@
 // Half extents of a photon's ellipsoid, computed from the packed record that gathering reads.
 FN vec3 extent(uint i) {
-    uvec4 packed = footprints[i];
     vec3 normal = unpack_photon_normal(photons[i].normal);
-    FootprintDuals duals;
-    duals.a = unpack_dual(packed.x, packed.y);
-    duals.b = unpack_dual(packed.z, packed.w);
-    return footprint_extent(footprint_of_duals(duals, normal, params.flatness));
+    return footprint_extent(
+        footprint_of_duals(unpack_duals(footprints[i]), normal, params.flatness));
 }
 
 // Computes the box of each leaf, and its distance from the next leaf.

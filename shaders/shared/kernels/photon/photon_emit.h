@@ -28,8 +28,7 @@ FN void main() {
     rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
                            p.direction.x, p.direction.y, p.direction.z, 0u);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);
-    uvec3 units = uvec3(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
-                        flux_units(flux.z, batch.flux_unit));
-    ledgers[slot] = FluxLedger(uvec4(units, 0u), uvec4(0u), uvec4(0u), uvec4(0u));
+    ledgers[slot] =
+        FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u), uvec4(0u));
     active_slots[slot] = slot;
 }

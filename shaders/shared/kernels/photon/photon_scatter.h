@@ -98,10 +98,7 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
     }
 }
 
-FN uvec4 units_of(vec3 flux) {
-    return uvec4(flux_units(flux.x, batch.flux_unit), flux_units(flux.y, batch.flux_unit),
-                 flux_units(flux.z, batch.flux_unit), 0u);
-}
+FN uvec4 units_of(vec3 flux) { return uvec4(flux_units(flux, batch.flux_unit), 0u); }
 
 // Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
 // scheduling. Returns whether the photon may be stored.
