@@ -74,13 +74,11 @@ FN uint atomicMin(uint& to, uint value) {
 #define HitRecord(...) HitRecord{__VA_ARGS__}
 #define LayersRecord(...) LayersRecord{__VA_ARGS__}
 #define LeafSums(...) LeafSums{__VA_ARGS__}
-#define MaterialRecord(...) MaterialRecord{__VA_ARGS__}
 #define NearestRecord(...) NearestRecord{__VA_ARGS__}
 #define PathRecord(...) PathRecord{__VA_ARGS__}
 #define PhotonPathRecord(...) PhotonPathRecord{__VA_ARGS__}
 #define PhotonRange(...) PhotonRange{__VA_ARGS__}
 #define PhotonRecord(...) PhotonRecord{__VA_ARGS__}
-#define QueryBsdfRecord(...) QueryBsdfRecord{__VA_ARGS__}
 #define QueryRecord(...) QueryRecord{__VA_ARGS__}
 #define RayRecord(...) RayRecord{__VA_ARGS__}
 #define ShadowRecord(...) ShadowRecord{__VA_ARGS__}

@@ -98,6 +98,11 @@ FN bool is_solid(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_SOLID) && clear_share(m) > real(0.0) && m.thickness > float32(0.0);
 }
 
+// Share of the surface that is dielectric and reflects by Schlick's approximation.
+FN real layer_share(IN(MaterialRecord) m) {
+    return is_solid(m) ? opaque_share(m) : dielectric_share(m);
+}
+
 // Reflectance of the dielectric's layer at normal incidence, for Schlick's approximation. An index
 // of 0 gives an f0 of 1, as KHR_materials_ior requires.
 FN vec3 dielectric_f0(IN(MaterialRecord) m) {
@@ -106,37 +111,37 @@ FN vec3 dielectric_f0(IN(MaterialRecord) m) {
     return min(f0, vec3(real(1.0))) * real(m.specular);
 }
 
-// What the diffuse lobe and the layer need of a material: everything that does not depend on
-// directions. Loops over directions compute it once.
-struct RoughLobes {
+// Material parameters of the diffuse lobe and of the reflection by metal, layer or Phong lobe
+// (glossy or mirror) that do not depend on directions. Loops over directions compute them once.
+struct ReflectionParameters {
     vec3 base_color;
     // Reflectance at normal incidence of the dielectric's layer; for Phong, of the specular lobe.
     vec3 f0;
     real f90; // of the dielectric's layer
     real opaque_share, metal_share;
-    real layer_share; // of the dielectric under the layer
+    real layer_share; // of the surface: dielectric that reflects by Schlick's approximation
     real alpha;
     real exponent; // of modified Phong, or negative
     uint absent;   // as in MaterialRecord
 };
 
 // Modified Phong is non-metallic and opaque; its roughness is set to match the width of its lobe.
-FN bool is_phong(IN(RoughLobes) r) {
+FN bool is_phong(IN(ReflectionParameters) r) {
     return may_have(r.absent, MATERIAL_PHONG) && r.exponent >= real(0.0);
 }
 FN bool is_phong(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_PHONG) && m.exponent >= float32(0.0);
 }
 
-FN RoughLobes rough_lobes(IN(MaterialRecord) m) {
-    RoughLobes r;
+FN ReflectionParameters reflection_parameters(IN(MaterialRecord) m) {
+    ReflectionParameters r;
     r.base_color = base_color(m);
     r.f0 = is_phong(m) ? vec3(m.specular_r, m.specular_g, m.specular_b) * coverage(m)
                        : dielectric_f0(m);
     r.f90 = real(m.specular);
     r.opaque_share = opaque_share(m);
     r.metal_share = metal_share(m);
-    r.layer_share = is_solid(m) ? r.opaque_share : dielectric_share(m);
+    r.layer_share = layer_share(m);
     r.alpha = ggx_alpha(m);
     r.exponent = real(m.exponent);
     r.absent = m.absent;
@@ -144,7 +149,7 @@ FN RoughLobes rough_lobes(IN(MaterialRecord) m) {
 }
 
 // Reflectance of the dielectric's layer.
-FN vec3 dielectric_fresnel(IN(RoughLobes) r, real cosine) {
+FN vec3 dielectric_fresnel(IN(ReflectionParameters) r, real cosine) {
     if (!may_have(r.absent, MATERIAL_LAYER)) {
         return vec3(real(0.0));
     }
@@ -153,7 +158,7 @@ FN vec3 dielectric_fresnel(IN(RoughLobes) r, real cosine) {
 
 // Reflectance of metal and layer together, without the interface of a solid. For Phong, the albedo
 // of the specular lobe with `cosine` belonging to wo.
-FN vec3 layer_reflectance(IN(RoughLobes) r, real cosine) {
+FN vec3 layer_reflectance(IN(ReflectionParameters) r, real cosine) {
     if (is_phong(r)) {
         return r.f0 * phong_albedo(r.exponent, cosine);
     }
@@ -166,7 +171,7 @@ FN vec3 layer_reflectance(IN(RoughLobes) r, real cosine) {
 
 // Reflectance of the diffuse lobe for light that passes the layer at this cosine to the half
 // vector.
-FN vec3 diffuse_reflectance(IN(RoughLobes) r, real cosine) {
+FN vec3 diffuse_reflectance(IN(ReflectionParameters) r, real cosine) {
     if (is_phong(r)) {
         return r.base_color * r.opaque_share;
     }
@@ -188,8 +193,9 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
     DeltaLobes delta;
     delta.eta = real(1.0);
     delta.cosine_refracted = cosine;
-    RoughLobes rough = rough_lobes(m);
-    delta.reflected = roughness_is_delta(m) ? layer_reflectance(rough, cosine) : vec3(real(0.0));
+    ReflectionParameters reflection = reflection_parameters(m);
+    delta.reflected =
+        roughness_is_delta(m) ? layer_reflectance(reflection, cosine) : vec3(real(0.0));
     delta.transmitted = vec3(real(0.0));
     if (!may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID)) {
         return delta;
@@ -197,7 +203,7 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
     if (!is_solid(m)) {
         delta.transmitted =
             base_color(m) *
-            (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(rough, cosine))));
+            (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(reflection, cosine))));
         return delta;
     }
     vec3 reflectance = vec3(real(1.0));
@@ -223,8 +229,8 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
         lobes |= LOBE_DIFFUSE;
     }
     if (may_have(m, LOBE_GLOSSY | LOBE_MIRROR)) {
-        real layer_share = is_solid(m) ? opaque_share(m) : dielectric_share(m);
-        if (metal_share(m) > real(0.0) || (m.specular > float32(0.0) && layer_share > real(0.0))) {
+        if (metal_share(m) > real(0.0) ||
+            (m.specular > float32(0.0) && layer_share(m) > real(0.0))) {
             lobes |= roughness_is_delta(m) ? LOBE_MIRROR : LOBE_GLOSSY;
         }
     }
@@ -248,13 +254,13 @@ FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS
 // solid.
 FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
-    RoughLobes rough = rough_lobes(m);
+    ReflectionParameters reflection = reflection_parameters(m);
     if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
         // For most wi the half vector stays near wo, where Fresnel's factor is little above f0.
-        albedo += diffuse_reflectance(rough, real(1.0));
+        albedo += diffuse_reflectance(reflection, real(1.0));
     }
     if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
-        albedo += layer_reflectance(rough, wo.z);
+        albedo += layer_reflectance(reflection, wo.z);
     }
     if (wants_lobe(m, lobes, LOBES_DELTA)) {
         DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
@@ -271,10 +277,10 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
 FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec3 p = vec3(real(0.0));
-    RoughLobes rough = rough_lobes(m);
-    vec3 layer = layer_reflectance(rough, cosine);
+    ReflectionParameters reflection = reflection_parameters(m);
+    vec3 layer = layer_reflectance(reflection, cosine);
     if (wants_lobe(m, present, LOBE_DIFFUSE)) {
-        p.x = mean_component(diffuse_reflectance(rough, real(1.0)));
+        p.x = mean_component(diffuse_reflectance(reflection, real(1.0)));
     }
     if (wants_lobe(m, present, LOBE_GLOSSY)) {
         p.y = mean_component(layer);
@@ -295,8 +301,8 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
 
 // Value of the masked diffuse and glossy lobes without the cosine [1/sr], and the solid-angle
 // density of wi given the probabilities of these lobes.
-FN vec3 bsdf_eval_and_pdf(IN(RoughLobes) r, vec3 wo, vec3 wi, uint lobes, vec3 probabilities,
-                          OUT(real) pdf) {
+FN vec3 bsdf_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, uint lobes,
+                          vec3 probabilities, OUT(real) pdf) {
     vec3 f = vec3(real(0.0));
     pdf = real(0.0);
     vec3 h = wo + wi;
@@ -323,19 +329,20 @@ FN vec3 bsdf_eval_and_pdf(IN(RoughLobes) r, vec3 wo, vec3 wi, uint lobes, vec3 p
     return f;
 }
 
-FN vec3 bsdf_eval(IN(RoughLobes) r, vec3 wo, vec3 wi, uint lobes) {
+FN vec3 bsdf_eval(IN(ReflectionParameters) r, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
     return bsdf_eval_and_pdf(r, wo, wi, lobes, vec3(real(0.0)), pdf);
 }
 FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
-    return bsdf_eval(rough_lobes(m), wo, wi, lobes);
+    return bsdf_eval(reflection_parameters(m), wo, wi, lobes);
 }
 
 // Solid-angle density with which bsdf_sample, given this mask, returns wi from a diffuse or glossy
 // lobe.
 FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
-    bsdf_eval_and_pdf(rough_lobes(m), wo, wi, lobes, lobe_probabilities(m, wo.z, lobes), pdf);
+    bsdf_eval_and_pdf(reflection_parameters(m), wo, wi, lobes, lobe_probabilities(m, wo.z, lobes),
+                      pdf);
     return pdf;
 }
 
@@ -416,8 +423,8 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (!(s.wi.z > real(0.0))) {
         return false; // below the surface: energy that single scattering loses
     }
-    RoughLobes rough = rough_lobes(m);
-    vec3 f = bsdf_eval_and_pdf(rough, wo, s.wi, lobes, p, s.pdf);
+    ReflectionParameters reflection = reflection_parameters(m);
+    vec3 f = bsdf_eval_and_pdf(reflection, wo, s.wi, lobes, p, s.pdf);
     if (!(s.pdf > real(0.0))) {
         return false;
     }
@@ -425,7 +432,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         vec3 sum = wo + s.wi;
         // All other factors cancel exactly.
         real cosine = min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0));
-        s.weight = diffuse_reflectance(rough, cosine);
+        s.weight = diffuse_reflectance(reflection, cosine);
     } else {
         s.weight = f * (s.wi.z / s.pdf);
     }

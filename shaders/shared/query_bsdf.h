@@ -7,17 +7,28 @@
 ARGAND_SHARED_BEGIN
 
 // direction: towards the eye; both vectors are packed by pack_unit.
-FN QueryBsdfRecord query_bsdf(IN(RoughLobes) r, uint direction, uint shading_normal) {
-    return QueryBsdfRecord(float32(r.base_color.x), float32(r.base_color.y),
-                           float32(r.base_color.z), float32(r.opaque_share), float32(r.f0.x),
-                           float32(r.f0.y), float32(r.f0.z), float32(r.f90), float32(r.metal_share),
-                           float32(r.layer_share), float32(r.alpha), float32(r.exponent), direction,
-                           shading_normal);
+FN QueryBsdfRecord query_bsdf(IN(ReflectionParameters) r, uint direction, uint shading_normal) {
+    QueryBsdfRecord q;
+    q.base_r = float32(r.base_color.x);
+    q.base_g = float32(r.base_color.y);
+    q.base_b = float32(r.base_color.z);
+    q.opaque_share = float32(r.opaque_share);
+    q.f0_r = float32(r.f0.x);
+    q.f0_g = float32(r.f0.y);
+    q.f0_b = float32(r.f0.z);
+    q.f90 = float32(r.f90);
+    q.metal_share = float32(r.metal_share);
+    q.layer_share = float32(r.layer_share);
+    q.alpha = float32(r.alpha);
+    q.exponent = float32(r.exponent);
+    q.direction = direction;
+    q.shading_normal = shading_normal;
+    return q;
 }
 
 // Leaves `absent` 0, which excludes no lobe; the kernel sets it, as load_material() does.
-FN RoughLobes rough_lobes(IN(QueryBsdfRecord) q) {
-    RoughLobes r;
+FN ReflectionParameters reflection_parameters(IN(QueryBsdfRecord) q) {
+    ReflectionParameters r;
     r.base_color = vec3(q.base_r, q.base_g, q.base_b);
     r.f0 = vec3(q.f0_r, q.f0_g, q.f0_b);
     r.f90 = real(q.f90);

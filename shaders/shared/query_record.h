@@ -16,8 +16,8 @@ struct QueryRecord {
     uint material; // index; queries of different materials share no answer
 };
 
-// BSDF parameters at a query on a non-Lambertian surface (RoughLobes, bsdf.h), and the vectors
-// needed to evaluate it. Scenes without such surfaces have no such records.
+// BSDF parameters at a query on a non-Lambertian surface (ReflectionParameters, bsdf.h), and the
+// vectors needed to evaluate it. Scenes without such surfaces have no such records.
 struct QueryBsdfRecord {
     float32 base_r, base_g, base_b, opaque_share;
     float32 f0_r, f0_g, f0_b, f90;

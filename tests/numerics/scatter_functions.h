@@ -139,7 +139,7 @@ FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
         MaterialRecord m = material_at(a, 6);
         real pdf;
         put3(r, 0,
-             bsdf_eval_and_pdf(rough_lobes(m), vec3_at(a, 0), vec3_at(a, 3), LOBES_ALL,
+             bsdf_eval_and_pdf(reflection_parameters(m), vec3_at(a, 0), vec3_at(a, 3), LOBES_ALL,
                                lobe_probabilities(m, number_at(a, 2), LOBES_ALL), pdf));
         r.y[3] = pdf;
     } else if (function == of_bsdf_eval || function == of_bsdf_pdf) {
@@ -148,7 +148,7 @@ FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
         vec3 wi = vec3_at(a, 3);
         uint lobes = small_at(a, 20);
         real pdf;
-        vec3 f = bsdf_eval_and_pdf(rough_lobes(m), wo, wi, lobes,
+        vec3 f = bsdf_eval_and_pdf(reflection_parameters(m), wo, wi, lobes,
                                    lobe_probabilities(m, wo.z, lobes), pdf);
         // The glossy lobe alone may scale powers that are subnormal, which devices may flush to 0.
         const real negligible = real(1e-30);

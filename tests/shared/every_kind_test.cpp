@@ -4,19 +4,9 @@
 #include "materials.hpp"
 #include "shared/follow.h"
 #include "shared/light_differential.h"
+#include "shared/query_bsdf.h"
 
 #include <gtest/gtest.h>
-
-// As in shaders/cuda/kernel.h: clang before version 16 takes only braces.
-#if defined(__clang__) && __clang_major__ < 16
-// clang-format off
-#define QueryBsdfRecord(...) QueryBsdfRecord{__VA_ARGS__}
-#define MaterialRecord(...) MaterialRecord{__VA_ARGS__}
-// clang-format on
-#endif
-#include "shared/query_bsdf.h"
-#undef QueryBsdfRecord
-#undef MaterialRecord
 
 namespace argand::testing {
 namespace {
@@ -78,7 +68,8 @@ TEST(EveryLobe, HasItsParametersInQueries) {
     std::mt19937 bits(72);
     for (int i = 0; i < 3000; ++i) {
         const MaterialRecord m = i % 3 == 0 ? any_phong(bits) : any_material(bits);
-        const RoughLobes queried = rough_lobes(query_bsdf(rough_lobes(m), 0, 0));
+        const ReflectionParameters queried =
+            reflection_parameters(query_bsdf(reflection_parameters(m), 0, 0));
         const vec3 wo = any_upper(bits), wi = any_upper(bits);
         ASSERT_EQ(bsdf_eval(queried, wo, wi, LOBES_ALL), bsdf_eval(m, wo, wi, LOBES_ALL));
     }

@@ -251,7 +251,8 @@ FN void leave_query(IN(Vertex) v) {
         if (shares) {
             flags |= shared_direction_steps(v) << query_steps_shift;
         }
-        query_bsdfs[v.slot] = query_bsdf(rough_lobes(v.material), direction, shading_normal);
+        query_bsdfs[v.slot] =
+            query_bsdf(reflection_parameters(v.material), direction, shading_normal);
     }
     vec3 p = v.surface.position;
     query_kinds[v.index] = kind;

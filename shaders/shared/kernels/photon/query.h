@@ -19,7 +19,7 @@ struct Query {
     uint most_scatterings; // of a photon that counts; only with final_gather
     bool lambertian;
     vec3 reflectance; // of a Lambertian surface [1/sr]; the next four are for all others
-    RoughLobes surface;
+    ReflectionParameters bsdf;
     uint lobes;
     Frame frame; // of the shading normal
     vec3 wo;
@@ -47,12 +47,13 @@ FN Query make_query(uint slot) {
     q.own_normal = pack_photon_normal(q.normal, false);
     q.front_normal = q.front ? q.own_normal : pack_photon_normal(-q.normal, false);
     if (glossy) { // Lambertian surfaces leave no record and do not use what they read here.
-        QueryBsdfRecord bsdf = query_bsdfs[slot];
-        q.surface = rough_lobes(bsdf);
-        // Not an argument: as one, Mesa 22 leaves the code of absent lobes in the loop.
-        q.surface.absent = ~material_features;
-        q.frame = make_frame(unpack_unit(bsdf.shading_normal));
-        q.wo = to_local(q.frame, unpack_unit(bsdf.direction));
+        QueryBsdfRecord packed = query_bsdfs[slot];
+        q.bsdf = reflection_parameters(packed);
+        // Set here, not passed as an argument: Mesa 22 does not see a specialization constant
+        // through an argument and would keep the code of absent lobes in the loop.
+        q.bsdf.absent = ~material_features;
+        q.frame = make_frame(unpack_unit(packed.shading_normal));
+        q.wo = to_local(q.frame, unpack_unit(packed.direction));
     }
     return q;
 }
@@ -80,7 +81,7 @@ FN vec3 scattered(IN(Query) q, uvec4 carried) {
         return flux * q.reflectance;
     }
     vec3 wi = to_local(q.frame, unpack_unit(carried.w));
-    return flux * (wi.z > real(0.0) ? bsdf_eval(q.surface, q.wo, wi, q.lobes) : vec3(real(0.0)));
+    return flux * (wi.z > real(0.0) ? bsdf_eval(q.bsdf, q.wo, wi, q.lobes) : vec3(real(0.0)));
 }
 
 // place: a photon's first four words.
