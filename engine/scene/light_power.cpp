@@ -16,10 +16,15 @@ double spot_solid_angle(double inner_cone_angle, double outer_cone_angle) {
 }
 
 glm::dvec3 emitted_power(const Light& light) {
-    const double solid_angle =
-        light.kind == LightKind::spot
-            ? spot_solid_angle(light.inner_cone_angle, light.outer_cone_angle)
-            : 4 * std::numbers::pi;
+    double solid_angle = 4 * std::numbers::pi;
+    switch (light.kind) { // without a default, so that the compiler finds a kind that is missing
+    case LightKind::spot:
+        solid_angle = spot_solid_angle(light.inner_cone_angle, light.outer_cone_angle);
+        break;
+    case LightKind::point:
+    case LightKind::directional:
+        break;
+    }
     return glm::dvec3(light.intensity) * solid_angle;
 }
 

@@ -17,9 +17,17 @@ namespace {
 
 LightRecord record_of(const Light& light) {
     LightRecord record{};
-    record.kind = light.kind == LightKind::point  ? light_point
-                  : light.kind == LightKind::spot ? light_spot
-                                                  : light_directional;
+    switch (light.kind) { // without a default, so that the compiler finds a kind that is missing
+    case LightKind::point:
+        record.kind = light_point;
+        break;
+    case LightKind::spot:
+        record.kind = light_spot;
+        break;
+    case LightKind::directional:
+        record.kind = light_directional;
+        break;
+    }
     record.x = light.position.x;
     record.y = light.position.y;
     record.z = light.position.z;
