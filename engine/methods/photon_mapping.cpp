@@ -170,7 +170,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
         build_photon_map(c_.device, c_.on_device, photons_, stored_,
                          {.area_samples = area_samples(c_.on_device.surface_area, radius),
                           .seed = numbers.seed + static_cast<std::uint32_t>(numbers.index),
-                          .leaf_size = c_.settings.footprints.leaf_size,
+                          .leaf_size = c_.settings.leaf_size,
                           .wide_codes = c_.settings.wide_codes,
                           .footprints = footprint_scale_});
     mean_footprints_ = map.mean_footprints;

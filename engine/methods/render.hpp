@@ -31,7 +31,6 @@ struct FootprintSettings {
     bool fixed_smoothing = false;
     bool paper_axes = false; ///< bounds differentials as they are, not the axes of the ellipse
     bool paper_reemission = false; ///< diffuse reflection spaces photons as the paper does
-    std::uint32_t leaf_size = 0;   ///< photons in a leaf of the photon map; 0: automatic
 };
 
 /// Where the numbers come from that decide the first vertices of paths: Owen-scrambled Sobol'
@@ -61,7 +60,8 @@ struct RenderSettings {
     float follow_roughness = 0.25f; ///< glossy lobes up to this roughness are followed from the eye
     /// Edge of the cells that share one density estimate, in radii of estimation; 0: no sharing.
     double query_cell = 0.25;
-    bool wide_codes = false; ///< photons are sorted by 63-bit Morton codes, not 30-bit ones
+    std::uint32_t leaf_size = 0; ///< photons in a leaf of the photon map; 0: 16
+    bool wide_codes = false;     ///< photons are sorted by 63-bit Morton codes, not 30-bit ones
     Sampling photon_sampling = Sampling::sobol;
     bool final_gather = false; ///< the photon map is queried one bounce later, except for caustics
     bool everything = false;   ///< also code, buffers and passes that the scene does not require

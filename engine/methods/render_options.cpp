@@ -68,7 +68,7 @@ Option query_cell_option() {
 Option leaf_size_option() {
     Option option = member_option(
         "leaf-size", "Maximum number of photons in a leaf of the photon map; 0: 16",
-        [](RenderSettings & s) -> auto& { return s.footprints.leaf_size; }, 0, most_photons_a_leaf);
+        [](RenderSettings & s) -> auto& { return s.leaf_size; }, 0, most_photons_a_leaf);
     option.sweep = {.full = {"4", "16", "64"}, .matters = finds_photons};
     return option;
 }
