@@ -98,8 +98,7 @@ std::string Exploration::first_method() const {
 }
 
 bool Exploration::is_worth_trying(const MethodInfo& method) const {
-    return method.abilities.resumable && pilots.count(method.name) == 0 &&
-           has_time(share_of_pilots);
+    return pilots.count(method.name) == 0 && has_time(share_of_pilots);
 }
 
 double Exploration::pilot_time_limit() const {

@@ -19,7 +19,6 @@ struct Abilities {
     bool unbiased = false; ///< the mean of its images is the truth, so that it serves as reference
     bool photon_map = false; ///< it estimates radiance from photons
     bool footprints = false; ///< its photons carry ray differentials
-    bool resumable = true;   ///< it can add passes to an image until an error or a time is reached
 };
 
 /// How the error of an image of n passes falls:

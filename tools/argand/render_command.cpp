@@ -74,13 +74,7 @@ bool is_autotuned(const RenderOptions& options, const CLI::App& command) {
 /// Throws UsageError on options that fix a choice which is left to Argand.
 void check_autotuned(const RenderOptions& options, const CLI::App& command) {
     const MethodTable methods = options.methods;
-    if (is_given(command, "--method")) {
-        if (!options.method().abilities.resumable) {
-            throw UsageError(fmt::format("reading --target-error: method {} cannot add passes to "
-                                         "an image, so that it cannot render to an error",
-                                         options.method().name));
-        }
-    } else {
+    if (!is_given(command, "--method")) {
         // Every photon-mapping candidate must have the option; `path`, which may be picked too, is
         // not checked.
         for (const MethodInfo& method : methods) {
