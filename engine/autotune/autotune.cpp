@@ -138,21 +138,25 @@ bool is_blind_to_caustics(const Scene& scene) {
 AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
                          const UserSet& user_set, const Target& target, const OnPick& on_pick) {
     const Clock::time_point start = Clock::now();
-    const bool path_is_unbiased = !is_blind_to_caustics(scene);
-    const bool user_wants_path =
+    const bool eye_paths_find_all = !is_blind_to_caustics(scene);
+    const bool user_wants_unbiased =
         user_set.method && target.methods.at(base.method).abilities.unbiased;
-    if (user_wants_path && !path_is_unbiased) {
+    if (user_wants_unbiased && !eye_paths_find_all) {
         fail("rendering '{}' to a relMSE: method '{}' misses the caustics of delta lights "
              "(mirrors and glass), so its error does not converge; leave --method out",
              scene.name, base.method);
     }
-    // Path tracing has no final gather: it would not render what the user asked for.
-    Pilots pilots(render, target, user_set.method ? user_wants_path : !base.final_gather);
+    // Without a final gather of its own, the unbiased method does not render what the user asked
+    // for.
+    const MethodInfo* unbiased = target.methods.unbiased();
+    const bool renders_request =
+        !base.final_gather || (unbiased != nullptr && unbiased->option("final-gather") != nullptr);
+    Pilots pilots(render, target, user_set.method ? user_wants_unbiased : renders_request);
     const Exploration exploration{.pilots = pilots,
                                   .base = base,
                                   .user_set = user_set,
                                   .target = target,
-                                  .path_is_unbiased = path_is_unbiased};
+                                  .eye_paths_find_all = eye_paths_find_all};
     return Autotuner(render, scene, pilots, exploration, on_pick, start).run();
 }
 

@@ -18,7 +18,7 @@ struct Exploration {
     const RenderSettings& base;
     const UserSet& user_set;
     const Target& target;
-    bool path_is_unbiased; ///< paths from the eye find all light
+    bool eye_paths_find_all; ///< whether paths from the eye find all light
 
     /// Settings of the next pilot. Nothing if no further pilot is worth its time.
     std::optional<RenderSettings> next_pilot() const;

@@ -14,7 +14,7 @@ namespace {
 // too large a share of the time.
 constexpr double few_passes = 24;
 
-bool is_path(const Pilot& pilot) { return pilot.method->abilities.unbiased; }
+bool is_unbiased(const Pilot& pilot) { return pilot.method->abilities.unbiased; }
 
 bool takes_few_passes(const Pilot& pilot, const Target& target) {
     return pilot.passes > 1 && target.error &&
@@ -54,19 +54,19 @@ RenderResult Pilots::run(const RenderSettings& settings, double seconds,
 }
 
 bool Pilots::improve_truth(double seconds) {
-    const auto path = std::find_if(pilots_.begin(), pilots_.end(), is_path);
-    if (path == pilots_.end()) {
+    const auto unbiased = std::find_if(pilots_.begin(), pilots_.end(), is_unbiased);
+    if (unbiased == pilots_.end()) {
         return true;
     }
-    RenderSettings more = path->settings;
+    RenderSettings more = unbiased->settings;
     const double samples =
-        std::floor(seconds / (pilot_passes * path->seconds_per_pass)) * more.samples;
+        std::floor(seconds / (pilot_passes * unbiased->seconds_per_pass)) * more.samples;
     if (samples < 1) {
         return true;
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
-    PilotControl control(*path->method, more, [](const Pilot&) { return false; });
+    PilotControl control(*unbiased->method, more, [](const Pilot&) { return false; });
     if (render_(more, std::ref(control)).statistics.interrupted) {
         return false;
     }
@@ -91,7 +91,7 @@ bool Pilots::last_is_best() const {
 }
 
 void Pilots::add(Pilot pilot) {
-    if (is_path(pilot)) {
+    if (is_unbiased(pilot)) {
         add_truth(pilot);
     }
     seconds_ += pilot.seconds;
@@ -112,7 +112,7 @@ void Pilots::rank_candidates(bool last_continues) {
     candidates_.clear();
     for (std::size_t i = 0; i < pilots_.size(); ++i) {
         const bool continues_pilot = last_continues && i + 1 == pilots_.size();
-        if (!is_path(pilots_[i]) || with_path_) {
+        if (!is_unbiased(pilots_[i]) || with_unbiased_) {
             candidates_.push_back(
                 candidate_for(pilots_[i], models_[i], target_, seconds_, continues_pilot));
         }
@@ -121,14 +121,14 @@ void Pilots::rank_candidates(bool last_continues) {
               [&](const Candidate& a, const Candidate& b) { return is_better(a, b, target_); });
 }
 
-/// Adds the images of a pilot of `path` to the truth, weighted by their samples. Its initial and
+/// Adds the images of an unbiased pilot to the truth, weighted by their samples. Its initial and
 /// reduced passes are alike, as it has no bandwidth.
-void Pilots::add_truth(const Pilot& path) {
-    if (path.passes < initial_pilot_passes) {
+void Pilots::add_truth(const Pilot& unbiased) {
+    if (unbiased.passes < initial_pilot_passes) {
         return;
     }
-    const double samples = static_cast<double>(path.passes) * path.settings.samples;
-    const ImagePair &a = path.initial.estimated, &b = path.reduced.estimated;
+    const double samples = static_cast<double>(unbiased.passes) * unbiased.settings.samples;
+    const ImagePair &a = unbiased.initial.estimated, &b = unbiased.reduced.estimated;
     const ImagePair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
     truth_ = truth_ ? ImagePair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
                                 weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}

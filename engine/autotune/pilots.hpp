@@ -20,20 +20,21 @@ using Continuation = std::function<OnPass()>;
 /// Runs pilots of one scene and ranks the candidates that follow from them.
 class Pilots {
 public:
-    /// with_path: `path` is a candidate. Otherwise it only measures the bias of other methods.
-    Pilots(const RenderPasses& render, const Target& target, bool with_path)
-        : render_(render), target_(target), with_path_(with_path) {}
+    /// with_unbiased: the unbiased method is a candidate. Otherwise it only measures the bias of
+    /// the others.
+    Pilots(const RenderPasses& render, const Target& target, bool with_unbiased)
+        : render_(render), target_(target), with_unbiased_(with_unbiased) {}
 
     /// Runs one more pilot, which ends early after `seconds`, and the passes that continue from it.
     /// While `continuation` is called, the candidates assume that the last pilot continues.
     RenderResult run(const RenderSettings& settings, double seconds,
                      const Continuation& continuation);
 
-    /// Spends `seconds` on more samples of `path`, to measure the bias of the other methods better.
-    /// Returns false if it was interrupted.
+    /// Spends `seconds` on more samples of the unbiased method, to measure the bias of the other
+    /// methods better. Returns false if it was interrupted.
     bool improve_truth(double seconds);
 
-    /// Estimated light without bias, once `path` has run.
+    /// Estimated light without bias, once the unbiased method has run.
     const std::optional<ImagePair>& truth() const { return truth_; }
 
     /// Number of pilots of this method so far.
@@ -47,18 +48,19 @@ public:
     /// Mean time of a pilot.
     double seconds_each() const { return seconds_ / static_cast<double>(pilots_.size()); }
 
-    /// Best first: one for each pilot, except those of `path` where it is no candidate.
+    /// Best first: one for each pilot, except those of the unbiased method where it is no
+    /// candidate.
     const std::vector<Candidate>& candidates() const { return candidates_; }
 
 private:
     void add(Pilot pilot);
     void fit_models();
     void rank_candidates(bool last_continues);
-    void add_truth(const Pilot& path);
+    void add_truth(const Pilot& unbiased);
 
     const RenderPasses& render_;
     const Target& target_;
-    bool with_path_;
+    bool with_unbiased_;
     std::optional<ImagePair> truth_;
     double truth_samples_ = 0, seconds_ = 0;
     std::vector<Pilot> pilots_;
