@@ -1,5 +1,6 @@
 #include "sweep/measurement.hpp"
 
+#include "base/median.hpp"
 #include "image/metrics.hpp"
 
 #include <algorithm>
@@ -11,12 +12,6 @@ namespace argand {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-double median(std::vector<double> values) {
-    const std::size_t middle = values.size() / 2;
-    std::sort(values.begin(), values.end());
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 Spread spread_of(const std::vector<double>& values) {
     const auto count = static_cast<double>(values.size());

@@ -29,8 +29,6 @@ double median_device_seconds(Device& device, const std::function<void()>& prepar
 /// Median time in seconds of `work` on the host. `prepare` runs before each run and is not timed.
 double median_host_seconds(const std::function<void()>& prepare, const std::function<void()>& work);
 
-double median(std::vector<double> values);
-
 /// Bytes per second that the device reads and writes while copying a buffer that does not fit in
 /// caches.
 double copy_rate(Device& device);

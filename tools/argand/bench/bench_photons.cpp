@@ -1,4 +1,5 @@
 #include "bench_photons.hpp"
+#include "base/median.hpp"
 
 #include "bench_nearest.hpp"
 #include "cornell_scene.hpp"

@@ -1,4 +1,5 @@
 #include "base/clock.hpp"
+#include "base/median.hpp"
 #include "bench.hpp"
 #include "fd09.hpp"
 #include "fd09_reference.hpp"

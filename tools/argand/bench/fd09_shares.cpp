@@ -1,3 +1,4 @@
+#include "base/median.hpp"
 #include "bench.hpp"
 #include "fd09.hpp"
 #include "fd09_map.hpp"

@@ -1,7 +1,8 @@
+#include "base/clock.hpp"
+#include "base/median.hpp"
 #include "bench.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace argand {
 
@@ -10,11 +11,6 @@ namespace {
 constexpr int least_runs = 5;
 constexpr int most_runs = 101;
 constexpr double enough_seconds = 0.3;
-
-double clock_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// Median of the values that `run` returns, over several runs.
 double median_of_runs(const std::function<double()>& run) {
@@ -31,24 +27,18 @@ double median_of_runs(const std::function<double()>& run) {
 
 } // namespace
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 double median_device_seconds(Device& device, const std::function<void()>& prepare,
                              const std::function<void()>& work) {
     return median_of_runs([&] {
         prepare();
         device.reset_stage_times(); // waits
-        const double begin = clock_seconds();
+        const Clock::time_point begin = Clock::now();
         {
             const StageScope stage(device, "bench");
             work();
         }
         const std::vector<StageTime> times = device.stage_times();
-        const double elapsed = clock_seconds() - begin;
+        const double elapsed = seconds_since(begin);
         return device.info().features.timestamps ? times.front().seconds : elapsed;
     });
 }
@@ -57,9 +47,9 @@ double median_host_seconds(const std::function<void()>& prepare,
                            const std::function<void()>& work) {
     return median_of_runs([&] {
         prepare();
-        const double begin = clock_seconds();
+        const Clock::time_point begin = Clock::now();
         work();
-        return clock_seconds() - begin;
+        return seconds_since(begin);
     });
 }
 
