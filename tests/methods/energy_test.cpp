@@ -33,7 +33,7 @@ TEST_P(Energy, FurnaceWithInterreflection) {
     scene.cameras = {parallel_rays({0, 4, 4}, {0, 0, 0}, 0.3f)};
     const RenderResult result = render(scene, settings(512));
     const glm::dvec3 all = mean(layer(result, ""));
-    const double tolerance = GetParam() == "path" ? 0.01 : 0.03;
+    const double tolerance = has_map(GetParam()) ? 0.03 : 0.01;
     EXPECT_RELATIVE(all.r, 1.0, tolerance);
     EXPECT_RELATIVE(all.g, 2.0, tolerance);
     EXPECT_RELATIVE(all.b, 0.5, tolerance);
@@ -60,7 +60,7 @@ TEST_P(Energy, ClosedBoxOfTheScenesFile) {
     Scene scene = load_asset("closed_box.gltf");
     const RenderResult result = render(scene, settings(128));
     // The view shows a corner, where density estimation loses light and path tracing does not.
-    EXPECT_NEAR(mean(layer(result, "")).g, 0.5, GetParam() == "path" ? 0.005 : 0.05);
+    EXPECT_NEAR(mean(layer(result, "")).g, 0.5, has_map(GetParam()) ? 0.05 : 0.005);
 }
 
 TEST_P(Energy, EachBounceAddsItsTerm) {

@@ -50,7 +50,7 @@ TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     RenderSettings reference = settings_of("path", 16, 4096);
     reference.seed = 7;
     const RenderResult expected = render(scene, reference);
-    RenderSettings settings = settings_of(GetParam(), 16, GetParam() == "path" ? 4096 : 128);
+    RenderSettings settings = settings_of(GetParam(), 16, has_map(GetParam()) ? 128 : 4096);
     settings.photons = 200'000;
     const RenderResult found = render(scene, settings);
     expect_same_layers(found, expected, 0.05);

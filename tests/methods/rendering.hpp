@@ -6,6 +6,7 @@
 #include "methods/render.hpp"
 #include "scene/gltf.hpp"
 #include "scenes.hpp"
+#include "support/abilities.hpp"
 
 #include <array>
 #include <string>

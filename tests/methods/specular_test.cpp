@@ -156,7 +156,7 @@ TEST_P(Specular, SunReflectedOntoTheFloorIsACaustic) {
     settings.photons = 200'000;
     const RenderResult result = render(scene, settings);
     // The path tracer cannot find the sun in a mirror; photons can.
-    const double expected = GetParam() == "path" ? 0 : 0.5 / pi;
+    const double expected = is_unbiased(GetParam()) ? 0 : 0.5 / pi;
     EXPECT_NEAR(mean(layer(result, "caustic")).g, expected, 0.03 * 0.5 / pi);
     EXPECT_EQ(mean(layer(result, "direct")).g, 0);
 }

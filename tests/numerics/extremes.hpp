@@ -28,7 +28,7 @@ protected:
                 }
             }
         }
-        if (settings.method != "path") {
+        if (has_map(settings.method)) {
             const FluxSums& flux = result.statistics.flux;
             EXPECT_EQ(result.statistics.photons_emitted,
                       settings.bounces > 0 ? settings.photons : 0);

@@ -1,6 +1,7 @@
 // The same seed gives the same bits however the tool is run. (test_methods, Repeat covers
 // lavapipe's threads and each fallback.)
 #include "results.hpp"
+#include "support/abilities.hpp"
 #include "support/scratch_directory.hpp"
 
 #include <cstdlib>
@@ -23,7 +24,7 @@ std::string render_with(const Run& run, const std::string& method) {
         "env {} '{}' render '{}/assets/cornell_glass.glb' -q --backend {} --size 24x16 --spp 2 "
         "--method {}{} -o '{}'",
         run.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, run.backend, method,
-        method == "path" ? "" : " --photons 5000", output);
+        has_map(method) ? " --photons 5000" : "", output);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return read_text(output);
 }
