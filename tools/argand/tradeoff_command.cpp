@@ -174,7 +174,8 @@ void add_tradeoff_command(CLI::App& app, MethodTable methods) {
         ->check(integer_between(1, 1000));
     command->add_option(
         "--reference", options->reference,
-        "Picture that counts as true (.exr) (default: two renders with the method path)");
+        fmt::format("Picture that counts as true (.exr) (default: two renders with the method {})",
+                    methods.unbiased()->name));
     command->add_option(
         "--reference-2", options->second_reference,
         "A second one with independent noise, so that their noise does not count as error");
