@@ -160,12 +160,12 @@ std::string page(const std::filesystem::path& folder, const Results& results,
 
 } // namespace
 
-void draw_results(const std::filesystem::path& folder, const Results& results) {
+void draw_results(const std::filesystem::path& folder, const Results& results, MethodTable table) {
     if (!std::filesystem::exists(reference_file(folder))) {
         return;
     }
     const Reference reference = reread_reference(reference_file(folder));
-    const Plot plot = lay_out(results);
+    const Plot plot = lay_out(results, table);
     write_atomically(folder / "tradeoff.svg", to_svg_file(plot));
     write_atomically(folder / "tradeoff.html", page(folder, results, reference, plot));
 }

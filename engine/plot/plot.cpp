@@ -20,9 +20,9 @@ constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, fron
 constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
                                                0xd55e00, 0x56b4e9, 0xf0e442};
 
-/// Argand's own methods, which keep their colours, then any others of the results.
-std::vector<std::string> methods_of(const Results& results) {
-    std::vector<std::string> methods = method_names();
+/// The methods of the table, which keep their colours, then any others of the results.
+std::vector<std::string> methods_of(const Results& results, MethodTable table) {
+    std::vector<std::string> methods = table.names();
     for (const Measurement& m : results.measurements) {
         if (std::find(methods.begin(), methods.end(), m.method) == methods.end()) {
             methods.push_back(m.method);
@@ -31,8 +31,7 @@ std::vector<std::string> methods_of(const Results& results) {
     return methods;
 }
 
-std::uint32_t color_of(const Results& results, const std::string& method) {
-    const std::vector<std::string> methods = methods_of(results);
+std::uint32_t color_of(const std::vector<std::string>& methods, const std::string& method) {
     const auto place = std::find(methods.begin(), methods.end(), method) - methods.begin();
     return palette[static_cast<std::size_t>(place) % palette.size()];
 }
@@ -154,7 +153,8 @@ void add_noise(Plot& plot, const Results& results, const Frame& frame) {
     }
 }
 
-void add_bars(Plot& plot, const Results& results, const Frame& frame) {
+void add_bars(Plot& plot, const Results& results, const Frame& frame,
+              const std::vector<std::string>& methods) {
     constexpr double cap = 3;
     for (const Measurement& m : results.measurements) {
         const double deviation = m.rel_mse.deviation;
@@ -164,7 +164,7 @@ void add_bars(Plot& plot, const Results& results, const Frame& frame) {
         const double error = clamped_error(results, m);
         const Place high = frame.at(m.wall_seconds, error + deviation);
         const Place low = frame.at(m.wall_seconds, std::max(error - deviation, frame.y.low));
-        const std::uint32_t color = color_of(results, m.method);
+        const std::uint32_t color = color_of(methods, m.method);
         plot.lines.push_back({LineKind::bar, low, high, color, 1});
         for (const Place& end : {low, high}) {
             plot.lines.push_back(
@@ -173,13 +173,13 @@ void add_bars(Plot& plot, const Results& results, const Frame& frame) {
     }
 }
 
-void add_legend(Plot& plot, const Results& results) {
+void add_legend(Plot& plot, const Results& results, const std::vector<std::string>& methods) {
     double y = top + 10;
     const double x = plot.width - right + 24;
-    for (const std::string& method : methods_of(results)) {
+    for (const std::string& method : methods) {
         if (std::any_of(results.measurements.begin(), results.measurements.end(),
                         [&](const Measurement& m) { return m.method == method; })) {
-            plot.points.push_back({{x, y}, color_of(results, method), true, method});
+            plot.points.push_back({{x, y}, color_of(methods, method), true, method});
             add_label(plot, {x + 14, y}, PlotLabel::Align::left, method, black);
             y += 24;
         }
@@ -205,12 +205,12 @@ void add_front(Plot& plot, const Results& results, const Frame& frame,
 }
 
 void add_points(Plot& plot, const Results& results, const Frame& frame,
-                const std::vector<std::size_t>& front) {
+                const std::vector<std::size_t>& front, const std::vector<std::string>& methods) {
     for (std::size_t i = 0; i < results.measurements.size(); ++i) {
         const Measurement& m = results.measurements[i];
         if (can_be_drawn(m)) {
             plot.points.push_back(
-                {frame.at(m.wall_seconds, clamped_error(results, m)), color_of(results, m.method),
+                {frame.at(m.wall_seconds, clamped_error(results, m)), color_of(methods, m.method),
                  std::find(front.begin(), front.end(), i) != front.end(), title_of(results, m)});
         }
     }
@@ -274,17 +274,18 @@ LogAxis log_axis(const std::vector<double>& values) {
     return axis;
 }
 
-Plot lay_out(const Results& results) {
+Plot lay_out(const Results& results, MethodTable table) {
     Plot plot;
+    const std::vector<std::string> methods = methods_of(results, table);
     const Frame frame = frame_of(plot, results);
     add_axes(plot, frame);
     add_title(plot, results);
     add_noise(plot, results, frame);
-    add_bars(plot, results, frame);
+    add_bars(plot, results, frame, methods);
     const std::vector<std::size_t> front = front_of(results);
     add_front(plot, results, frame, front);
-    add_points(plot, results, frame, front);
-    add_legend(plot, results);
+    add_points(plot, results, frame, front, methods);
+    add_legend(plot, results, methods);
     return plot;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/table.hpp"
 #include "sweep/results.hpp"
 
 #include <cstdint>
@@ -58,8 +59,9 @@ struct Plot {
 /// Lays out a point at the time and the clamped error of each measurement for which both are
 /// finite, with a bar of ± one standard deviation of a single seed. Clamped measurements lie on the
 /// lower edge. A line marks the reference's own error. The Pareto front is drawn in steps, because
-/// everything above and to the right of one of its points is worse.
-Plot lay_out(const Results& results);
+/// everything above and to the right of one of its points is worse. Methods of the table keep their
+/// colours, whichever of them were measured.
+Plot lay_out(const Results& results, MethodTable table = builtin_methods());
 
 /// The plot as an <svg> element for use inside an HTML page. Refers to nothing outside.
 std::string to_svg(const Plot& plot);

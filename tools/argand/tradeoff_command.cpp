@@ -98,7 +98,7 @@ void replot(const TradeoffOptions& options) {
     }
     const std::filesystem::path plot =
         std::filesystem::path(options.replot).replace_extension(".svg");
-    write_atomically(plot, to_svg_file(lay_out(results)));
+    write_atomically(plot, to_svg_file(lay_out(results, options.table)));
     if (!options.quiet) {
         fmt::print("{}: {} settings plotted\n", plot.string(), results.measurements.size());
     }
@@ -139,7 +139,7 @@ void run(TradeoffOptions& options) {
                    {"backend", device.backend}, {"device", device.name},
                    {"driver", device.driver}};
     const Results results = measure(options, scene);
-    draw_results(request.folder, results);
+    draw_results(request.folder, results, options.table);
     if (!results.complete) {
         fail("measuring '{}': interrupted after {} settings; the same command resumes",
              options.scene, results.measurements.size());
