@@ -64,8 +64,10 @@ CONSTANT real disc_half_height = real(0.1);
 // Photons whose normal is at an angle with a cosine below this belong to another surface.
 CONSTANT real same_surface_cosine = real(0.5);
 
-// Rounds a flux to units of the fixed-point sums.
-FN uint flux_units(real flux, real unit) { return uint(floor(flux / unit + real(0.5))); }
+// Rounds a flux to units of the fixed-point sums, which hold at most 2^32 - 2^8.
+FN uint flux_units(real flux, real unit) {
+    return uint(min(floor(flux / unit + real(0.5)), real(4294967040.0)));
+}
 FN uvec3 flux_units(vec3 flux, real unit) {
     return uvec3(flux_units(flux.x, unit), flux_units(flux.y, unit), flux_units(flux.z, unit));
 }

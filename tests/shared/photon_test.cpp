@@ -102,6 +102,7 @@ TEST(FluxUnits, AreRoundedToTheNearest) {
     EXPECT_EQ(flux_units(0, 1e-30f), 0u);
     EXPECT_EQ(flux_units(1e-30f, 1e30f), 0u);
     EXPECT_EQ(flux_units(7.0f, 2.0f), 4u);
+    EXPECT_EQ(flux_units(1e30f, 1.0f), 4294967040u); // saturates instead of wrapping around
     EXPECT_EQ(flux_units(std::ldexp(3.0f, 100), std::ldexp(1.0f, 100)), 3u);
 }
 
