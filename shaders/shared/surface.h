@@ -14,6 +14,8 @@ struct Surface {
     vec3 shading_normal;   // unit, interpolated, within 90° of the direction to the ray's origin
     // The ray came from the side from which the vertices run counter-clockwise.
     bool front;
+    // The ray came from above the horizon of the interpolated normal.
+    bool above_horizon;
 };
 
 // Vertices of a triangle, and their normals; a normal is (0,0,0) where the file gives none.
@@ -36,6 +38,7 @@ FN Surface make_flat_surface(vec3 v0, vec3 v1, vec3 v2, real u, real v, vec3 ray
     s.front = dot3(normal, ray_direction) < real(0.0);
     s.geometric_normal = s.front ? normal : -normal;
     s.shading_normal = s.geometric_normal;
+    s.above_horizon = true;
     return s;
 }
 
@@ -46,7 +49,8 @@ FN Surface make_surface(IN(SmoothTriangle) t, real u, real v, vec3 ray_direction
     shading = dot3(shading, s.geometric_normal) < real(0.0) ? -shading : shading;
     // A shading normal that faces away from the viewer would make the surface black, so the
     // geometric normal replaces it.
-    s.shading_normal = dot3(shading, ray_direction) < real(0.0) ? shading : s.geometric_normal;
+    s.above_horizon = dot3(shading, ray_direction) < real(0.0);
+    s.shading_normal = s.above_horizon ? shading : s.geometric_normal;
     return s;
 }
 

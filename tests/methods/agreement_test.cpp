@@ -60,6 +60,15 @@ TEST_F(Agreement, ShadingNormals) {
     expect_same_mean(scene, 16, 512, "indirect", 0.05);
 }
 
+TEST_F(Agreement, LightBelowTheHorizonOfAShadingNormal) {
+    // The normals of an octahedron's vertices lean away from its faces by up to 55°. Eye paths see
+    // no light from below the interpolated normal's horizon, so photons from there must not count.
+    Scene scene = room_scene();
+    add_sphere(scene, {0, -0.3f, 0}, 0.6f, 2, true, 2);
+    scene.cameras = {look_at({0.1f, 0.2f, 0.95f}, {0, -0.3f, 0}, 40)};
+    expect_same_mean(scene, 16, 4096, "indirect", 0.06);
+}
+
 TEST_F(Agreement, SlowCameraInsideGlass) {
     // The camera and a Lambertian block are in the same glass: light from the block reaches the
     // camera through glass only.
