@@ -4,6 +4,7 @@
 #include "methods/bandwidth.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
+#include "shared/random.h"
 
 #include <algorithm>
 
@@ -30,6 +31,11 @@ PassSplit split(std::uint64_t photons, std::uint32_t samples, std::uint64_t most
     s.photons = std::max<std::uint64_t>((photons + s.passes - 1) / s.passes, 1);
     s.samples = static_cast<std::uint32_t>((samples + s.passes - 1) / s.passes);
     return s;
+}
+
+/// Seed of a pass's area samples, which differs for every seed and pass of an image.
+std::uint32_t area_seed(const PassNumbers& numbers) {
+    return pcg4d({numbers.seed, static_cast<std::uint32_t>(numbers.index), 0xa4ea5u, 0}).x;
 }
 
 void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, double unit) {
@@ -169,7 +175,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
     PhotonMap map =
         build_photon_map(c_.device, c_.on_device, photons_, stored_,
                          {.area_samples = area_samples(c_.on_device.surface_area, radius),
-                          .seed = numbers.seed + static_cast<std::uint32_t>(numbers.index),
+                          .seed = area_seed(numbers),
                           .leaf_size = c_.settings.leaf_size,
                           .wide_codes = c_.settings.wide_codes,
                           .footprints = footprint_scale_});

@@ -157,7 +157,7 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     // A ninth of the samples wanted is enough. A single one cannot be: the step between two samples
     // has 32 bits.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
-    if (fitting <= 1 || 9 * fitting < settings.area_samples) {
+    if (fitting <= 1 || 9 * fitting < settings.area_samples || !(scene.surface_area > 0)) {
         return 0;
     }
     const auto samples = static_cast<std::uint32_t>(fitting);
@@ -326,7 +326,6 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         batch.inverse_total = static_cast<float>(1.0 / static_cast<double>(pass.count));
         batch.bounces = pass.bounces;
         batch.flux_unit = flux_unit;
-        batch.emitter_probability = static_cast<float>(scene.emitter_probability);
         for (;;) {
             batch.capacity = static_cast<std::uint32_t>(w.capacity);
             const std::vector<std::uint32_t> before =

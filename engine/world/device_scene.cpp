@@ -1,7 +1,10 @@
 #include "world/device_scene.hpp"
 
 #include "scene/material_record.hpp"
+#include "shared/follow.h"
 #include "shared/lights.h"
+#include "shared/morton.h"
+#include "shared/photon_records.h"
 
 #include <algorithm>
 #include <array>
@@ -98,9 +101,13 @@ struct HashCorners {
     }
 };
 
-/// Area of each triangle; 0 for duplicates with the same front. Rays hit only the first of them, so
-/// counting both would double the area that photons may lie on.
-std::vector<double> areas_that_can_be_hit(const Scene& scene) {
+/// Area of each triangle on which photons may lie: 0 for mirrors, glass and what is black, and 0
+/// for duplicates with the same front, of which rays hit only the first.
+std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness) {
+    std::vector<bool> stores;
+    for (const Material& material : scene.materials) {
+        stores.push_back(estimated_lobes(material_record(material), follow_roughness) != 0);
+    }
     std::vector<double> areas;
     areas.reserve(scene.triangles.size());
     std::unordered_set<Corners, HashCorners> there;
@@ -114,20 +121,39 @@ std::vector<double> areas_that_can_be_hit(const Scene& scene) {
         }
         std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
         const bool is_new = there.insert(std::bit_cast<Corners>(v)).second;
-        areas.push_back(is_new ? area(scene, i) : 0);
+        areas.push_back(is_new && stores[scene.triangle_material[i]] ? area(scene, i) : 0);
     }
     return areas;
 }
 
-/// For each triangle, the area of all triangles before it, as a fraction of the whole times 2^32.
-std::vector<std::uint32_t> area_sums(const std::vector<double>& areas, double total) {
-    std::vector<std::uint32_t> sums;
+/// The triangles along a space-filling curve, so that equal steps of area are evenly spread over
+/// the surfaces whatever the order of the file.
+std::vector<std::uint32_t> in_curve_order(const Scene& scene, const Bounds& box) {
+    std::vector<std::uint64_t> codes(scene.triangles.size());
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const glm::uvec3& t = scene.triangles[i];
+        const glm::vec3 center =
+            (scene.positions[t.x] + scene.positions[t.y] + scene.positions[t.z]) / 3.0f;
+        codes[i] = std::uint64_t(morton30(center, box.low, box.high)) << 32 | i;
+    }
+    std::sort(codes.begin(), codes.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(codes.size());
+    for (const std::uint64_t code : codes) {
+        order.push_back(static_cast<std::uint32_t>(code));
+    }
+    return order;
+}
+
+std::vector<AreaSumRecord> area_sums(const std::vector<std::uint32_t>& order,
+                                     const std::vector<double>& areas, double total) {
+    std::vector<AreaSumRecord> sums;
     sums.reserve(areas.size());
+    const double scale = 4294967296.0 / std::max(total, 1e-30);
     double sum = 0;
-    for (const double area : areas) {
-        sums.push_back(
-            static_cast<std::uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
-        sum += area;
+    for (const std::uint32_t triangle : order) {
+        sums.push_back({static_cast<std::uint32_t>(std::min(sum * scale, 4294967295.0)), triangle});
+        sum += areas[triangle];
     }
     return sums;
 }
@@ -183,6 +209,8 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
     record.light_count = lit ? static_cast<std::uint32_t>(lights.lights.size()) : 0;
     record.light_weight = static_cast<float>(lights.weight);
     record.sky_probability = lit ? static_cast<float>(lights.sky_weight / lights.weight) : 0;
+    record.emitter_probability =
+        lit ? static_cast<float>(lights.emitter_weight / lights.weight) : 0;
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
     return record;
 }
@@ -236,7 +264,6 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     DeviceScene result;
     result.plan = plan;
     result.power = lights.power;
-    result.emitter_probability = lights.weight > 0 ? lights.emitter_weight / lights.weight : 0;
     result.record = scene_record(scene, lights, center, radius);
     result.record.follow_roughness = plan.request.follow_roughness;
     result.scene = upload<SceneRecord>(device, "scene", std::span(&result.record, 1));
@@ -248,9 +275,10 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     result.materials = upload(device, "materials", material_records(scene));
     result.lights = upload(device, "lights", lights.lights);
     if (plan.needs(Feature::photon_map)) {
-        const std::vector<double> areas = areas_that_can_be_hit(scene);
+        const std::vector<double> areas = areas_for_photons(scene, plan.request.follow_roughness);
         result.surface_area = std::accumulate(areas.begin(), areas.end(), 0.0);
-        result.area_sums = upload(device, "area sums", area_sums(areas, result.surface_area));
+        result.area_sums = upload(
+            device, "area sums", area_sums(in_curve_order(scene, box), areas, result.surface_area));
     } else {
         result.area_sums = nothing(device);
     }

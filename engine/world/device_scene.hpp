@@ -18,12 +18,11 @@ struct DeviceScene {
     Buffer materials;     ///< MaterialRecord
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices; ///< LightChoice per light
-    Buffer area_sums;     ///< uint per triangle: area of all before it over the whole, times 2^32
+    Buffer area_sums;     ///< AreaSumRecord per triangle, along a space-filling curve
     TriangleBvh bvh;
     SceneRecord record;             ///< the host's copy of `scene`
-    double surface_area = 0;        ///< of all triangles that can be hit; 0 without a photon map
+    double surface_area = 0;        ///< of all triangles that store photons; 0 without a photon map
     glm::dvec3 power{0};            ///< of all lights, per channel [candela × steradian]
-    double emitter_probability = 0; ///< that a light chosen by power is an emissive triangle
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
     /// Buffers for the member `scene` of a kernel that shades.

@@ -40,13 +40,19 @@ struct PhotonBatch {
     uint bounces;                // most scatterings of a stored photon
     uint capacity;               // slots for stored photons
     float32 flux_unit;           // flux of one unit of the fixed-point sums
-    float32 emitter_probability; // probability that a photon comes from an emissive triangle
+    uint pad;
 };
 
 struct PhotonAdvanceParams {
     uint stored; // whether the last bounce stored photons
     uint capacity;
     uint pad0, pad1;
+};
+
+// A triangle and the area of all triangles before it, over the whole, times 2^32.
+struct AreaSumRecord {
+    uint before;
+    uint triangle;
 };
 
 struct AreaSampleParams {

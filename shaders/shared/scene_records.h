@@ -15,6 +15,8 @@ struct SceneRecord {
     uint triangle_count;
     // Glossy lobes of at most this roughness are followed from the eye; see follow.h.
     float32 follow_roughness;
+    float32 emitter_probability; // probability that a choice of light selects an emissive triangle
+    uint pad0, pad1, pad2;
 };
 
 // A row of the alias table (Walker 1977) that chooses a light in proportion to its weight.

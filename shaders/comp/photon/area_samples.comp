@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 #include "shared/photon.h"
 #include "shared/sobol.h"
 
-layout(set = 0, binding = 7) readonly buffer AreaSums { uint area_sums[]; };
+layout(set = 0, binding = 7) readonly buffer AreaSums { AreaSumRecord area_sums[]; };
 layout(set = 0, binding = 8) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 9) writeonly buffer Photons { PhotonRecord photons[]; };
 layout(push_constant) uniform Push { AreaSampleParams params; };

@@ -26,6 +26,12 @@ struct Vertex {
 
 FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
 
+// Whether rays can find light. Kernels that may have every kind of light ask the scene.
+FN bool has_sky() { return has_light(light_sky) && scene[0].sky_probability > real(0.0); }
+FN bool has_emitters() {
+    return has_light(light_triangle) && scene[0].emitter_probability > real(0.0);
+}
+
 FN RayRecord no_ray() {
     return RayRecord(real(0.0), real(0.0), real(0.0), -real(1.0), real(0.0), real(0.0), real(1.0),
                      0u);
@@ -102,7 +108,7 @@ FN void add_surface_emission(IN(Vertex) v, real distance) {
 // diffuse surfaces the ray matters only under the sky and near emissive triangles, and it costs a
 // round of tracing. Followed lobes need most of the rays for themselves.
 FN real seek_probability(IN(Vertex) v) {
-    bool often = has_light(light_sky) || (v.estimated & LOBE_GLOSSY) != 0u;
+    bool often = has_sky() || (v.estimated & LOBE_GLOSSY) != 0u;
     return often && v.followed == 0u ? real(1.0) : real(0.25);
 }
 
@@ -119,7 +125,7 @@ FN void split_lobes(INOUT(Vertex) v) {
     // The map accounts for all other light behind the last estimated vertex. But if only shadow
     // rays found lights there, those that touch the surface or that a glossy lobe reflects would
     // become fireflies. One more ray looks for them.
-    bool seeks = has_light(light_triangle) || has_light(light_sky);
+    bool seeks = has_sky() || has_emitters();
     v.onward = !v.ends || seeks ? v.estimated : 0u;
     real estimated_albedo =
         v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))

@@ -1,7 +1,7 @@
 #include "shared/kernels/scene.h"
 
-// Distributes points evenly over all surfaces: one at every step along the triangles' summed areas,
-// and within a triangle by a sequence of its own.
+// Distributes points evenly over the surfaces that store photons: one at every step along the
+// triangles' summed areas, and within a triangle by a sequence of its own.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || counters[counter_stored_slots] + i >= params.capacity) {
@@ -13,17 +13,17 @@ FN void main() {
     uint high = params.triangle_count;
     while (high - low > 1u) {
         uint middle = low + (high - low) / 2u;
-        if (area_sums[middle] <= target) {
+        if (area_sums[middle].before <= target) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    uint begin = area_sums[low];
+    uint begin = area_sums[low].before;
     uint first = begin / params.step + (begin % params.step > 0u ? 1u : 0u);
     vec4 u = sobol_random4(params.seed, low, i - first, 0x80000000u);
     vec2 b = sample_triangle(vec2(u));
-    uvec4 t = triangles[low];
+    uvec4 t = triangles[area_sums[low].triangle];
     vec3 error;
     vec3 p = hit_point(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), b.x, b.y,
                        error);

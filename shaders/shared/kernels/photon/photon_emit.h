@@ -23,7 +23,7 @@ FN void main() {
         real photons = real(1.0) / batch.inverse_total;
         differentials[slot] = differential_record(
             light_differential(light, light_kinds, p, scene[0].radius, photons * probability,
-                               photons * batch.emitter_probability));
+                               photons * scene[0].emitter_probability));
     }
     rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
                            p.direction.x, p.direction.y, p.direction.z, 0u);

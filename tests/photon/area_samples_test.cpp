@@ -1,0 +1,93 @@
+// Where the samples of the surfaces' area lie, which tell estimates how much of a disc is covered.
+#include "device_fixture.hpp"
+#include "methods/scenes.hpp"
+#include "photon/map_queries.hpp"
+#include "photon/photon_map.hpp"
+#include "shared/photon.h"
+
+#include <algorithm>
+#include <random>
+
+namespace argand::testing {
+namespace {
+
+class AreaSamples : public DeviceTest {
+protected:
+    std::vector<PhotonRecord> samples(const Scene& scene, std::uint64_t count,
+                                      std::uint32_t seed = 0) {
+        Device& device = open();
+        const DeviceScene on_device =
+            upload_scene(device, scene, make_plan(scene, {.everything = true}));
+        PhotonWorkspace workspace = make_photon_workspace(device, count);
+        const PhotonMap map =
+            build_photon_map(device, on_device, workspace, store(device, workspace, {}),
+                             {.area_samples = count, .seed = seed});
+        return download<PhotonRecord>(device, map.photons, map.area_samples);
+    }
+};
+
+TEST_F(AreaSamples, LieOnlyWherePhotonsAreStored) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
+    const auto add_at = [&](float y, const Material& material) {
+        add_quad(scene, {-1, y, 1}, {2, 0, 0}, {0, 0, -2}, add_material(scene, material));
+    };
+    add_at(1, mirror());
+    add_at(2, emitter(glm::vec3(1)));
+    add_at(3, glass(1.5f, false));
+    const std::vector<PhotonRecord> found = samples(scene, 1000);
+    double area = 0;
+    for (const PhotonRecord& sample : found) {
+        EXPECT_NEAR(sample.y, 0, 1e-5);
+        area += sample.flux_r;
+    }
+    EXPECT_NEAR(area, 4, 1e-3);
+}
+
+TEST_F(AreaSamples, NoneWherePhotonsAreStoredNowhere) {
+    EXPECT_TRUE(samples(floor_scene(mirror(), 1), 100).empty());
+}
+
+// Cells of one size should hold the same number of samples, whatever the order of the triangles.
+TEST_F(AreaSamples, AreEvenWhateverTheOrderOfTriangles) {
+    constexpr int cells = 16, per_cell = 16, triangles = 96;
+    Scene scene;
+    const std::uint32_t material = add_material(scene, lambertian(glm::vec3(0.5f)));
+    const float step = 2.0f / triangles;
+    for (int x = 0; x < triangles; ++x) {
+        for (int z = 0; z < triangles; ++z) {
+            add_quad(scene,
+                     {-1 + step * static_cast<float>(x), 0, -1 + step * static_cast<float>(z + 1)},
+                     {step, 0, 0}, {0, 0, -step}, material);
+        }
+    }
+    std::mt19937 random(3);
+    std::shuffle(scene.triangles.begin(), scene.triangles.end(), random);
+    std::vector<int> counts(cells * cells);
+    for (const PhotonRecord& sample : samples(scene, cells * cells * per_cell)) {
+        const auto cell = [](float x) {
+            return std::clamp(static_cast<int>((x + 1) / 2 * cells), 0, cells - 1);
+        };
+        ++counts[static_cast<std::size_t>(cell(sample.x) * cells + cell(sample.z))];
+    }
+    double variance = 0;
+    for (const int count : counts) {
+        variance += std::pow(count - per_cell, 2) / (cells * cells);
+    }
+    // In the order of the file it is 12: a triangle has a sample or none, whatever its neighbours
+    // have.
+    EXPECT_LT(variance, 0.3);
+}
+
+TEST_F(AreaSamples, DifferBetweenSeeds) {
+    const Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
+    const std::vector<PhotonRecord> a = samples(scene, 100, 1), b = samples(scene, 100, 2);
+    ASSERT_EQ(a.size(), b.size());
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        same += a[i].x == b[i].x && a[i].z == b[i].z ? 1 : 0;
+    }
+    EXPECT_LT(same, 5u);
+}
+
+} // namespace
+} // namespace argand::testing
