@@ -35,11 +35,11 @@ struct FluxLedger {
 // A batch of the pass's photons, traced together.
 struct PhotonBatch {
     uint seed;
-    uint first, count;           // photons of this batch, numbered through the whole image
-    float32 inverse_total;       // 1 / photons of the whole pass, which share each light's power
-    uint bounces;                // most scatterings of a stored photon
-    uint capacity;               // slots for stored photons
-    float32 flux_unit;           // flux of one unit of the fixed-point sums
+    uint first, count;     // photons of this batch, numbered through the whole image
+    float32 inverse_total; // 1 / photons of the whole pass, which share each light's power
+    uint bounces;          // most scatterings of a stored photon
+    uint capacity;         // slots for stored photons
+    float32 flux_unit;     // flux of one unit of the fixed-point sums
     uint pad;
 };
 

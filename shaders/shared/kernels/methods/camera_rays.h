@@ -14,8 +14,8 @@ FN void main() {
     camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, origin, direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, 0u);
-    paths[slot] =
-        PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index, path_unscaled, 0u);
+    paths[slot] = PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index,
+                             path_unscaled, 0u);
     layers[slot] = LayersRecord(real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0),
                                 real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0));
     active_slots[slot] = slot;
