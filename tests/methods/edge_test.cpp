@@ -243,7 +243,7 @@ TEST_F(PhotonEdge, NoPhotonsLeaveTheDirectLight) {
 
 TEST_F(PhotonEdge, PassesAreIndependentEstimatesOfTheSame) {
     const Scene scene = room_scene();
-    RenderSettings settings = settings_of("photons", 32, 32);
+    RenderSettings settings = settings_of("photons", 16, 16);
     settings.photons = 100'000;
     settings.radius = 0.1;
     const glm::dvec3 whole = mean(layer(render(scene, settings), "indirect"));
@@ -255,7 +255,7 @@ TEST_F(PhotonEdge, PassesAreIndependentEstimatesOfTheSame) {
         EXPECT_GT(result.statistics.passes, 1u);
         EXPECT_EQ(result.statistics.photons_emitted, photons);
         EXPECT_EQ(result.statistics.non_finite, 0u);
-        EXPECT_GE(result.statistics.samples, 32u);
+        EXPECT_GE(result.statistics.samples, 16u);
         const glm::dvec3 passes = mean(layer(result, "indirect"));
         for (int channel = 0; channel < 3; ++channel) {
             EXPECT_RELATIVE(passes[channel], whole[channel], 0.03) << photons;
