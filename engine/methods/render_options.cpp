@@ -76,8 +76,8 @@ Option leaf_size_option() {
 Option wide_codes_option() {
     Option option = member_option(
         "wide-codes",
-        "Sort photons by 63-bit codes instead of 30-bit ones: for scenes much larger than the part "
-        "in view",
+        "Sort photons by 63-bit codes instead of 30-bit ones: for photons in a few places far from "
+        "each other",
         [](RenderSettings & s) -> auto& { return s.wide_codes; });
     option.sweep = {.full = {"on"}, .matters = finds_photons};
     return option;

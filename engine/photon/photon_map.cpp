@@ -11,6 +11,7 @@
 #include "kernels/photon_footprints.hpp"
 #include "kernels/photon_leaves.hpp"
 #include "kernels/photon_order.hpp"
+#include "kernels/photon_points.hpp"
 #include "kernels/photon_scatter.hpp"
 #include "kernels/photon_tally.hpp"
 #include "parallel/compact.hpp"
@@ -19,6 +20,7 @@
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
+#include "shared/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -157,12 +159,15 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     // A ninth of the samples wanted is enough. A single one cannot be: the step between two samples
     // has 32 bits.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
-    if (fitting <= 1 || 9 * fitting < settings.area_samples || !(scene.surface_area > 0)) {
+    if (fitting <= 1 || 9 * fitting < settings.area_samples || !(scene.surface_area > 0) ||
+        stored.photons == 0) {
         return 0;
     }
     const auto samples = static_cast<std::uint32_t>(fitting);
     const StageScope stage(device, "sample areas");
     const auto step = static_cast<std::uint32_t>((1ull << 32) / samples);
+    // A random start, so that the number of samples on a triangle is right on average.
+    const std::uint64_t random = pcg4d({settings.seed, samples, 0x0ff5e7u, 0}).x;
     dispatch(device,
              kernels::area_samples{
                  .scene = scene.bindings(),
@@ -174,18 +179,25 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
                             .step = step,
                             .area = static_cast<float>(scene.surface_area * step / 4294967296.0),
                             .triangle_count = scene.record.triangle_count,
-                            .capacity = static_cast<std::uint32_t>(w.capacity)}},
+                            .capacity = static_cast<std::uint32_t>(w.capacity),
+                            .offset = static_cast<std::uint32_t>(random * step >> 32)}},
              samples);
     upload_word(device, w.counters, counter_stored_slots,
                 static_cast<std::uint32_t>(stored.slots + samples));
     return samples;
 }
 
-/// Sorts the places of the records by code into w.order, and counts the records.
-void sort_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w, bool wide_codes) {
+/// Sorts the places of the records by code into w.order, and counts the records. boxes: memory for
+/// a box per record.
+void sort_photons(Device& device, PhotonWorkspace& w, const Buffer& boxes, bool wide_codes) {
     const Count slots(w.counters, counter_stored_slots, w.capacity);
+    const Buffer bounds = device.scratch("photon map bounds", sizeof(BoxRecord));
     dispatch(device,
-             kernels::photon_codes{.scene = scene.scene,
+             kernels::photon_points{.counters = w.counters, .photons = w.photons, .boxes = boxes},
+             slots);
+    reduce_box(device, boxes, bounds, 0, slots);
+    dispatch(device,
+             kernels::photon_codes{.bounds = bounds,
                                    .counters = w.counters,
                                    .photons = w.photons,
                                    .codes = w.codes,
@@ -372,7 +384,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     map.area_samples = add_area_samples(device, scene, w, stored, settings);
     {
         const StageScope stage(device, "sort photons");
-        sort_photons(device, scene, w, settings.wide_codes);
+        sort_photons(device, w, map.photons, settings.wide_codes);
     }
     const StageScope stage(device, "build photon map");
     dispatch_indirect(

@@ -79,8 +79,8 @@ struct PhotonMapSettings {
     std::uint64_t area_samples = 0; ///< wanted; the map has none if there is no room for them
     std::uint32_t seed = 0;         ///< of the area samples
     std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, up to most_photons_a_leaf; 0: 16
-    bool wide_codes = false;        ///< 63-bit Morton codes, for scenes much larger than the part
-                                    ///< of them that holds photons
+    bool wide_codes = false;        ///< 63-bit Morton codes, for photons that lie in a few places
+                                    ///< far from each other
     std::optional<FootprintScale> footprints; ///< leaves' boxes bound footprints of this scale;
                                               ///< none: they bound points
 };

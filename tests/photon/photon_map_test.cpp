@@ -121,6 +121,39 @@ TEST_P(PhotonMapTree, LeavesAreTheLargestSubtreesBelowTheThreshold) {
     }
 }
 
+// Codes span the cube around the photons: a large scene, whose parts far away hold area samples at
+// most, does not make leaves larger.
+TEST_P(PhotonMapTree, LeavesAreAsSmallInALargeScene) {
+    Device& device = open_variant();
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> coordinate(-0.5f, 0.5f);
+    std::vector<PhotonRecord> photons(10'000);
+    for (PhotonRecord& p : photons) {
+        p.x = coordinate(random);
+        p.y = coordinate(random);
+    }
+    std::vector<double> areas;
+    for (const float radius : {1.0f, 10'000.0f}) {
+        DeviceScene scene = unit_ball(device);
+        scene.record.radius = radius;
+        scene.scene = upload(device, "scene", std::vector<SceneRecord>{scene.record});
+        PhotonWorkspace workspace = make_photon_workspace(device, photons.size());
+        const PhotonMap map = build_photon_map(device, scene, workspace,
+                                               testing::store(device, workspace, photons), {});
+        const auto leaves =
+            download<std::uint32_t>(device, map.counters, counter_count)[counter_leaves];
+        double area = 0;
+        const auto nodes = download<LbvhNode>(device, map.lbvh.nodes, 2 * leaves);
+        for (std::size_t i = 0; i < leaves; ++i) {
+            const LbvhNode& node = nodes[2 * i + 1];
+            area += double(node.high_x - node.low_x) * double(node.high_y - node.low_y);
+        }
+        areas.push_back(area);
+    }
+    EXPECT_EQ(areas[0], areas[1]);
+    EXPECT_LT(areas[0], 1); // of the square in which the photons lie
+}
+
 /// Everything that a map consists of on the device.
 std::vector<std::vector<std::uint32_t>> contents(Device& device, const PhotonMap& map) {
     const auto counters = download<std::uint32_t>(device, map.counters, counter_count);

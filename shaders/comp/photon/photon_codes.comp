@@ -3,9 +3,8 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/morton.h"
 #include "shared/photon.h"
-#include "shared/scene_records.h"
 
-layout(set = 0, binding = 0) readonly buffer SceneBlock { SceneRecord scene[]; };
+layout(set = 0, binding = 0) readonly buffer Bounds { vec4 bounds[]; };
 layout(set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 2) readonly buffer Photons { PhotonRecord photons[]; };
 layout(set = 0, binding = 3) writeonly buffer Codes { uint codes[]; };

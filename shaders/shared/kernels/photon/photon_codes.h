@@ -1,14 +1,13 @@
-// Codes order photons along a space-filling curve, with caustic photons behind all others. Empty
-// slots get the largest code and go to the end.
+// Codes order records along a space-filling curve through the cube around all photons, with caustic
+// photons behind all others. Empty slots get the largest code and go to the end.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored_slots]) {
         return;
     }
     PhotonRecord p = photons[i];
-    vec3 center = vec3(scene[0].center_x, scene[0].center_y, scene[0].center_z);
-    vec3 low = center - scene[0].radius;
-    vec3 high = center + scene[0].radius;
+    vec3 low = vec3(bounds[0]);
+    vec3 high = low + vec3(max_component(vec3(bounds[1]) - low));
     vec3 position = vec3(p.x, p.y, p.z);
     bool empty = p.normal == no_photon;
     uint kind = photon_is_caustic(p.normal) ? photon_kind_bit : 0u;
