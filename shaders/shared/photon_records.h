@@ -62,7 +62,8 @@ struct AreaSampleParams {
     float32 area; // of one sample
     uint triangle_count;
     uint capacity;
-    uint pad0, pad1;
+    uint offset; // of the first sample, below `step`
+    uint pad;
 };
 
 struct FluxSumParams {

@@ -44,9 +44,9 @@ TEST_F(Sharing, SlowIsAsNearToWhatTheMapHolds) {
 
 TEST_F(Sharing, LargeCellsBlurButLoseNothing) {
     const Scene scene = load_asset("cornell_area.glb");
-    const RenderResult own = with_cells(scene, "photons", 0);
-    const RenderResult small = with_cells(scene, "photons", 0.1);
-    const RenderResult large = with_cells(scene, "photons", 2);
+    const RenderResult own = with_cells(scene, "photons", 0, 32);
+    const RenderResult small = with_cells(scene, "photons", 0.1, 32);
+    const RenderResult large = with_cells(scene, "photons", 2, 32);
     EXPECT_LT(4 * error(small, own), error(large, own));
     EXPECT_RELATIVE(mean(layer(large, "indirect")).g, mean(layer(own, "indirect")).g, 0.03);
 }

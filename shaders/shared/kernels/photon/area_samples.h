@@ -7,7 +7,7 @@ FN void main() {
     if (i >= params.count || counters[counter_stored_slots] + i >= params.capacity) {
         return;
     }
-    uint target = i * params.step;
+    uint target = i * params.step + params.offset;
     // The last triangle that starts at or before the target.
     uint low = 0u;
     uint high = params.triangle_count;
@@ -19,7 +19,8 @@ FN void main() {
             high = middle;
         }
     }
-    uint begin = area_sums[low].before;
+    // The triangle's first sample is the first target at or behind its start.
+    uint begin = max(area_sums[low].before, params.offset) - params.offset;
     uint first = begin / params.step + (begin % params.step > 0u ? 1u : 0u);
     vec4 u = sobol_random4(params.seed, low, i - first, 0x80000000u);
     vec2 b = sample_triangle(vec2(u));
