@@ -20,9 +20,9 @@ struct DeviceScene {
     Buffer light_choices; ///< LightChoice per light
     Buffer area_sums;     ///< AreaSumRecord per triangle, along a space-filling curve
     TriangleBvh bvh;
-    SceneRecord record;             ///< the host's copy of `scene`
-    double surface_area = 0;        ///< of all triangles that store photons; 0 without a photon map
-    glm::dvec3 power{0};            ///< of all lights, per channel [candela × steradian]
+    SceneRecord record;      ///< the host's copy of `scene`
+    double surface_area = 0; ///< of all triangles that store photons; 0 without a photon map
+    glm::dvec3 power{0};     ///< of all lights, per channel [candela × steradian]
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
     /// Buffers for the member `scene` of a kernel that shades.
