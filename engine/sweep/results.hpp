@@ -16,6 +16,8 @@ struct Failure {
 };
 
 /// The results of a sweep of one scene at one size, on one device, against one reference.
+// The check takes an assertion in nlohmann::json's moves for an exception.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct Results {
     nlohmann::ordered_json run;          ///< what was measured; a sweep resumes only if it is equal
     std::uint64_t reference_samples = 0; ///< per pixel; 0: unknown
