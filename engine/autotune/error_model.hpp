@@ -6,8 +6,8 @@
 namespace argand {
 
 /// relMSE of an image of n passes by an ErrorLaw (methods/method_info.hpp). A render that continues
-/// a pilot made its first `initial_passes` passes with the initial
-/// bandwidth, that of a render of one pass. Their noise and bias are part of the mean.
+/// a pilot made its first `initial_passes` passes with the initial bandwidth, that of a render of
+/// one pass. Their noise and bias are part of the mean.
 struct ErrorModel {
     double fixed = 0;   ///< variance of one pass that no bandwidth changes: eye paths, direct light
     double density = 0; ///< variance of one pass at the initial bandwidth: photons

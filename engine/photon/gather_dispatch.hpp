@@ -49,7 +49,7 @@ void run_queries(Device& device, const PhotonMap& map, const PhotonQueries& quer
         device.fill(unfinished, 0);
         run(params, query_bindings(map, queries, unfinished));
         params.first = 0;
-    } while (download<std::uint32_t>(device, unfinished, 1)[0] > 0);
+    } while (download_word(device, unfinished) > 0);
 }
 
 /// The same with run.operator()<Kernel>(params, bindings): Kernel reads the map from storage

@@ -51,7 +51,8 @@ FN RayRecord make_ray(IN(Surface) surface, vec3 direction, real t_max) {
 
 FN uint vertices_of(IN(PathRecord) path) { return path.vertices & path_vertices_mask; }
 
-// Multiplies the scale that refraction has given to the path's throughput. Returns it.
+// Records that refraction scales the path's throughput, and returns by how much it has done so in
+// all.
 FN real scale_by_refraction(INOUT(PathRecord) path, IN(MaterialRecord) m, real scale) {
     if (!may_have(m, MATERIAL_SOLID)) {
         return real(1.0);
