@@ -1,5 +1,6 @@
 #include "methods/bandwidth.hpp"
 
+#include "base/median.hpp"
 #include "photon/radius.hpp"
 #include "photon/smoothing.hpp"
 #include "shared/footprint.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace argand {
 
@@ -70,6 +72,27 @@ constexpr double footprints_for_disc = 1.7;
 // or more get no radius of their own.
 constexpr double sharpest_caustic = 0.17;
 
+/// Largest radius at which an estimate still tells one part of what is in view from another. Where
+/// few photons arrive, the learnt radius would reach through the walls.
+double largest_radius(std::span<const glm::vec3> queries) {
+    constexpr double share_of_view = 0.25;
+    glm::dvec3 middle;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> places;
+        for (const glm::vec3& query : queries) {
+            places.push_back(query[axis]);
+        }
+        middle[axis] = median(std::move(places));
+    }
+    std::vector<double> distances;
+    for (const glm::vec3& query : queries) {
+        distances.push_back(glm::length(glm::dvec3(query) - middle));
+    }
+    const double extent = median(std::move(distances));
+    // All queries are at one point: nothing is known about the extent of what is in view.
+    return extent > 0 ? share_of_view * extent : std::numeric_limits<double>::infinity();
+}
+
 /// The radii for a picture. That of caustics is measured where caustic photons lie, because that is
 /// where caustics are.
 GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const glm::vec3> queries,
@@ -95,7 +118,7 @@ GatherRadii radii_from(std::span<const PhotonRecord> unordered, std::span<const 
     GatherRadii radii;
     // Without photons, or with all of them at one point, there is nothing to learn from.
     const double learnt = radius_of(photons, queries, false);
-    radii.indirect = learnt > 0 ? learnt : 0.01 * scene.radius;
+    radii.indirect = learnt > 0 ? std::min(learnt, largest_radius(queries)) : 0.01 * scene.radius;
     const double of_caustics = radius_of(caustic, in_caustics, true);
     // Most of a caustic's photons lie where it is brightest. With a smaller radius the few
     // elsewhere would be seen one by one. A radius that is little smaller than the other gains

@@ -6,6 +6,7 @@
 #include "kernels/shadow_add.hpp"
 #include "parallel/compact.hpp"
 #include "shared/geometry_records.h"
+#include "shared/random.h"
 
 #include <algorithm>
 
@@ -98,9 +99,31 @@ void advance(Device& device, EyeWorkspace& w, const Count& active) {
     std::swap(w.active, w.next_active);
 }
 
-/// Traces the paths of a batch to their end.
+/// Adds the lights that the last shadow rays found to a list.
+void collect_found(Device& device, const EyeWorkspace& w, std::vector<FoundLight>& found) {
+    const std::uint32_t count = download_word(device, w.counts);
+    const auto shadows = download<ShadowRecord>(device, w.shadows, w.slots);
+    const auto rays = download<RayRecord>(device, w.shadow_rays, w.slots);
+    const auto occluded = download<std::uint32_t>(device, w.occluded, w.slots);
+    for (const std::uint32_t slot : download<std::uint32_t>(device, w.active, count)) {
+        const RayRecord& ray = rays[slot];
+        if (occluded[slot] != 0 || !(ray.t_max > 0)) {
+            continue;
+        }
+        const ShadowRecord& s = shadows[slot];
+        found.push_back({.light = s.light,
+                         .path = slot,
+                         .indirect = (s.layers & 3u) == layer_indirect,
+                         .radiance = double(s.estimated_r) + s.estimated_g + s.estimated_b +
+                                     s.followed_r + s.followed_g + s.followed_b,
+                         .point = {ray.origin_x, ray.origin_y, ray.origin_z}});
+    }
+}
+
+/// Traces the paths of a batch to their end. Adds the lights that shadow rays find to `found`.
 void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera,
-                 const EyeBatch& batch, const PhotonLookup* lookup) {
+                 const EyeBatch& batch, const PhotonLookup* lookup,
+                 std::vector<FoundLight>* found = nullptr) {
     const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
     device.fill(w.traversal.unfinished, 0);
     start_paths(device, w, camera, batch);
@@ -113,6 +136,9 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         shade(device, scene, w, batch, lookup != nullptr);
         if (scene.plan.needs(Feature::direct_light)) {
             add_direct_light(device, scene, w, active);
+            if (found != nullptr) {
+                collect_found(device, w, *found);
+            }
         }
         if (lookup != nullptr) {
             answer_queries(device, scene.plan, w.queries,
@@ -209,6 +235,29 @@ private:
     std::size_t slots_;
 };
 
+/// One sample for each pixel of a small version of the image.
+EyeBatch batch_of_small_image(const EyeWorkspace& w, const RenderSettings& settings,
+                              int longer_side) {
+    const int longer = std::max(settings.width, settings.height);
+    EyeBatch batch{};
+    batch.seed = settings.seed;
+    batch.width = static_cast<std::uint32_t>(std::max(settings.width * longer_side / longer, 1));
+    batch.height = static_cast<std::uint32_t>(std::max(settings.height * longer_side / longer, 1));
+    batch.pixels =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(batch.width * batch.height, w.slots));
+    batch.samples = 1;
+    batch.bounces = settings.bounces;
+    batch.query_step = 1;
+    batch.query_weight = 1;
+    return batch;
+}
+
+Buffer camera_of(Device& device, const EyeBatch& batch, const Camera& camera) {
+    const CameraRecord record =
+        camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
+    return upload<CameraRecord>(device, "camera", std::span(&record, 1));
+}
+
 } // namespace
 
 EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
@@ -272,26 +321,31 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
 
 std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                                       const RenderSettings& settings, const Camera& camera) {
-    constexpr int longer_side = 48;
-    const int longer = std::max(settings.width, settings.height);
-    EyeBatch batch{};
-    batch.seed = settings.seed;
-    batch.width = static_cast<std::uint32_t>(std::max(settings.width * longer_side / longer, 1));
-    batch.height = static_cast<std::uint32_t>(std::max(settings.height * longer_side / longer, 1));
-    batch.pixels =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(batch.width * batch.height, w.slots));
-    batch.samples = 1;
-    batch.bounces = settings.bounces;
-    batch.query_step = 1;
-    batch.query_weight = 1;
-    const CameraRecord record =
-        camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
-    const Buffer small_picture = upload<CameraRecord>(device, "camera", std::span(&record, 1));
+    const EyeBatch batch = batch_of_small_image(w, settings, 48);
+    const Buffer small_image = camera_of(device, batch, camera);
     QueryCollector collector(device, batch.pixels);
     const PhotonMap no_map;
     const PhotonLookup lookup{.map = no_map, .estimator = collector};
-    trace_paths(device, scene, w, small_picture, batch, &lookup);
+    trace_paths(device, scene, w, small_image, batch, &lookup);
     return std::move(collector.points);
+}
+
+FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                          const RenderSettings& settings, const Camera& camera) {
+    constexpr std::uint64_t least_paths = 1024, most_paths = 16384;
+    constexpr std::uint64_t share_of_image = 16;
+    EyeBatch batch = batch_of_small_image(w, settings, 32);
+    // These paths must not be the image's own: a choice that depends on them would bias it.
+    batch.seed = pcg4d({settings.seed, 0x11947u, 0, 0}).x;
+    const std::uint64_t paths =
+        std::clamp(w.film.pixels() * settings.samples / share_of_image, least_paths, most_paths);
+    batch.samples = static_cast<std::uint32_t>(
+        std::max<std::uint64_t>(std::min(paths, w.slots) / batch.pixels, 1));
+    const Buffer small_image = camera_of(device, batch, camera);
+    FoundLights found;
+    found.paths_per_pixel = batch.samples;
+    trace_paths(device, scene, w, small_image, batch, nullptr, &found.lights);
+    return found;
 }
 
 } // namespace argand

@@ -1,6 +1,7 @@
 #include "methods/photon_mapping.hpp"
 
 #include "base/error.hpp"
+#include "base/median.hpp"
 #include "methods/bandwidth.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
@@ -68,7 +69,9 @@ public:
                                   .stored = *first_,
                                   .queries = queries,
                                   .passes = static_cast<double>(split_.passes)};
-            return strategy_->learn(first, c_.settings);
+            const Bandwidth learnt = strategy_->learn(first, c_.settings);
+            sample_areas_in_view(queries, strategy_->typical_radius(learnt));
+            return learnt;
         });
     }
 
@@ -88,6 +91,7 @@ public:
 private:
     PhotonPass emission_of(const PassNumbers& numbers) const;
     void make_workspace();
+    void sample_areas_in_view(const std::vector<glm::vec3>& queries, double radius);
     std::optional<StoredPhotons> trace(const PassNumbers& numbers);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
@@ -130,7 +134,7 @@ void PhotonMapping::make_workspace() {
                                      c_.on_device.plan.needs(Feature::differentials));
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
-    const auto& power = c_.on_device.power;
+    const auto& power = c_.on_device.light_table.power;
     flux_unit_ = std::max({power.r, power.g, power.b}) / static_cast<double>(split_.photons) /
                  units_per_photon;
 }
@@ -167,6 +171,22 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     }
 }
 
+/// Samples areas only where most of what is in view lies, if the radius needs more samples than
+/// there is room for on all surfaces: in a room on a large ground, in the room and before it.
+void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec3>& queries, double radius) {
+    constexpr double reach = 4; // over the median distance of what is in view
+    const DeviceScene& scene = c_.on_device;
+    if (queries.empty() || has_room_for_area_samples(scene.surface_area, radius)) {
+        return;
+    }
+    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
+    std::vector<double> distances;
+    for (const glm::vec3& query : queries) {
+        distances.push_back(glm::distance(query, eye));
+    }
+    sample_areas(c_.device, c_.scene, c_.on_device, {eye, reach * median(std::move(distances))});
+}
+
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
     footprint_scale_ =
         strategy_->footprints(bandwidth_, c_.settings.footprints,
@@ -174,7 +194,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
     const double radius = strategy_->typical_radius(bandwidth_);
     PhotonMap map =
         build_photon_map(c_.device, c_.on_device, photons_, stored_,
-                         {.area_samples = area_samples(c_.on_device.surface_area, radius),
+                         {.area_samples = area_samples(c_.on_device.sampled_area, radius),
                           .seed = area_seed(numbers),
                           .leaf_size = c_.settings.leaf_size,
                           .wide_codes = c_.settings.wide_codes,

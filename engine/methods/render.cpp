@@ -1,6 +1,7 @@
 #include "methods/render.hpp"
 
 #include "base/error.hpp"
+#include "methods/light_learning.hpp"
 #include "methods/method.hpp"
 #include "methods/next_pass.hpp"
 
@@ -19,6 +20,7 @@ RenderContext make_context(Device& device, const Scene& scene, const RenderSetti
     context.eye = make_eye_workspace(
         device, context.on_device.plan, settings,
         camera_record(scene.cameras[settings.camera], settings.width, settings.height));
+    learn_lights(context);
     return context;
 }
 

@@ -3,7 +3,12 @@
 #include "kernels/query_bindings.hpp"
 #include "photon/estimator.hpp"
 
+#include <algorithm>
+
 namespace argand {
+
+// Its square is finite.
+constexpr double largest_corrected_distance = 1e18;
 
 /// What every gather passes to its kernel; the caller adds the parameters of its estimator.
 inline PhotonGatherParams gather_params(const PhotonMap& map, const PhotonQueries& queries,
@@ -11,7 +16,12 @@ inline PhotonGatherParams gather_params(const PhotonMap& map, const PhotonQuerie
     return {.budget = budget,
             .count_index = queries.count.index,
             .boundary_correction = map.area_samples > 0 ? 1u : 0u,
-            .part = queries.part};
+            .part = queries.part,
+            .corrected_x = map.corrected.center.x,
+            .corrected_y = map.corrected.center.y,
+            .corrected_z = map.corrected.center.z,
+            .corrected_distance =
+                static_cast<float>(std::min(map.corrected.reach, largest_corrected_distance))};
 }
 
 /// Buffers for the member `query` of a gather's kernel.

@@ -18,6 +18,7 @@ struct PhotonMap {
     Buffer photons;                 ///< PhotonRecord: photons and area samples
     Lbvh lbvh;                      ///< over the photons, in their order, some to a leaf
     std::uint32_t area_samples = 0; ///< among the photons
+    SampledPart corrected;          ///< in which area samples surround every query
     Buffer footprints;              ///< uvec4 per photon: dual axes (pack_dual of
                                     ///< shared/footprint.h); empty: none
     float flatness = 1;             ///< of the footprints

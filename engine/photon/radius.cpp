@@ -53,12 +53,27 @@ double median_radius(std::span<const PhotonRecord> photons, std::span<const glm:
     return *middle;
 }
 
-std::uint64_t area_samples(double surface_area, double radius) {
+namespace {
+
+constexpr double most_area_samples = 1 << 20;
+
+double wanted_area_samples(double surface_area, double radius) {
     constexpr double samples_in_disc = 90;
-    constexpr double most = 1 << 20;
-    // Discs that would need more samples are so small that edges hardly matter.
-    const double wanted = samples_in_disc * surface_area / (std::numbers::pi * radius * radius);
-    return wanted <= most ? static_cast<std::uint64_t>(wanted) : 0;
+    return samples_in_disc * surface_area / (std::numbers::pi * radius * radius);
+}
+
+} // namespace
+
+bool has_room_for_area_samples(double surface_area, double radius) {
+    return wanted_area_samples(surface_area, radius) <= most_area_samples;
+}
+
+std::uint64_t area_samples(double surface_area, double radius) {
+    constexpr double enough = 0.25; // of the samples
+    const double wanted = wanted_area_samples(surface_area, radius);
+    return enough * wanted <= most_area_samples
+               ? static_cast<std::uint64_t>(std::min(wanted, most_area_samples))
+               : 0;
 }
 
 } // namespace argand

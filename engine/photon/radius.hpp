@@ -20,8 +20,12 @@ double photons_in_disc(double photons_stored, bool caustic = false);
 double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points,
                      glm::vec3 low, glm::vec3 high, double in_disc);
 
-/// Number of samples of surfaces of this area that are enough to estimate how much of a disc of
-/// this radius lies on them; 0 if the disc is too small for that.
+/// Whether a map has room for the samples of surfaces of this area that discs of this radius want.
+bool has_room_for_area_samples(double surface_area, double radius);
+
+/// Number of samples of surfaces of this area from which to estimate how much of a disc of this
+/// radius lies on them: 90 in a disc, or down to a quarter of that if a map has no room for more; 0
+/// if it has no room for these.
 std::uint64_t area_samples(double surface_area, double radius);
 
 } // namespace argand

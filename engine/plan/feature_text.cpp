@@ -44,7 +44,7 @@ FeatureText text_of(Feature feature) {
         return {"sky", "uniform sky", ""};
     case Feature::several_lights:
         return {"several_lights", "choice among lights",
-                fmt::format("{} bytes per light", sizeof(LightChoice))};
+                fmt::format("{} bytes per light", 2 * sizeof(LightChoice))};
     case Feature::followed_paths:
         return {"followed_paths", "followed paths",
                 "a round of tracing and shading for every surface that a path meets"};

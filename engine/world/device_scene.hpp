@@ -6,6 +6,10 @@
 #include "scene/scene.hpp"
 #include "shared/camera.h"
 #include "shared/scene_records.h"
+#include "world/area_table.hpp"
+#include "world/light_table.hpp"
+
+#include <vector>
 
 namespace argand {
 
@@ -17,12 +21,15 @@ struct DeviceScene {
     Buffer triangles;     ///< uvec4 per triangle: vertices, material
     Buffer materials;     ///< MaterialRecord
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
-    Buffer light_choices; ///< LightChoice per light
-    Buffer area_sums;     ///< AreaSumRecord per triangle, along a space-filling curve
+    Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
+    Buffer area_sums;     ///< AreaSumRecord per piece of a surface that stores photons
     TriangleBvh bvh;
-    SceneRecord record;      ///< the host's copy of `scene`
-    double surface_area = 0; ///< of all triangles that store photons; 0 without a photon map
-    glm::dvec3 power{0};     ///< of all lights, per channel [candela × steradian]
+    SceneRecord record;            ///< the host's copy of `scene`
+    LightTable light_table;        ///< the host's copy of `lights`, and their emitters
+    double surface_area = 0;       ///< of all triangles that store photons; 0 without a photon map
+    std::uint32_t area_pieces = 0; ///< in `area_sums`
+    double sampled_area = 0;       ///< of these pieces
+    SampledPart sampled_part;      ///< in which they lie; by default everywhere
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
     /// Buffers for the member `scene` of a kernel that shades.
@@ -35,11 +42,17 @@ struct DeviceScene {
 /// Records only.
 DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan);
 
+/// Lets area samples lie in a part of the scene only: they can be as dense there as a small radius
+/// requires. Requires a plan with a photon map. Records only.
+void sample_areas(Device& device, const Scene& scene, DeviceScene& on_device,
+                  const SampledPart& part);
+
+/// Sets the probabilities with which each emitter is chosen for shadow rays and for photons, and
+/// uploads `record` with them. Records only.
+void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,
+                       const std::vector<double>& for_photons);
+
 /// The camera for a picture of this size in pixels. The vertical angle does not depend on the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);
-
-/// Alias table (Walker 1977, built as by Vose 1991) for choosing i with probability weights[i] /
-/// sum; all are equally probable if the sum is 0.
-std::vector<LightChoice> alias_table(const std::vector<double>& weights);
 
 } // namespace argand

@@ -9,9 +9,8 @@ ARGAND_SHARED_BEGIN
 
 // Differential of a photon at its emission by light_emit. radius: of the scene's bounding sphere.
 // photons: expected from this light in the pass, that is all photons times the light's probability.
-// emitter_photons: expected from all triangles of the same emitter together (from all emissive
-// triangles if emitters are not known), so that dividing an emitter into many triangles does not
-// widen its differentials; used by triangle lights only.
+// emitter_photons: expected from all triangles of the same emitter together, so that dividing an
+// emitter into many triangles does not widen its differentials; used by triangle lights only.
 FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(EmittedPhoton) p,
                                          real radius, real photons, real emitter_photons) {
     vec3 direction = p.direction;
@@ -41,7 +40,8 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(Emitt
         return d;
     }
     Frame f = make_frame(direction);
-    real side = radius * sqrt(PI / max(photons, real(1.0))); // of the disc on which photons start
+    // Distance of photons on the disc on which they start.
+    real side = radius * sqrt(PI / max(photons * p.concentration, real(1.0)));
     real spread = real(0.0);
     if (is_light(l, kinds, light_sky)) {
         spread = sqrt(PI / max(photons, real(1.0)));

@@ -27,7 +27,8 @@ struct LightRecord {
     float32 dx, dy, dz;
     float32 cos_outer;  // spot
     float32 ex, ey, ez; // third vertex (triangle)
-    uint double_sided;  // triangle: emits from its back as well
+    // Triangle: twice its index among the scene's triangles, plus 1 if it emits from its back too.
+    uint triangle_and_sides;
 };
 
 ARGAND_SHARED_END

@@ -29,12 +29,47 @@ struct EmittedPhoton {
     vec3 direction; // unit
     vec3 normal;    // of the emitting surface, on the photon's side; (0,0,0) if there is none
     vec3 flux;      // the light's power, which the photon carries if it is the light's only one
+    // Density of the photon's position across its direction, over that of even emission.
+    real concentration;
 };
 
 struct Sphere {
     vec3 center;
     real radius;
 };
+
+// Concentric spheres at which photons from outside are aimed. Spheres without a share of the
+// photons may have any radius.
+struct Focus {
+    vec3 center;
+    vec3 radius;
+    vec3 share;
+};
+
+// The sphere at which to aim a photon, as its radius; 0: the whole scene. choice: in [0,1).
+FN real choose_focus(IN(Focus) focus, real choice) {
+    if (choice < focus.share.x) {
+        return focus.radius.x;
+    }
+    if (choice < focus.share.x + focus.share.y) {
+        return focus.radius.y;
+    }
+    return choice < focus.share.x + focus.share.y + focus.share.z ? focus.radius.z : real(0.0);
+}
+
+// Density, across their direction, of photons that pass the focus at this distance, over the
+// density if none were aimed. aimed: radius of a sphere that certainly contains the photon, which
+// rounding must not deny; 0: none does.
+FN real focus_concentration(IN(Focus) focus, real scene_radius, real distance, real aimed) {
+    real nearest = min(distance, aimed > real(0.0) ? aimed : distance);
+    real concentration = real(1.0) - (focus.share.x + focus.share.y + focus.share.z);
+    vec3 ratio = vec3(scene_radius) / focus.radius;
+    vec3 density = focus.share * ratio * ratio;
+    concentration += nearest <= focus.radius.x && focus.share.x > real(0.0) ? density.x : real(0.0);
+    concentration += nearest <= focus.radius.y && focus.share.y > real(0.0) ? density.y : real(0.0);
+    concentration += nearest <= focus.radius.z && focus.share.z > real(0.0) ? density.z : real(0.0);
+    return concentration;
+}
 
 // Whether the light is of this kind. `kinds` (1u << light_*) are the kinds that the scene has;
 // where a kernel knows them at compile time, code for other kinds vanishes.
@@ -82,7 +117,9 @@ FN vec3 light_normal(IN(LightRecord) l, OUT(real) area) {
     return n;
 }
 
-FN real light_sides(IN(LightRecord) l) { return l.double_sided != 0u ? real(2.0) : real(1.0); }
+FN bool is_double_sided(IN(LightRecord) l) { return (l.triangle_and_sides & 1u) != 0u; }
+FN real light_sides(IN(LightRecord) l) { return is_double_sided(l) ? real(2.0) : real(1.0); }
+FN uint triangle_of_light(IN(LightRecord) l) { return l.triangle_and_sides >> 1u; }
 
 // Power that a light sends into a scene with this bounding sphere, from colour (I, E or L) and
 // geometry: I times the solid angle, E·pi r², pi L A, 4 pi·pi r²·L.
@@ -105,16 +142,10 @@ FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
     return light_color(l) * factor;
 }
 
-// Mean over the channels of an emissive triangle's power per area and side: its weight when lights
-// are chosen in proportion to power.
-FN real light_weight_of_emitter(vec3 radiance) { return PI * mean_component(radiance); }
-
-// Solid-angle density with which light sampling finds a point on an emissive triangle at this
-// distance and cosine (above 0) to its normal. Lights are chosen in proportion to their weights,
-// whose sum is light_weight. The triangle's area cancels: a larger one is chosen more often.
-FN real emitter_density(vec3 radiance, real sides, real light_weight, real distance, real cosine) {
-    real weight = light_weight_of_emitter(radiance) * sides;
-    return weight / light_weight * distance * distance / cosine;
+// Solid-angle density with which light sampling finds a point on an emissive triangle of this area
+// at this distance and cosine (above 0) to its normal. probability: of choosing the triangle.
+FN real emitter_density(real probability, real area, real distance, real cosine) {
+    return probability / area * distance * distance / cosine;
 }
 
 FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) {
@@ -126,7 +157,7 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
                        error);
     s.wi = unit_and_length(q - p, s.distance);
     real cosine = -dot3(s.wi, n);
-    cosine = l.double_sided != 0u ? abs(cosine) : cosine;
+    cosine = is_double_sided(l) ? abs(cosine) : cosine;
     // Edge-on up to rounding: no light arrives.
     if (!(cosine > real(1e-6)) || !(area > real(0.0))) {
         return false;
@@ -206,6 +237,7 @@ FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec
     p.direction = light_direction(l);
     p.normal = vec3(real(0.0));
     p.flux = light_power(l, kinds, bounds.radius);
+    p.concentration = real(1.0);
     if (is_light(l, kinds, light_point)) {
         p.direction = sample_sphere(vec2(u.x, u.y));
         return true;
@@ -217,7 +249,7 @@ FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec
     if (is_light(l, kinds, light_triangle)) {
         real area;
         vec3 normal = light_normal(l, area);
-        p.normal = l.double_sided != 0u && v.x < real(0.5) ? -normal : normal;
+        p.normal = is_double_sided(l) && v.x < real(0.5) ? -normal : normal;
         p.direction = to_world(make_frame(p.normal), sample_cosine_hemisphere(vec2(u.x, u.y)));
         vec2 b = sample_triangle(vec2(u.z, u.w));
         vec3 error;
@@ -236,6 +268,33 @@ FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec
     vec2 d = sample_disc(vec2(u.z, u.w));
     p.origin = bounds.center + (f.x * d.x + f.y * d.y - f.z * real(1.001)) * bounds.radius;
     return true;
+}
+
+// As light_emit, but aims photons from outside at the focus. Their flux is divided by their
+// concentration (balance heuristic), so that the mean is the same. choice: in [0,1), the sphere at
+// which to aim.
+FN bool light_emit_focused(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Focus) focus,
+                           vec4 u, vec4 v, real choice, OUT(EmittedPhoton) p) {
+    bool emitted = light_emit(l, kinds, bounds, u, v, p);
+    bool from_outside = is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky);
+    if (!from_outside || !(focus.share.x + focus.share.y + focus.share.z > real(0.0))) {
+        return emitted;
+    }
+    real aimed = choose_focus(focus, choice);
+    if (aimed > real(0.0)) {
+        Frame f = make_frame(p.direction);
+        vec2 d = sample_disc(vec2(u.z, u.w));
+        // Onto the plane on which all photons start, which lies before the bounding sphere.
+        real back = real(1.001) * bounds.radius - dot3(bounds.center - focus.center, f.z);
+        p.origin = focus.center + (f.x * d.x + f.y * d.y) * aimed - f.z * back;
+    }
+    vec3 across = p.origin - focus.center;
+    across -= p.direction * dot3(across, p.direction);
+    // Less its rounding errors: a photon that is wrongly taken to be outside becomes a firefly.
+    real distance = max(sqrt(dot3(across, across)) - bounds.radius * error_bound(16), real(0.0));
+    p.concentration = focus_concentration(focus, bounds.radius, distance, aimed);
+    p.flux = p.flux / p.concentration;
+    return emitted;
 }
 
 ARGAND_SHARED_END

@@ -43,9 +43,9 @@ CONSTANT uint layer_caustic = 2u;
 // followed lobes scatter.
 struct ShadowRecord {
     float32 estimated_r, estimated_g, estimated_b;
-    uint estimated_layer;
+    uint layers; // of the estimated part, and times 4 of the followed one
     float32 followed_r, followed_g, followed_b;
-    uint followed_layer;
+    uint light; // index of the light to which the ray is sent
 };
 
 // Sums over a pixel's samples, with their rounding errors (Kahan).

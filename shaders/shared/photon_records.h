@@ -49,10 +49,11 @@ struct PhotonAdvanceParams {
     uint pad0, pad1;
 };
 
-// A triangle and the area of all triangles before it, over the whole, times 2^32.
+// A piece of a triangle, and the area of all pieces before it, over the whole, times 2^32.
 struct AreaSumRecord {
     uint before;
     uint triangle;
+    uint piece; // triangle_piece.h
 };
 
 struct AreaSampleParams {
@@ -60,7 +61,7 @@ struct AreaSampleParams {
     uint count;
     uint step;    // distance between samples in units of the summed areas: 2^32 / count
     float32 area; // of one sample
-    uint triangle_count;
+    uint piece_count;
     uint capacity;
     uint offset; // of the first sample, below `step`
     uint pad;
@@ -91,6 +92,8 @@ struct PhotonGatherParams {
     // Places for suspended queries; 0: queries are not suspended (nearest_gather only).
     uint places;
     uint part; // part of the map: map_*
+    // Estimates are corrected within this distance of this point, where area samples lie.
+    float32 corrected_x, corrected_y, corrected_z, corrected_distance;
 };
 
 // State of a photon map query between two dispatches: the next node and the sums so far.

@@ -17,6 +17,9 @@ FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
     return random4(seed, pixel, sample_index, dimension);
 }
 
+// A dimension that no vertex of a photon reaches.
+CONSTANT uint dimension_of_choices = 0x10000000u;
+
 // Photons: one sequence over all of them or, for comparison, the hash at all vertices.
 FN vec4 photon_random4(uint seed, uint photon, uint dimension, bool quasi_random) {
     const uint of_photons = 0x40000000u; // no pixel has this number

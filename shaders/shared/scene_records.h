@@ -10,20 +10,28 @@ struct SceneRecord {
     float32 center_x, center_y, center_z, radius; // bounding sphere
     float32 sky_r, sky_g, sky_b;                  // uniform radiance [cd/m²]
     uint light_count;
-    float32 light_weight;    // sum of the lights' selection weights
-    float32 sky_probability; // probability that a choice of light selects the sky
+    uint first_emitter;      // index of the first emissive triangle among the lights
+    float32 sky_probability; // probability that a shadow ray is sent to the sky
     uint triangle_count;
     // Glossy lobes of at most this roughness are followed from the eye; see follow.h.
     float32 follow_roughness;
-    float32 emitter_probability; // probability that a choice of light selects an emissive triangle
-    uint pad0, pad1, pad2;
+    float32 emitter_probability; // probability that a shadow ray is sent to an emissive triangle
+    uint emitter_count;          // emissive triangles, which follow one another among the lights
+    uint pad0, pad1;
+    // Concentric spheres at which photons from the sky and from directional lights are aimed, and
+    // the share of these photons for each (Focus).
+    float32 focus_x, focus_y, focus_z, pad2;
+    float32 focus_radius_0, focus_radius_1, focus_radius_2, pad3;
+    float32 focus_share_0, focus_share_1, focus_share_2, pad4;
 };
 
-// A row of the alias table (Walker 1977) that chooses a light in proportion to its weight.
+// A row of the table that chooses a light, by inversion of the cumulative probabilities: that keeps
+// the even distribution of the random numbers. The table for shadow rays is followed by that for
+// photons.
 struct LightChoice {
-    float32 keep;        // probability of staying in this row
-    uint alias;          // the row to take otherwise
-    float32 probability; // of this row's light
+    uint before;                 // probability of all rows before this one, times 2^32
+    float32 probability;         // of this row's light
+    float32 emitter_probability; // of all lights that belong to the same emitter
     uint pad;
 };
 

@@ -51,7 +51,7 @@ protected:
             upload_scene(device(), scene, make_plan(scene, {.follow_roughness = follow_roughness}));
         PhotonWorkspace workspace = make_photon_workspace(device(), count);
         Traced traced;
-        traced.power = on_device.power;
+        traced.power = on_device.light_table.power;
         traced.count = count;
         traced.unit = std::max({traced.power.r, traced.power.g, traced.power.b}) /
                       static_cast<double>(count) / (1 << 18);
@@ -156,7 +156,8 @@ TEST_F(Flux, PowerIsSharedAmongLights) {
                     spot_light({0, 2, 0}, {0, -1, 0}, glm::vec3(9), 0.3f, 0.6f)};
     const glm::dvec3 power = emitted_power(scene, 0) + emitted_power(scene, 1) +
                              emitted_power(scene.lights[0]) + emitted_power(scene.lights[1]);
-    expect_near(trace(scene, 0).emitted(), power, 1e-5);
+    // Lights are not chosen in proportion to power, so photons carry different flux.
+    expect_near(trace(scene, 0).emitted(), power, 1e-3);
 }
 
 TEST_F(Flux, PhotonsOfPointSkyAndSunArriveWhereTheyShould) {

@@ -6,6 +6,7 @@
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/light_differential.h"
+#include "shared/triangle_piece.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -14,6 +15,7 @@ CONSTANT uint of_spot_solid_angles = 61u;
 CONSTANT uint of_light_normal = 62u;
 CONSTANT uint of_light_power = 63u;
 CONSTANT uint of_emitter_density = 64u;
+CONSTANT uint of_focus_concentration = 90u;
 CONSTANT uint of_light_sample = 65u;
 CONSTANT uint of_light_emit = 66u;
 CONSTANT uint of_photon_spacing = 67u;
@@ -39,14 +41,15 @@ CONSTANT uint of_footprint_weight = 86u;
 CONSTANT uint of_pack_dual = 87u;
 CONSTANT uint of_spot_ramp = 88u;
 CONSTANT uint of_sample_spot = 89u;
-CONSTANT uint of_light_weight = 90u;
 CONSTANT uint of_transfer_differential = 91u;
 CONSTANT uint of_reflect_differential = 92u;
 CONSTANT uint of_refract_differential = 93u;
 CONSTANT uint of_differential_record = 94u;
 CONSTANT uint of_unpack_dual = 95u;
 CONSTANT uint of_dual_read = 96u;
-CONSTANT uint end_of_lights = 97u;
+CONSTANT uint of_light_emit_focused = 97u;
+CONSTANT uint of_triangle_piece = 98u;
+CONSTANT uint end_of_lights = 99u;
 
 FN LightRecord light_at(IN(Arguments) a, int k, uint kind, uint double_sided) {
     LightRecord l;
@@ -65,7 +68,7 @@ FN LightRecord light_at(IN(Arguments) a, int k, uint kind, uint double_sided) {
     l.ex = a.x[k + 11];
     l.ey = a.x[k + 12];
     l.ez = a.x[k + 13];
-    l.double_sided = double_sided;
+    l.triangle_and_sides = double_sided;
     return l;
 }
 
@@ -127,8 +130,6 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         put3(r, 0,
              sample_spot(light_at(a, 6, light_spot, 0u), vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
                          vec2_at(a, 4)));
-    } else if (function == of_light_weight) {
-        r.y[0] = light_weight_of_emitter(vec3_at(a, 0));
     } else if (function == of_spot_solid_angles) {
         r.y[0] = spot_solid_angles(number_at(a, 0), number_at(a, 1), s, t);
         r.y[1] = s;
@@ -140,8 +141,14 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
              light_power(light_at(a, 1, small_at(a, 15), small_at(a, 16)), all_light_kinds,
                          number_at(a, 0)));
     } else if (function == of_emitter_density) {
-        r.y[0] = emitter_density(vec3_at(a, 0), real(1.0), number_at(a, 3), number_at(a, 4),
-                                 number_at(a, 5));
+        r.y[0] =
+            emitter_density(number_at(a, 0), number_at(a, 1), number_at(a, 2), number_at(a, 3));
+    } else if (function == of_focus_concentration) {
+        Focus focus;
+        focus.center = vec3(real(0.0));
+        focus.radius = vec3_at(a, 0);
+        focus.share = vec3_at(a, 3);
+        r.y[0] = focus_concentration(focus, number_at(a, 6), number_at(a, 7), real(0.0));
     } else if (function == of_light_sample) {
         LightSample l;
         bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), all_light_kinds,
@@ -164,6 +171,30 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));
         put3(r, 4, p.direction);
         put3(r, 7, p.flux);
+    } else if (function == of_light_emit_focused) {
+        Sphere bounds;
+        bounds.center = vec3(real(0.0));
+        bounds.radius = number_at(a, 6);
+        Focus focus;
+        focus.center = vec3(real(0.25), real(-0.125), real(0.5)) * bounds.radius;
+        focus.radius = vec3(real(0.0625), real(0.125), real(0.25)) * bounds.radius;
+        focus.share = vec3(real(0.25));
+        EmittedPhoton p;
+        bool emitted =
+            light_emit_focused(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
+                               bounds, focus, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                               vec4(a.x[4], a.x[5], real(0.0), real(0.0)), number_at(a, 7), p);
+        r.y[0] = emitted ? real(1.0) : real(0.0);
+        put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));
+        put3(r, 4, p.direction);
+    } else if (function == of_triangle_piece) {
+        TrianglePiece piece = triangle_piece(small_at(a, 0));
+        r.y[0] = piece.a.x;
+        r.y[1] = piece.a.y;
+        r.y[2] = piece.b.x;
+        r.y[3] = piece.b.y;
+        r.y[4] = piece.c.x;
+        r.y[5] = piece.c.y;
     } else {
         return false;
     }
@@ -236,6 +267,7 @@ FN bool evaluate_differential(uint function, IN(Arguments) a, INOUT(Values) r) {
         EmittedPhoton p;
         p.direction = vec3_at(a, 0);
         p.normal = vec3_at(a, 3);
+        p.concentration = real(1.0);
         r = differential_values(light_differential(light_at(a, 8, small_at(a, 22), small_at(a, 23)),
                                                    all_light_kinds, p, number_at(a, 6),
                                                    number_at(a, 7), number_at(a, 7)));

@@ -114,8 +114,6 @@ std::vector<Function> spots_and_power() {
              put_light(d, spot);
          },
          20, "3", conditioned, 4},
-        {"light_weight_of_emitter", of_light_weight, "radiances 2^-60 … 2^60, zeros",
-         [](Draw& d) { d.put(glm::abs(d.vector(-60, 60))); }, 3, "1", ulp, 4},
         {"spot_solid_angles", of_spot_solid_angles, "cones 10^-3 … 1.57 rad",
          [](Draw& d) {
              const glm::vec2 c = spot_cosines(d);
@@ -135,14 +133,27 @@ std::vector<Function> spots_and_power() {
          },
          15, "3", conditioned, 4},
         {"emitter_density", of_emitter_density,
-         "radiances 2^-20 … 2^20, distances 2^-20 … 2^20, cosines 2^-20 … 1",
+         "probabilities 2^-20 … 1, areas and distances 2^-20 … 2^20, cosines 2^-20 … 1",
          [](Draw& d) {
-             d.put(glm::abs(d.nonzero_vector(-20, 20)));
+             d.put(d.magnitude(-20, 0));
              d.put(d.magnitude(-20, 20));
              d.put(d.magnitude(-20, 20));
              d.put(d.magnitude(-20, 0));
          },
-         6, "1", ulp, 8},
+         4, "1", ulp, 8},
+        {"focus_concentration", of_focus_concentration,
+         "radii and distances 2^-20 … 2^20, shares 2^-20 … 0.3",
+         [](Draw& d) {
+             for (int i = 0; i < 3; ++i) {
+                 d.put(d.magnitude(-20, 20));
+             }
+             for (int i = 0; i < 3; ++i) {
+                 d.put(0.3f * d.magnitude(-20, 0));
+             }
+             d.put(d.magnitude(-20, 20));
+             d.put(d.magnitude(-20, 20));
+         },
+         8, "1", ulp, 8},
     };
 }
 
@@ -180,6 +191,29 @@ std::vector<Function> light_samples_and_photons() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          22, "d333", conditioned, 4},
+        {"light_emit_focused", of_light_emit_focused,
+         "as light_emit, three spheres of 1/16 … 1/4 of the scene; the photon's place",
+         [](Draw& d) {
+             const float kind = any_kind(d);
+             for (int i = 0; i < 6; ++i) {
+                 d.put(d.unit());
+             }
+             d.put(d.magnitude(-10, 10));
+             d.put(0.125f + 0.25f * static_cast<float>(d.bits() % 4)); // a sphere, or none
+             put_light(d, kind);
+             d.put(kind);
+             d.put(static_cast<float>(d.bits() % 2));
+         },
+         22, "d33", conditioned, 8},
+        {"triangle_piece", of_triangle_piece, "1 … 4^11",
+         [](Draw& d) {
+             float number = 1;
+             for (auto levels = d.bits() % 12; levels > 0; --levels) {
+                 number = 4 * number + static_cast<float>(d.bits() % 4);
+             }
+             d.put(number);
+         },
+         1, "222", ulp, 0},
     };
 }
 

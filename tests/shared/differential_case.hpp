@@ -58,7 +58,7 @@ inline LightRecord some_light(Start start, uint seed) {
         l.ex = far.x;
         l.ey = far.y;
         l.ez = far.z;
-        l.double_sided = seed % 2;
+        l.triangle_and_sides = seed % 2;
     }
     return l;
 }

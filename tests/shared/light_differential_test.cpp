@@ -170,7 +170,7 @@ TEST(Emission, AreaTimesDensityOfAnEmitter) {
     for (const double height : {0.1, 0.3, 1.0, 3.0}) {
         for (const uint both : {0u, 1u}) {
             l.z = l.dz = l.ez = float(height);
-            l.double_sided = both;
+            l.triangle_and_sides = both;
             const double disc = area / (area + PI * height * height);
             EXPECT_NEAR(area_times_density(l, 0.05, 1'000'000), 1 + disc, 0.08)
                 << "height " << height << ", both sides " << both;

@@ -52,6 +52,69 @@ TEST(LightEmission, EveryPhotonCarriesTheLightsPower) {
     }
 }
 
+Focus three_spheres() {
+    Focus focus;
+    focus.center = vec3(1.5f, 2, 1);
+    focus.radius = vec3(0.1f, 0.4f, 1);
+    focus.share = vec3(0.4f, 0.2f, 0.1f);
+    return focus;
+}
+
+/// Mean flux per area of the plane z = 1, downwards or upwards, on the square around (x, y).
+Mean flux_on_square(const LightRecord& l, const Focus& focus, float x, float y, float half) {
+    Mean flux;
+    for (uint i = 0; i < 200'000; ++i) {
+        const vec4 choice = random4(33, i, 0, 2);
+        EmittedPhoton p;
+        light_emit_focused(l, all_light_kinds, {center, radius}, focus, random4(33, i, 0, 0),
+                           random4(33, i, 0, 1), choice.x, p);
+        const float t = (1 - p.origin.z) / p.direction.z;
+        const vec3 q = p.origin + p.direction * t;
+        const bool hit = t > 0 && std::abs(q.x - x) < half && std::abs(q.y - y) < half;
+        flux.add(hit ? p.flux.y / (4 * half * half) : 0);
+    }
+    return flux;
+}
+
+// Aiming photons changes their density and their flux, but not the irradiance.
+TEST(LightEmission, AimedPhotonsBringTheSameIrradiance) {
+    const vec3 down = glm::normalize(vec3(0.3f, 0.2f, -1));
+    const double of_sun = -double(down.z) * color.y;
+    const double of_sky = 2 * pi * color.y; // both sides of the plane
+    const Focus focus = three_spheres();
+    const Focus none{vec3(0), vec3(0), vec3(0)};
+    for (const auto& [l, expected] : {std::pair(directional_light(down, color), of_sun),
+                                      std::pair(light(light_sky, color), of_sky)}) {
+        // Inside the spheres, across their boundaries, and outside.
+        for (const float x : {1.5f, 1.6f, 1.9f, 2.4f, 3.5f}) {
+            const float half = x < 1.7f ? 0.05f : 0.2f;
+            const Mean aimed = flux_on_square(l, focus, x, 2, half);
+            EXPECT_NEAR(aimed.value(), expected, 5 * aimed.deviation()) << l.kind << ", " << x;
+        }
+        const Mean aimed = flux_on_square(l, focus, 1.5f, 2, 0.05f);
+        const Mean even = flux_on_square(l, none, 1.5f, 2, 0.05f);
+        EXPECT_NEAR(even.value(), expected, 5 * even.deviation()) << l.kind;
+        EXPECT_LT(aimed.deviation(), 0.1 * even.deviation()) << l.kind;
+    }
+}
+
+TEST(LightEmission, PhotonsFromInsideTheSceneAreNotAimed) {
+    for (const LightRecord& l : one_of_each()) {
+        if (l.kind == light_directional || l.kind == light_sky) {
+            continue;
+        }
+        for (uint i = 0; i < 100; ++i) {
+            EmittedPhoton p;
+            EXPECT_TRUE(light_emit_focused(l, all_light_kinds, {center, radius}, three_spheres(),
+                                           random4(31, i, 0, 0), random4(31, i, 0, 1), 0.1f, p));
+            const EmittedPhoton plain = photon_of(l, i);
+            EXPECT_EQ(p.origin, plain.origin);
+            EXPECT_EQ(p.flux, plain.flux);
+            EXPECT_EQ(p.concentration, 1);
+        }
+    }
+}
+
 // Photons through a patch of the floor carry the flux that light samples from the patch predict.
 TEST(LightEmission, AgreesWithLightSamples) {
     const float z = 1;

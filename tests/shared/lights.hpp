@@ -55,7 +55,7 @@ inline LightRecord triangle_light(vec3 a, vec3 b, vec3 c, vec3 radiance, bool do
     l.ex = c.x;
     l.ey = c.y;
     l.ez = c.z;
-    l.double_sided = double_sided ? 1 : 0;
+    l.triangle_and_sides = double_sided ? 1 : 0;
     return l;
 }
 

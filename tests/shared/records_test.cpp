@@ -31,7 +31,7 @@ TEST(Records, LightLiesInLanesOf16Bytes) {
     EXPECT_EQ(offsetof(LightRecord, r), 16u);
     EXPECT_EQ(offsetof(LightRecord, dx), 32u);
     EXPECT_EQ(offsetof(LightRecord, ex), 48u);
-    EXPECT_EQ(offsetof(LightRecord, double_sided), 60u);
+    EXPECT_EQ(offsetof(LightRecord, triangle_and_sides), 60u);
 }
 
 TEST(Records, CameraLiesInLanesOf16Bytes) {

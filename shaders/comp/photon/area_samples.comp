@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "scene_bindings.glsl"
 #include "shared/photon.h"
 #include "shared/sobol.h"
+#include "shared/triangle_piece.h"
 
 layout(set = 0, binding = 7) readonly buffer AreaSums { AreaSumRecord area_sums[]; };
 layout(set = 0, binding = 8) readonly buffer Counters { uint counters[]; };

@@ -21,18 +21,39 @@ FN Surface load_surface(HitRecord hit, vec3 ray_direction) {
     return make_surface(load_triangle(hit.triangle), hit.u, hit.v, ray_direction);
 }
 
-// Chooses a light in proportion to its weight (Walker 1977); u in [0,1). Returns its index.
-FN uint choose_light(real u, OUT(real) probability) {
+// A light that was chosen at random.
+struct ChosenLight {
+    uint index;
+    real probability;
+    real emitter_probability; // of all lights that belong to the same emitter
+};
+
+// Chooses a light for a shadow ray or for a photon; u in [0,1)². The second number continues the
+// digits of the first, of which there are too few for lights that are chosen rarely.
+FN ChosenLight choose_light(vec2 u, bool for_photon) {
+    ChosenLight chosen;
+    chosen.index = 0u;
+    chosen.probability = real(1.0);
+    chosen.emitter_probability = real(1.0);
     if (!several_lights) {
-        probability = real(1.0);
-        return 0u;
+        return chosen;
     }
-    real scaled = u * real(scene[0].light_count);
-    uint row = min(uint(scaled), scene[0].light_count - 1u);
-    LightChoice choice = light_choices[row];
-    if (scaled - real(row) >= choice.keep) {
-        row = choice.alias;
+    uint count = scene[0].light_count;
+    uint table = for_photon ? count : 0u;
+    uint digits = uint(u.x * real(16777216.0)) << 8u | uint(u.y * real(256.0));
+    uint first = 0u;
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        if (light_choices[table + first + half_count].before <= digits) {
+            first += half_count;
+            count -= half_count;
+        } else {
+            count = half_count;
+        }
     }
-    probability = light_choices[row].probability;
-    return row;
+    chosen.index = first;
+    LightChoice choice = light_choices[table + first];
+    chosen.probability = choice.probability;
+    chosen.emitter_probability = choice.emitter_probability;
+    return chosen;
 }

@@ -88,6 +88,33 @@ FN void add_sky(uint slot, IN(PathRecord) path, vec3 throughput) {
     }
 }
 
+// The light that is this emissive triangle. Emissive triangles are lights in their own order.
+FN uint light_of_triangle(uint triangle) {
+    uint first = scene[0].first_emitter;
+    uint count = scene[0].emitter_count;
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        if (triangle_of_light(lights[first + half_count]) <= triangle) {
+            first += half_count;
+            count -= half_count;
+        } else {
+            count = half_count;
+        }
+    }
+    return first;
+}
+
+// Solid-angle density with which shadow rays find a point on this emissive triangle; see
+// emitter_density.
+FN real shadow_ray_density(uint triangle, real distance, real cosine) {
+    uint index = light_of_triangle(triangle);
+    real probability = several_lights ? light_choices[index].probability : real(1.0);
+    LightRecord light = lights[index];
+    real area;
+    light_normal(light, area);
+    return emitter_density(probability, area, distance, cosine);
+}
+
 FN void add_surface_emission(IN(Vertex) v, real distance) {
     MaterialRecord m = v.material;
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
@@ -96,10 +123,7 @@ FN void add_surface_emission(IN(Vertex) v, real distance) {
         real weight = real(1.0);
         if (v.path.pdf > real(0.0)) {
             real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
-            real sides = m.double_sided != 0u ? real(2.0) : real(1.0);
-            weight =
-                power_heuristic(v.path.pdf, emitter_density(emission, sides, scene[0].light_weight,
-                                                            distance, cosine));
+            weight = power_heuristic(v.path.pdf, shadow_ray_density(v.triangle, distance, cosine));
         }
         add_emission(v.slot, v.path, v.throughput * emission * weight);
     }
@@ -143,7 +167,7 @@ struct SeenLight {
     vec3 origin; // of the shadow ray
     LightSample s;
     vec3 wi; // in the vertex's frame
-    real choice_probability;
+    ChosenLight choice;
 };
 
 // Chooses a light and samples it. Returns false if no light arrives.
@@ -151,7 +175,8 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     PathRecord path = v.path;
     Surface surface = v.surface;
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 1u);
-    LightRecord light = lights[choose_light(u.x, l.choice_probability)];
+    l.choice = choose_light(vec2(u.x, u.w), false);
+    LightRecord light = lights[l.choice.index];
     l.wi = vec3(real(0.0));
     l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                  surface.geometric_normal);
@@ -169,12 +194,12 @@ FN void sample_light(IN(Vertex) v) {
         return;
     }
     LightSample s = l.s;
-    vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice_probability);
+    vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
     // Weight for the lobes in `onward`, which the path samples too. All others have only this
     // sample.
     real weight = real(1.0);
     if (!s.delta && v.onward != 0u) {
-        real density = l.choice_probability * s.pdf;
+        real density = l.choice.probability * s.pdf;
         weight = power_heuristic(density, v.estimated_probability *
                                               bsdf_pdf(v.material, v.wo, l.wi, v.onward));
     }
@@ -195,8 +220,9 @@ FN void sample_light(IN(Vertex) v) {
                                                                  : layer_indirect;
     shadow_rays[v.slot] =
         RayRecord(l.origin.x, l.origin.y, l.origin.z, s.distance, s.wi.x, s.wi.y, s.wi.z, 0u);
-    shadows[v.slot] = ShadowRecord(e.x, e.y, e.z, behind ? layer_indirect : layer_direct, f.x, f.y,
-                                   f.z, followed_layer);
+    uint estimated_layer = behind ? layer_indirect : layer_direct;
+    shadows[v.slot] = ShadowRecord(e.x, e.y, e.z, estimated_layer | followed_layer << 2u, f.x, f.y,
+                                   f.z, l.choice.index);
 }
 
 // Steps in which queries may share the estimate of a glossy surface (query_steps_shift).

@@ -11,9 +11,9 @@ FN void main() {
         return;
     }
     ShadowRecord s = shadows[slot];
-    add_to_layer(slot, s.estimated_layer, vec3(s.estimated_r, s.estimated_g, s.estimated_b));
+    add_to_layer(slot, s.layers & 3u, vec3(s.estimated_r, s.estimated_g, s.estimated_b));
     vec3 followed = vec3(s.followed_r, s.followed_g, s.followed_b);
     if (followed != vec3(real(0.0))) {
-        add_to_layer(slot, s.followed_layer, followed);
+        add_to_layer(slot, s.layers >> 2u, followed);
     }
 }

@@ -1,16 +1,16 @@
 #include "shared/kernels/scene.h"
 
 // Distributes points evenly over the surfaces that store photons: one at every step along the
-// triangles' summed areas, and within a triangle by a sequence of its own.
+// pieces' summed areas, and within a piece by a sequence of its own.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || counters[counter_stored_slots] + i >= params.capacity) {
         return;
     }
     uint target = i * params.step + params.offset;
-    // The last triangle that starts at or before the target.
+    // The last piece that starts at or before the target.
     uint low = 0u;
-    uint high = params.triangle_count;
+    uint high = params.piece_count;
     while (high - low > 1u) {
         uint middle = low + (high - low) / 2u;
         if (area_sums[middle].before <= target) {
@@ -19,11 +19,13 @@ FN void main() {
             high = middle;
         }
     }
-    // The triangle's first sample is the first target at or behind its start.
+    // The piece's first sample is the first target at or behind its start.
     uint begin = max(area_sums[low].before, params.offset) - params.offset;
     uint first = begin / params.step + (begin % params.step > 0u ? 1u : 0u);
     vec4 u = sobol_random4(params.seed, low, i - first, 0x80000000u);
-    vec2 b = sample_triangle(vec2(u));
+    vec2 in_piece = sample_triangle(vec2(u));
+    TrianglePiece piece = triangle_piece(area_sums[low].piece);
+    vec2 b = piece.a + (piece.b - piece.a) * in_piece.x + (piece.c - piece.a) * in_piece.y;
     uvec4 t = triangles[area_sums[low].triangle];
     vec3 error;
     vec3 p = hit_point(vec3(positions[t.x]), vec3(positions[t.y]), vec3(positions[t.z]), b.x, b.y,

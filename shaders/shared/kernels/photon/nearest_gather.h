@@ -294,7 +294,7 @@ FN void finish(Query q, INOUT(Search) s) {
     real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
     real trust =
         clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
-    real scale = params.boundary_correction != 0u
+    real scale = is_corrected(q)
                      ? mix(real(1.0), real(1.0) / max(coverage * density, least_coverage), trust)
                      : real(1.0);
     store_estimate(q, scale * density * indirect, scale * density * caustic);

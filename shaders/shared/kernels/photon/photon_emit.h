@@ -11,19 +11,27 @@ FN void main() {
     // The directions of emission and of the first scattering use one set of jointly well
     // distributed numbers: if the light is small, they determine where the photon is stored.
     vec4 u = vec4(a.x, a.y, v.x, v.y);
-    real probability;
-    LightRecord light = lights[choose_light(v.w, probability)];
+    // Numbers that need no good distribution.
+    vec4 w = photon_random4(batch.seed, photon, dimension_of_choices, false);
+    ChosenLight chosen = choose_light(vec2(v.w, w.x), true);
+    LightRecord light = lights[chosen.index];
     Sphere bounds;
     bounds.center = scene_center();
     bounds.radius = scene[0].radius;
+    Focus focus;
+    SceneRecord s = scene[0];
+    focus.center = vec3(s.focus_x, s.focus_y, s.focus_z);
+    focus.radius = vec3(s.focus_radius_0, s.focus_radius_1, s.focus_radius_2);
+    focus.share = vec3(s.focus_share_0, s.focus_share_1, s.focus_share_2);
     EmittedPhoton p;
-    bool emitted = light_emit(light, light_kinds, bounds, u, vec4(v.z, v.w, v.x, v.y), p);
-    vec3 flux = emitted ? p.flux * (batch.inverse_total / probability) : vec3(real(0.0));
+    bool emitted =
+        light_emit_focused(light, light_kinds, bounds, focus, u, vec4(v.z, v.w, v.x, v.y), w.y, p);
+    vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
         differentials[slot] = differential_record(
-            light_differential(light, light_kinds, p, scene[0].radius, photons * probability,
-                               photons * scene[0].emitter_probability));
+            light_differential(light, light_kinds, p, scene[0].radius, photons * chosen.probability,
+                               photons * chosen.emitter_probability));
     }
     rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
                            p.direction.x, p.direction.y, p.direction.z, 0u);

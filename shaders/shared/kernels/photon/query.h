@@ -70,6 +70,14 @@ FN bool on_same_side(IN(Query) q, uint packed) {
     return (is_area && !q.front ? -cosine : cosine) >= same_surface_cosine;
 }
 
+// Whether the area samples around the query tell how much of its disc lies on surfaces.
+FN bool is_corrected(IN(Query) q) {
+    vec3 center = vec3(params.corrected_x, params.corrected_y, params.corrected_z);
+    vec3 d = q.p - center;
+    return params.boundary_correction != 0u &&
+           dot3(d, d) <= params.corrected_distance * params.corrected_distance;
+}
+
 // Radiance that the surface scatters towards the eye from a photon's flux. carried: the photon's
 // second four words.
 FN vec3 scattered(IN(Query) q, uvec4 carried) {

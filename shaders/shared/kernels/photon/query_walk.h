@@ -26,7 +26,6 @@ FN void main() {
     }
     // Photons cover only the part of the kernel's support that lies on surfaces. The area samples
     // give that part once the walk has seen all of them.
-    real scale =
-        params.boundary_correction != 0u ? real(1.0) / max(q.coverage, least_coverage) : real(1.0);
+    real scale = is_corrected(q) ? real(1.0) / max(q.coverage, least_coverage) : real(1.0);
     store_query(q, scale, caustic_scale(bandwidth, scale));
 }

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scene/scene.hpp"
+#include "shared/photon_records.h"
+
+#include <limits>
+#include <vector>
+
+namespace argand {
+
+/// A part of the scene in which areas are sampled.
+struct SampledPart {
+    glm::vec3 center{0};
+    double reach = std::numeric_limits<double>::infinity(); ///< distance from there
+};
+
+/// The surfaces on which area samples lie, along a space-filling curve so that equal steps of area
+/// are evenly spread over them whatever the order of the file.
+struct AreaTable {
+    std::vector<AreaSumRecord> sums;
+    double area = 0; ///< of all pieces
+};
+
+/// The surfaces that store photons: all but mirrors, glass and what is black. The table contains
+/// all of them that lie within the sampled part, and little else: large triangles are divided into
+/// pieces for that.
+AreaTable make_area_table(const Scene& scene, float follow_roughness, const SampledPart& part);
+
+} // namespace argand

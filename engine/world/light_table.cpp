@@ -1,0 +1,222 @@
+#include "world/light_table.hpp"
+
+#include "shared/lights.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+namespace argand {
+
+namespace {
+
+LightRecord record_of(const Light& light) {
+    LightRecord record{};
+    switch (light.kind) { // without a default, so that the compiler finds a kind that is missing
+    case LightKind::point:
+        record.kind = light_point;
+        break;
+    case LightKind::spot:
+        record.kind = light_spot;
+        break;
+    case LightKind::directional:
+        record.kind = light_directional;
+        break;
+    }
+    record.x = light.position.x;
+    record.y = light.position.y;
+    record.z = light.position.z;
+    record.dx = light.direction.x;
+    record.dy = light.direction.y;
+    record.dz = light.direction.z;
+    record.r = light.intensity.r;
+    record.g = light.intensity.g;
+    record.b = light.intensity.b;
+    record.cos_inner = std::cos(light.inner_cone_angle);
+    record.cos_outer = std::cos(light.outer_cone_angle);
+    return record;
+}
+
+LightRecord record_of(const Scene& scene, std::size_t triangle, const Material& material) {
+    const glm::uvec3& corners = scene.triangles[triangle];
+    const glm::vec3& a = scene.positions[corners.x];
+    const glm::vec3& b = scene.positions[corners.y];
+    const glm::vec3& c = scene.positions[corners.z];
+    LightRecord record{};
+    record.kind = light_triangle;
+    record.x = a.x;
+    record.y = a.y;
+    record.z = a.z;
+    record.dx = b.x;
+    record.dy = b.y;
+    record.dz = b.z;
+    record.ex = c.x;
+    record.ey = c.y;
+    record.ez = c.z;
+    record.r = material.emission.r;
+    record.g = material.emission.g;
+    record.b = material.emission.b;
+    record.triangle_and_sides =
+        2 * static_cast<std::uint32_t>(triangle) + (material.double_sided ? 1u : 0u);
+    return record;
+}
+
+/// Sets of lights that grow together (union-find).
+class Sets {
+public:
+    explicit Sets(std::size_t size) : parent_(size) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+
+    std::uint32_t root(std::uint32_t i) {
+        while (parent_[i] != i) {
+            parent_[i] = parent_[parent_[i]];
+            i = parent_[i];
+        }
+        return i;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) { parent_[root(b)] = root(a); }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+using Position = std::array<float, 3>;
+
+struct HashPosition {
+    std::size_t operator()(const Position& p) const {
+        std::size_t hash = 0;
+        for (const float x : p) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(x)) * 0x100000001b3;
+        }
+        return hash;
+    }
+};
+
+/// Numbers the emitters in the order of their first lights.
+std::vector<std::uint32_t> find_emitters(const std::vector<LightRecord>& lights) {
+    Sets sets(lights.size());
+    std::unordered_map<Position, std::uint32_t, HashPosition> light_at;
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const LightRecord& l = lights[i];
+        if (l.kind == light_triangle) {
+            for (const Position& corner :
+                 {Position{l.x, l.y, l.z}, {l.dx, l.dy, l.dz}, {l.ex, l.ey, l.ez}}) {
+                const auto [there, is_new] = light_at.try_emplace(corner, i);
+                if (!is_new) {
+                    sets.join(there->second, i);
+                }
+            }
+        }
+    }
+    std::vector<std::uint32_t> number(lights.size(), ~0u);
+    std::vector<std::uint32_t> emitters;
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        std::uint32_t& of_set = number[sets.root(i)];
+        of_set = of_set == ~0u ? count++ : of_set;
+        emitters.push_back(of_set);
+    }
+    return emitters;
+}
+
+std::vector<double> weights_of_emitters(const LightTable& table) {
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < table.lights.size(); ++i) {
+        weights.resize(std::max<std::size_t>(weights.size(), table.emitter[i] + 1), 0.0);
+        weights[table.emitter[i]] += table.weights[i];
+    }
+    return weights;
+}
+
+/// Adds a light, unless it has no power.
+void add_light(LightTable& table, const LightRecord& light, float scene_radius) {
+    const glm::vec3 power = light_power(light, all_light_kinds, scene_radius);
+    const double weight = (double(power.r) + power.g + power.b) / 3;
+    if (weight > 0) {
+        table.lights.push_back(light);
+        table.power += glm::dvec3(power);
+        table.weights.push_back(weight);
+        table.weight += weight;
+    }
+}
+
+} // namespace
+
+LightTable make_light_table(const Scene& scene, float scene_radius) {
+    LightTable table;
+    for (const Light& light : scene.lights) {
+        add_light(table, record_of(light), scene_radius);
+    }
+    table.first_triangle = static_cast<std::uint32_t>(table.lights.size());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Material& material = scene.materials[scene.triangle_material[i]];
+        if (emits(material)) {
+            add_light(table, record_of(scene, i, material), scene_radius);
+        }
+    }
+    table.triangle_count = static_cast<std::uint32_t>(table.lights.size()) - table.first_triangle;
+    if (scene.sky) {
+        LightRecord sky{};
+        sky.kind = light_sky;
+        sky.r = scene.sky->r;
+        sky.g = scene.sky->g;
+        sky.b = scene.sky->b;
+        add_light(table, sky, scene_radius);
+    }
+    table.emitter = find_emitters(table.lights);
+    table.emitter_weights = weights_of_emitters(table);
+    return table;
+}
+
+std::vector<double> plain_shares(const LightTable& table) {
+    std::vector<double> shares;
+    const auto count = static_cast<double>(table.emitter_weights.size());
+    for (const double weight : table.emitter_weights) {
+        shares.push_back(0.5 * weight / table.weight + 0.5 / count);
+    }
+    return shares;
+}
+
+std::vector<double> learnt_shares(const LightTable& table, const FoundShares& found) {
+    constexpr double most_trust = 0.95;
+    constexpr double samples_per_emitter = 2; // for half of the trust
+    std::vector<double> shares = plain_shares(table);
+    const double sum = std::accumulate(found.light.begin(), found.light.end(), 0.0);
+    if (!(sum > 0)) {
+        return shares;
+    }
+    const auto emitters = static_cast<double>(std::count_if(
+        found.light.begin(), found.light.end(), [](double light) { return light > 0; }));
+    const auto samples = static_cast<double>(found.samples);
+    const double trust = most_trust * samples / (samples + samples_per_emitter * emitters);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        shares[i] = (1 - trust) * shares[i] + trust * found.light[i] / sum;
+    }
+    return shares;
+}
+
+std::vector<LightChoice> light_choices(const LightTable& table, const std::vector<double>& shares) {
+    std::vector<LightChoice> choices;
+    choices.reserve(table.lights.size());
+    constexpr double digits = 4294967296.0;
+    double before = 0;
+    for (std::size_t i = 0; i < table.lights.size(); ++i) {
+        const double share = shares[table.emitter[i]];
+        const double probability =
+            share * table.weights[i] / table.emitter_weights[table.emitter[i]];
+        choices.push_back(
+            {.before = static_cast<std::uint32_t>(std::min(before * digits, digits - 1)),
+             .probability = static_cast<float>(probability),
+             .emitter_probability = static_cast<float>(share),
+             .pad = 0});
+        before += probability;
+    }
+    return choices;
+}
+
+} // namespace argand

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "scene/scene.hpp"
+#include "shared/light_record.h"
+#include "shared/scene_records.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace argand {
+
+/// The lights of a scene that have any power, grouped into emitters. An emitter is a punctual
+/// light, the sky, or emissive triangles that are connected by common vertices.
+struct LightTable {
+    std::vector<LightRecord> lights;    ///< punctual lights, emissive triangles, sky
+    std::vector<double> weights;        ///< of each light: its power, as the mean of the channels
+    std::vector<std::uint32_t> emitter; ///< of each light
+    std::vector<double> emitter_weights;
+    glm::dvec3 power{0};                                  ///< of all lights, per channel
+    double weight = 0;                                    ///< of all lights
+    std::uint32_t first_triangle = 0, triangle_count = 0; ///< emissive triangles among the lights
+};
+
+/// scene_radius: of the bounding sphere, which determines the power of light from outside.
+LightTable make_light_table(const Scene& scene, float scene_radius);
+
+/// Probabilities with which each emitter is chosen if nothing is known about where its light
+/// arrives: half of them in proportion to power, and half the same for all emitters.
+/// So a lamp in a room is found even if a sun outside is a million times as powerful.
+std::vector<double> plain_shares(const LightTable& table);
+
+/// Light of each emitter that was found where it is needed.
+struct FoundShares {
+    std::vector<double> light;
+    std::uint64_t samples = 0; ///< by which it was found
+};
+
+/// Shares in proportion to the light that was found, mixed with the plain shares. The more samples
+/// there are for each emitter that was found, the less do the plain shares count. Equals the plain
+/// shares if no light was found.
+std::vector<double> learnt_shares(const LightTable& table, const FoundShares& found);
+
+/// Table for choosing a light of an emitter that is chosen with a probability of its share. Within
+/// an emitter, triangles are chosen in proportion to power.
+std::vector<LightChoice> light_choices(const LightTable& table, const std::vector<double>& shares);
+
+} // namespace argand

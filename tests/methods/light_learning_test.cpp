@@ -1,0 +1,103 @@
+// Lights are chosen by the light that arrives where it is needed, in scenes with many lights or
+// with a strong one that does not reach what is in view.
+#include "rendering.hpp"
+
+namespace argand::testing {
+namespace {
+
+class LightLearning : public EveryMethod {};
+
+/// A closed room of 4 m with a lamp, seen from inside.
+Scene closed_room() {
+    Scene scene;
+    const std::uint32_t white = add_material(scene, lambertian({0.7f, 0.6f, 0.5f}));
+    const std::uint32_t lamp = add_material(scene, emitter(glm::vec3(10)));
+    add_box(scene, {-2, 0, -2}, {2, 2.5f, 2}, white, true);
+    add_box(scene, {-0.5f, -0.01f, -0.8f}, {0.6f, 0.7f, 0.2f}, white, false);
+    add_quad(scene, {-0.3f, 2.4f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, lamp);
+    scene.cameras = {look_at({1.7f, 1.5f, 1.7f}, {-0.6f, 0.7f, -0.7f}, 70)};
+    return scene;
+}
+
+/// The same room in a shell, on a ground of 200 m in the sun, which does not come in.
+Scene sunlit_room() {
+    Scene scene = closed_room();
+    const std::uint32_t outside = add_material(scene, lambertian(glm::vec3(0.4f)));
+    add_floor(scene, 100, -0.5f, outside);
+    add_box(scene, {-2.4f, -0.4f, -2.4f}, {2.4f, 2.9f, 2.4f}, outside, false);
+    scene.lights = {
+        directional_light(glm::normalize(glm::vec3(-0.5f, -1, -0.4f)), glm::vec3(1e5f))};
+    return scene;
+}
+
+RenderSettings small_picture(const std::string& method) {
+    RenderSettings settings = settings_of(method, 32, 16);
+    settings.photons = 20'000;
+    return settings;
+}
+
+// The sun has 10^8 times the power of the lamp, and must not take its samples.
+TEST_P(LightLearning, SunThatDoesNotComeIn) {
+    RenderSettings settings = small_picture(GetParam());
+    const RenderResult with_sun = render(sunlit_room(), settings);
+    const RenderResult twin = render(closed_room(), settings);
+    settings.method = "path";
+    settings.samples = 512;
+    settings.seed = 1;
+    const RenderResult truth = render(closed_room(), settings);
+    for (const char* name : {"direct", "indirect"}) {
+        SCOPED_TRACE(name);
+        const Image& expected = layer(truth, name);
+        const double of_twin = compare(layer(twin, name), expected).rel_mse;
+        EXPECT_LT(compare(layer(with_sun, name), expected).rel_mse, 2 * of_twin);
+        EXPECT_RELATIVE(mean(layer(with_sun, name)).g, mean(expected).g, 0.05);
+    }
+}
+
+// One room of a row is in view. The others' lamps must not take its samples and photons.
+TEST_P(LightLearning, LampsOfOtherRooms) {
+    Scene row = closed_room();
+    for (int i = 1; i < 20; ++i) {
+        const float x = 5.0f * static_cast<float>(i);
+        add_box(row, {x - 2, 0, -2}, {x + 2, 2.5f, 2}, 0, true);
+        add_quad(row, {x - 0.3f, 2.4f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 1);
+    }
+    RenderSettings settings = small_picture(GetParam());
+    const RenderResult one_of_many = render(row, settings);
+    settings.method = "path";
+    settings.samples = 512;
+    settings.seed = 1;
+    const RenderResult truth = render(closed_room(), settings);
+    EXPECT_LT(compare(layer(one_of_many, "direct"), layer(truth, "direct")).rel_mse, 0.02);
+    EXPECT_LT(compare(layer(one_of_many, "indirect"), layer(truth, "indirect")).rel_mse, 0.2);
+    EXPECT_RELATIVE(mean(layer(one_of_many, "indirect")).g, mean(layer(truth, "indirect")).g, 0.06);
+}
+
+// A room that the sun lights through a window, on a ground of 200 m. Nearly all photons would fall
+// on the ground.
+TEST_P(LightLearning, SunThroughAWindow) {
+    Scene scene;
+    const std::uint32_t white = add_material(scene, lambertian({0.7f, 0.6f, 0.5f}));
+    add_floor(scene, 20, -0.5f, white);
+    add_box(scene, {-2, 0, -2}, {2, 2.5f, 2}, white, true);
+    scene.triangles.resize(scene.triangles.size() - 2); // the wall at z = 2
+    scene.triangle_material.resize(scene.triangles.size());
+    add_quad(scene, {2, 0, 2}, {-4, 0, 0}, {0, 1, 0}, white); // up to the window
+    add_quad(scene, {2, 1.8f, 2}, {-4, 0, 0}, {0, 0.7f, 0}, white);
+    scene.lights = {directional_light(glm::normalize(glm::vec3(0, -0.8f, -1)), glm::vec3(100))};
+    scene.cameras = {look_at({1.7f, 1.5f, 1.7f}, {-0.6f, 0.7f, -0.7f}, 70)};
+    RenderSettings settings = small_picture(GetParam());
+    const RenderResult found = render(scene, settings);
+    EXPECT_TRUE(found.statistics.photons_emitted == 0 || found.statistics.photons_stored > 5000)
+        << found.statistics.photons_stored;
+    settings.method = "path";
+    settings.samples = 1024;
+    settings.seed = 1;
+    const RenderResult truth = render(scene, settings);
+    EXPECT_RELATIVE(mean(layer(found, "indirect")).g, mean(layer(truth, "indirect")).g, 0.15);
+}
+
+INSTANTIATE_METHODS(LightLearning);
+
+} // namespace
+} // namespace argand::testing
