@@ -79,12 +79,14 @@ double largest_radius(std::span<const glm::vec3> queries) {
     glm::dvec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> places;
+        places.reserve(queries.size());
         for (const glm::vec3& query : queries) {
             places.push_back(query[axis]);
         }
         middle[axis] = median(std::move(places));
     }
     std::vector<double> distances;
+    distances.reserve(queries.size());
     for (const glm::vec3& query : queries) {
         distances.push_back(glm::length(glm::dvec3(query) - middle));
     }

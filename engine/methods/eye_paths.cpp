@@ -9,6 +9,7 @@
 #include "shared/random.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace argand {
 
@@ -111,11 +112,15 @@ void collect_found(Device& device, const EyeWorkspace& w, std::vector<FoundLight
             continue;
         }
         const ShadowRecord& s = shadows[slot];
+        const double radiance = double(s.estimated_r) + s.estimated_g + s.estimated_b +
+                                s.followed_r + s.followed_g + s.followed_b;
+        if (!std::isfinite(radiance)) {
+            continue;
+        }
         found.push_back({.light = s.light,
                          .path = slot,
                          .indirect = (s.layers & 3u) == layer_indirect,
-                         .radiance = double(s.estimated_r) + s.estimated_g + s.estimated_b +
-                                     s.followed_r + s.followed_g + s.followed_b,
+                         .radiance = radiance,
                          .point = {ray.origin_x, ray.origin_y, ray.origin_z}});
     }
 }

@@ -43,6 +43,7 @@ glm::vec3 middle_of(const std::vector<FoundLight>& found) {
     glm::vec3 center(0);
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<Weighted> places;
+        places.reserve(found.size());
         for (const FoundLight& f : found) {
             places.push_back({f.point[axis], f.radiance});
         }
@@ -69,6 +70,7 @@ void set_focus(SceneRecord& record, const LightTable& table, const std::vector<F
     }
     const glm::vec3 center = middle_of(outside);
     std::vector<Weighted> distances;
+    distances.reserve(outside.size());
     for (const FoundLight& f : outside) {
         distances.push_back({glm::length(glm::dvec3(f.point) - glm::dvec3(center)), f.radiance});
     }

@@ -181,6 +181,7 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec3>& queries, 
     }
     const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
     std::vector<double> distances;
+    distances.reserve(queries.size());
     for (const glm::vec3& query : queries) {
         distances.push_back(glm::distance(query, eye));
     }

@@ -175,6 +175,7 @@ LightTable make_light_table(const Scene& scene, float scene_radius) {
 
 std::vector<double> plain_shares(const LightTable& table) {
     std::vector<double> shares;
+    shares.reserve(table.emitter_weights.size());
     const auto count = static_cast<double>(table.emitter_weights.size());
     for (const double weight : table.emitter_weights) {
         shares.push_back(0.5 * weight / table.weight + 0.5 / count);
