@@ -1,5 +1,6 @@
 #include "world/area_table.hpp"
 
+#include "base/hash_floats.hpp"
 #include "scene/material_record.hpp"
 #include "shared/follow.h"
 #include "shared/morton.h"
@@ -9,7 +10,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <unordered_set>
 
 namespace argand {
@@ -17,16 +17,6 @@ namespace argand {
 namespace {
 
 using Corners = std::array<float, 9>;
-
-struct HashCorners {
-    std::size_t operator()(const Corners& corners) const {
-        std::size_t hash = 0;
-        for (const float x : corners) {
-            hash = (hash ^ std::hash<float>()(x)) * 0x100000001b3;
-        }
-        return hash;
-    }
-};
 
 /// Area of each triangle on which photons may lie: 0 for mirrors, glass and what is black, and 0
 /// for duplicates with the same front, of which rays hit only the first.
@@ -37,7 +27,7 @@ std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness
     }
     std::vector<double> areas;
     areas.reserve(scene.triangles.size());
-    std::unordered_set<Corners, HashCorners> there;
+    std::unordered_set<Corners, HashFloats> there;
     there.reserve(scene.triangles.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const glm::uvec3& t = scene.triangles[i];

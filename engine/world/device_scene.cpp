@@ -122,13 +122,11 @@ void sample_areas(Device& device, const Scene& scene, DeviceScene& on_device,
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,
                        const std::vector<double>& for_photons) {
     const LightTable& table = scene.light_table;
+    std::vector<LightChoice> choices = light_choices(table, for_rays);
     const auto share_of_kind = [&](std::uint32_t kind) {
         double share = 0;
-        for (std::size_t i = 0; i < table.lights.size(); ++i) {
-            const std::uint32_t emitter = table.emitter[i];
-            share += table.lights[i].kind == kind
-                         ? for_rays[emitter] * table.weights[i] / table.emitter_weights[emitter]
-                         : 0;
+        for (std::size_t i = 0; i < choices.size(); ++i) {
+            share += table.lights[i].kind == kind ? choices[i].probability : 0;
         }
         return static_cast<float>(share);
     };
@@ -139,7 +137,6 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
         scene.light_choices = nothing(device);
         return;
     }
-    std::vector<LightChoice> choices = light_choices(table, for_rays);
     const std::vector<LightChoice> of_photons = light_choices(table, for_photons);
     choices.insert(choices.end(), of_photons.begin(), of_photons.end());
     scene.light_choices = upload(device, "light choices", choices);

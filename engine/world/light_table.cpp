@@ -1,10 +1,10 @@
 #include "world/light_table.hpp"
 
+#include "base/hash_floats.hpp"
 #include "shared/lights.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
@@ -87,20 +87,10 @@ private:
 
 using Position = std::array<float, 3>;
 
-struct HashPosition {
-    std::size_t operator()(const Position& p) const {
-        std::size_t hash = 0;
-        for (const float x : p) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(x)) * 0x100000001b3;
-        }
-        return hash;
-    }
-};
-
 /// Numbers the emitters in the order of their first lights.
 std::vector<std::uint32_t> find_emitters(const std::vector<LightRecord>& lights) {
     Sets sets(lights.size());
-    std::unordered_map<Position, std::uint32_t, HashPosition> light_at;
+    std::unordered_map<Position, std::uint32_t, HashFloats> light_at;
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         const LightRecord& l = lights[i];
         if (l.kind == light_triangle) {

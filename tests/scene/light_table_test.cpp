@@ -44,6 +44,14 @@ TEST(LightTable, ConnectedTrianglesAreOneEmitter) {
     EXPECT_NEAR(table.emitter_weights[2], 3 * pi, 1e-5);
 }
 
+TEST(LightTable, CornersAtZeroAndMinusZeroAreTheSame) {
+    Scene scene;
+    const std::uint32_t lamp = add_material(scene, emitter(glm::vec3(1)));
+    add_triangle(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, lamp);
+    add_triangle(scene, {-0.0f, 0, -0.0f}, {-1, 0, 0}, {-1, 1, 0}, lamp);
+    EXPECT_THAT(make_light_table(scene, 10).emitter, ElementsAre(0, 0));
+}
+
 TEST(LightTable, LightsKnowTheirTriangles) {
     const LightTable table = make_light_table(sun_and_two_lamps(), 10);
     std::vector<std::uint32_t> triangles;
