@@ -5,6 +5,7 @@
 #include "methods/bandwidth.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
+#include "shared/photon.h"
 #include "shared/random.h"
 
 #include <algorithm>
@@ -196,6 +197,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
     PhotonMap map =
         build_photon_map(c_.device, c_.on_device, photons_, stored_,
                          {.area_samples = area_samples(c_.on_device.sampled_area, radius),
+                          .cover_height = disc_half_height * radius,
                           .seed = area_seed(numbers),
                           .leaf_size = c_.settings.leaf_size,
                           .wide_codes = c_.settings.wide_codes,

@@ -1,6 +1,8 @@
 #include "photon/photon_map.hpp"
 
+#include "kernels/area_cover.hpp"
 #include "kernels/area_footprints.hpp"
+#include "kernels/area_rays.hpp"
 #include "kernels/area_samples.hpp"
 #include "kernels/flux_sum.hpp"
 #include "kernels/photon_advance.hpp"
@@ -24,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace argand {
@@ -150,6 +153,44 @@ Buffer unshared(Device& device, Buffer& last, const char* name, std::uint64_t by
     return last;
 }
 
+/// Finds the sides of area samples that other surfaces cover: short rays along the normals. The
+/// samples lie behind the stored slots.
+void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                        std::uint32_t samples, double height) {
+    // A rounding of positions, which are interpolated between vertices anywhere in the scene.
+    const double reach = glm::length(glm::dvec3(scene.record.center_x, scene.record.center_y,
+                                                scene.record.center_z)) +
+                         scene.record.radius;
+    const std::uint64_t sides = 2 * std::uint64_t(samples);
+    device.fill(w.traversal.unfinished, 0);
+    for (std::uint64_t first = 0; first < sides; first += w.slots) {
+        const AreaCoverParams params{
+            .first = static_cast<std::uint32_t>(first),
+            .count = static_cast<std::uint32_t>(std::min(w.slots, sides - first)),
+            .height = static_cast<float>(height),
+            .error = static_cast<float>(reach * 8 * std::numeric_limits<float>::epsilon())};
+        dispatch(device,
+                 kernels::area_rays{.counters = w.counters,
+                                    .photons = w.photons,
+                                    .rays = w.rays,
+                                    .active_slots = w.active,
+                                    .params = params},
+                 params.count);
+        trace_closest(device, scene.bvh, w.traversal,
+                      {w.rays, w.active, w.hits, Count(params.count)});
+        dispatch(
+            device,
+            kernels::area_cover{.triangles = scene.triangles,
+                                .materials = scene.materials,
+                                .hits = w.hits,
+                                .counters = w.counters,
+                                .photons = w.photons,
+                                .params = params,
+                                .constants = {.material_features = scene.plan.material_features()}},
+            params.count);
+    }
+}
+
 /// Appends samples of the surfaces' area to the photons. Returns their number, 0 if there is too
 /// little room.
 std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
@@ -182,6 +223,9 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
                             .capacity = static_cast<std::uint32_t>(w.capacity),
                             .offset = static_cast<std::uint32_t>(random * step >> 32)}},
              samples);
+    if (settings.cover_height > 0) {
+        find_covered_areas(device, scene, w, samples, settings.cover_height);
+    }
     upload_word(device, w.counters, counter_stored_slots,
                 static_cast<std::uint32_t>(stored.slots + samples));
     return samples;

@@ -58,9 +58,14 @@ CONSTANT real kernel_scale = real(0.63661977236758134308); // 2 / π
 // not trusted.
 CONSTANT real least_coverage = real(0.1);
 
-// Photons whose height over the tangent plane exceeds this share of the radius belong to another
-// surface.
+// Height of the disc of density estimation, over its radius: what lies higher over a surface does
+// not belong to it.
 CONSTANT real disc_half_height = real(0.1);
+// A chord of a circle is at the same angle to the normals at its two ends, so that the sum of the
+// normals is perpendicular to it. Of points of one smooth surface that holds nearly, also where it
+// is curved; parallel layers fail unless the chord is 20 times as long as their distance. This is
+// the most that may be left: the component of a unit chord along the sum of the normals.
+CONSTANT real chord_tolerance = real(0.1);
 // Photons whose normal is at an angle with a cosine below this belong to another surface.
 CONSTANT real same_surface_cosine = real(0.5);
 

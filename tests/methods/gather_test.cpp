@@ -55,9 +55,10 @@ Gathered expected_sum(const std::vector<PhotonRecord>& photons, const Query& que
         const glm::dvec3 d = glm::dvec3(p.x, p.y, p.z) - glm::dvec3(query.position);
         const double height = glm::dot(d, glm::dvec3(query.normal));
         const double d2 = glm::dot(d, d) - height * height;
-        const bool same_surface = std::abs(height) <= disc_half_height * radius &&
-                                  glm::dot(glm::dvec3(unpack_photon_normal(p.normal)),
-                                           glm::dvec3(query.normal)) >= same_surface_cosine;
+        const glm::dvec3 normal(unpack_photon_normal(p.normal));
+        const bool same_surface =
+            std::abs(height + glm::dot(d, normal)) <= chord_tolerance * glm::length(d) &&
+            glm::dot(normal, glm::dvec3(query.normal)) >= same_surface_cosine;
         if (d2 < radius * radius && same_surface) {
             const double weight = 2 / (double(pi) * radius * radius) *
                                   (1 - d2 / (radius * radius)) * albedo / double(pi);
@@ -123,8 +124,8 @@ TEST_F(GatherPhotons, LeavesOutOtherSurfacesAndEmptySlots) {
     empty.normal = no_photon;
     const std::vector<PhotonRecord> photons{
         photon({0.1f, 0, 0}),
-        photon({0.1f, 0.9f * disc_half_height * radius, 0}),
-        photon({0.1f, 1.1f * disc_half_height * radius, 0}),
+        photon({0.1f, 0.45f * chord_tolerance * 0.1f, 0}),
+        photon({0.1f, 0.55f * chord_tolerance * 0.1f, 0}),
         photon({0, 0, 0}, false, {0, -1, 0}),
         photon({0, 0, 0}, false, glm::normalize(glm::vec3(1, 0.9f, 0))),
         photon({0.51f, 0, 0}),
@@ -133,6 +134,23 @@ TEST_F(GatherPhotons, LeavesOutOtherSurfacesAndEmptySlots) {
     const Gathered sum = gather(photons, {Query{}}, radius, gather_budget)[0];
     expect_near(sum, expected_sum(photons, Query{}, radius), 1e-5);
     expect_near(sum, expected_sum({photons[0], photons[1], photons[4]}, Query{}, radius), 1e-5);
+}
+
+// On a sphere of half the disc's radius photons count up to where its normal turns away.
+TEST_F(GatherPhotons, KeepsCurvedSurfaces) {
+    const float radius = 0.5f, curvature = 4;
+    std::vector<PhotonRecord> photons;
+    for (const float angle : {0.1f, 0.5f, 1.0f}) {
+        const glm::vec3 normal(std::sin(angle), std::cos(angle), 0);
+        photons.push_back(photon((normal - glm::vec3(0, 1, 0)) / curvature, false, normal));
+    }
+    const Gathered sum = gather(photons, {Query{}}, radius, gather_budget)[0];
+    double flux = 0;
+    for (const PhotonRecord& p : photons) {
+        flux += p.flux_r * (1 - p.x * p.x / (radius * radius));
+    }
+    EXPECT_RELATIVE(sum.indirect.r, flux * 2 / (double(pi) * radius * radius) * albedo / double(pi),
+                    1e-4);
 }
 
 TEST_F(GatherPhotons, FewPhotons) {

@@ -62,8 +62,12 @@ public:
         const glm::vec3 d = glm::vec3(p.x, p.y, p.z) - query_.position;
         const float height = dot3(d, normal_);
         const std::uint32_t bits = float_bits(dot3(d, d) + nearest_stretch * (height * height));
-        const bool same_side = (p.normal & photon_normal_mask) == own_ ||
-                               dot3(unpack_photon_normal(p.normal), normal_) >= same_surface_cosine;
+        const vec3 normal = unpack_photon_normal(p.normal);
+        const bool flat = (p.normal & photon_normal_mask) == own_;
+        const float along_sum = height + (flat ? height : dot3(d, normal));
+        const bool same_side =
+            (flat || dot3(normal, normal_) >= same_surface_cosine) &&
+            along_sum * along_sum <= chord_tolerance * chord_tolerance * dot3(d, d);
         if ((p.normal & area_sample_bit) == 0 && bits < limit_ && same_side) {
             found_.push_back({bits, index});
             std::push_heap(found_.begin(), found_.end());

@@ -15,14 +15,15 @@ namespace {
 class AreaSamples : public DeviceTest {
 protected:
     std::vector<PhotonRecord> samples(const Scene& scene, std::uint64_t count,
-                                      std::uint32_t seed = 0) {
+                                      std::uint32_t seed = 0, double cover_height = 0,
+                                      std::uint64_t slots = 0) {
         Device& device = open();
         const DeviceScene on_device =
             upload_scene(device, scene, make_plan(scene, {.everything = true}));
-        PhotonWorkspace workspace = make_photon_workspace(device, count);
-        const PhotonMap map = build_photon_map(device, on_device, workspace,
-                                               store(device, workspace, {PhotonRecord{}}),
-                                               {.area_samples = count, .seed = seed});
+        PhotonWorkspace workspace = make_photon_workspace(device, slots > 0 ? slots : count);
+        const PhotonMap map = build_photon_map(
+            device, on_device, workspace, store(device, workspace, {PhotonRecord{}}),
+            {.area_samples = count, .cover_height = cover_height, .seed = seed});
         std::vector<PhotonRecord> found =
             download<PhotonRecord>(device, map.photons, map.area_samples + 1);
         std::erase_if(found,
@@ -99,6 +100,68 @@ TEST_F(AreaSamples, AreUnbiasedOnEveryWall) {
     for (const double wall : counts) {
         EXPECT_NEAR(wall / seeds, count / 6.0, 0.3); // 30 on some walls without a random start
     }
+}
+
+/// A floor at height 0, and a panel over the half of it with x > 0.
+Scene floor_with_panel(float height, const Material& panel) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
+    add_quad(scene, {0, height, 1}, {1, 0, 0}, {0, 0, -2}, add_material(scene, panel));
+    return scene;
+}
+
+// A panel a centimetre over a floor takes the front from the floor's samples, and the floor takes
+// the back from the panel's. The rays are traced in batches of any size.
+TEST_F(AreaSamples, CoveredSidesHaveNoArea) {
+    const Scene scene = floor_with_panel(0.01f, lambertian(glm::vec3(0.5f)));
+    for (const std::uint64_t slots : {0u, 1u, 7u}) {
+        SCOPED_TRACE(slots);
+        for (const PhotonRecord& sample : samples(scene, 101, 0, 0.02, slots)) {
+            const bool on_panel = sample.y > 0.005f;
+            EXPECT_EQ(sample.flux_r > 0, on_panel || sample.x < 0) << sample.x;
+            EXPECT_EQ(sample.flux_g > 0, !on_panel) << sample.x;
+        }
+    }
+}
+
+TEST_F(AreaSamples, NothingCoversBeyondTheHeightOrThroughGlass) {
+    for (const Scene& scene : {floor_with_panel(0.03f, lambertian(glm::vec3(0.5f))),
+                               floor_with_panel(0.01f, glass(1.5f, false))}) {
+        for (const PhotonRecord& sample : samples(scene, 100, 0, 0.02)) {
+            EXPECT_GT(sample.flux_r, 0);
+            EXPECT_GT(sample.flux_g, 0);
+        }
+    }
+}
+
+// Photons lie on the panel only. Its irradiance is theirs, not half of it.
+TEST_F(AreaSamples, HiddenSurfacesDarkenNoEstimate) {
+    const Scene scene = floor_with_panel(0.01f, lambertian(glm::vec3(0.5f)));
+    Device& device = open();
+    const DeviceScene on_device =
+        upload_scene(device, scene, make_plan(scene, {.everything = true}));
+    constexpr int side = 100;
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < side * side; ++i) {
+        const float x = (static_cast<float>(i % side) + 0.5f) / side;
+        const float z = 2 * (static_cast<float>(i / side) + 0.5f) / side - 1;
+        const float flux = 2.0f / (side * side); // an irradiance of 1
+        photons.push_back({x, 0.01f, z, pack_photon_normal({0, 1, 0}, false), flux, flux, flux,
+                           pack_photon_direction({0, 1, 0}, 1)});
+    }
+    PhotonWorkspace workspace = make_photon_workspace(device, photons.size());
+    const double radius = 0.3;
+    const PhotonMap map = build_photon_map(
+        device, on_device, workspace, store(device, workspace, photons),
+        {.area_samples = 10'000, .cover_height = disc_half_height * radius, .seed = 0});
+    RadiusEstimator estimator(device, on_device.plan, {radius, radius});
+    bool finished = false;
+    const Answering how{.albedo = 0.5f};
+    for (const Gathered& sum : answers(
+             device, estimator, map,
+             {{{0.5f, 0.01f, 0}}, {{0.98f, 0.01f, 0}}, {{0.5f, 0.01f, 0.99f}}}, how, finished)) {
+        EXPECT_NEAR(sum.indirect.r, 0.5 / double(pi), 0.03 * 0.5 / double(pi));
+    }
+    EXPECT_TRUE(finished);
 }
 
 TEST_F(AreaSamples, DifferBetweenSeeds) {

@@ -35,5 +35,5 @@ FN void main() {
                                vec3(real(0.0), real(0.0), real(1.0)));
     photons[counters[counter_stored_slots] + i] =
         PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit,
-                     params.area, real(0.0), real(0.0), 0u);
+                     params.area, params.area, real(0.0), 0u);
 }

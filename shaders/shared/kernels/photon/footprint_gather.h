@@ -22,13 +22,13 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
     FootprintDuals duals = unpack_duals(FOOTPRINTS(j));
     real x = dot3(duals.a, offset);
     real y = dot3(duals.b, offset);
-    if (!(x * x + y * y > real(1.0)) && on_same_side(q, place.w)) {
+    if (!(x * x + y * y > real(1.0)) && on_same_surface(q, place.w, offset)) {
         vec3 normal = unpack_photon_normal(place.w);
         real weight = footprint_weight(duals, normal, q.normal, offset, b.flatness, uniform_kernel);
         if (weight > real(0.0)) {
             uvec4 carried = PHOTONS(2u * j + 1u);
             if ((place.w & area_sample_bit) != 0u) {
-                q.coverage += bits_float(carried.x) * weight;
+                q.coverage += open_area(q, carried) * weight;
             } else if (is_caustic(place)) {
                 leaf.caustic += scattered(q, carried) * weight;
             } else {

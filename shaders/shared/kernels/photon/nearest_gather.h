@@ -121,8 +121,10 @@ FN bool count_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
         steps += range.end - range.first;
         for (uint j = range.first; j < range.end; ++j) {
             uvec4 place = PHOTONS(2u * j);
-            uint bits = float_bits(squared_distance(q, bits_float(uvec3(place)) - q.p));
-            if (bits < bound && (place.w & area_sample_bit) == 0u && on_same_side(q, place.w)) {
+            vec3 chord = bits_float(uvec3(place)) - q.p;
+            uint bits = float_bits(squared_distance(q, chord));
+            if (bits < bound && (place.w & area_sample_bit) == 0u &&
+                on_same_surface(q, place.w, chord)) {
                 uint bin = bits < s.low ? 0u : 1u + ((bits - s.low) >> s.shift);
                 WORD(bin) += 1u;
                 ++s.total;
@@ -185,9 +187,10 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
         steps += range.end - range.first;
         for (uint j = range.first; j < range.end; ++j) {
             uvec4 place = PHOTONS(2u * j);
-            real d2 = squared_distance(q, bits_float(uvec3(place)) - q.p);
+            vec3 chord = bits_float(uvec3(place)) - q.p;
+            real d2 = squared_distance(q, chord);
             uint bits = float_bits(d2);
-            if (bits >= s.high || !on_same_side(q, place.w)) {
+            if (bits >= s.high || !on_same_surface(q, place.w, chord)) {
                 continue;
             }
             bool is_area = (place.w & area_sample_bit) != 0u;
@@ -213,7 +216,7 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
             uvec4 carried = PHOTONS(2u * j + 1u);
             real share = d2 * inverse_unit;
             if (is_area) {
-                real area = bits_float(carried.x);
+                real area = open_area(q, carried);
                 q.coverage += area;
                 s.coverage_moment += area * share;
             } else {
@@ -281,7 +284,7 @@ FN void finish(Query q, INOUT(Search) s) {
         real weight = kernel_weight(bits_float(bits) * inverse_r2);
         uvec4 carried = PHOTONS(2u * index + 1u);
         if (is_area) {
-            coverage += bits_float(carried.x) * weight;
+            coverage += open_area(q, carried) * weight;
         } else if (caustics && photon_is_caustic(PHOTONS(2u * index).w)) {
             caustic += scattered(q, carried) * weight;
         } else {

@@ -4,7 +4,6 @@
 struct Bandwidth {
     real r2, inverse_r2;
     real caustic_r2, inverse_caustic_r2;
-    real half_height; // of the disc in which photons count
 };
 
 FN Bandwidth make_bandwidth() {
@@ -13,7 +12,6 @@ FN Bandwidth make_bandwidth() {
     b.caustic_r2 = params.caustic_radius * params.caustic_radius;
     b.inverse_r2 = real(1.0) / b.r2;
     b.inverse_caustic_r2 = real(1.0) / b.caustic_r2;
-    b.half_height = params.radius * disc_half_height;
     return b;
 }
 
@@ -24,10 +22,10 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
     vec3 d = bits_float(uvec3(place)) - q.p;
     real height = dot3(d, q.normal);
     real d2 = dot3(d, d) - height * height;
-    if (d2 < b.r2 && !(abs(height) > b.half_height) && on_same_side(q, place.w)) {
+    if (d2 < b.r2 && on_same_surface(q, place.w, d)) {
         uvec4 carried = PHOTONS(2u * j + 1u);
         if ((place.w & area_sample_bit) != 0u) {
-            leaf.area += bits_float(carried.x) * kernel_weight(d2 * b.inverse_r2);
+            leaf.area += open_area(q, carried) * kernel_weight(d2 * b.inverse_r2);
         } else if (is_caustic(place)) {
             leaf.caustic += scattered(q, carried) * kernel_weight(d2 * b.inverse_caustic_r2);
         } else {

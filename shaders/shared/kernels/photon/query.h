@@ -58,16 +58,27 @@ FN Query make_query(uint slot) {
     return q;
 }
 
-// Whether a photon or an area sample of this packed normal lies on the query's surface, on the
-// query's side of it.
-FN bool on_same_side(IN(Query) q, uint packed) {
+// Whether a photon or an area sample of this packed normal, at the end of a chord from the query,
+// lies on the query's surface, on the query's side of it.
+FN bool on_same_surface(IN(Query) q, uint packed, vec3 chord) {
     bool is_area = (packed & area_sample_bit) != 0u;
+    real height = dot3(chord, q.normal);
+    real along_sum = height + height;
     // On flat surfaces the packed normals are equal, which saves unpacking.
-    if ((packed & photon_normal_mask) == (is_area ? q.front_normal : q.own_normal)) {
-        return true;
+    if ((packed & photon_normal_mask) != (is_area ? q.front_normal : q.own_normal)) {
+        vec3 normal = unpack_photon_normal(packed);
+        normal = is_area && !q.front ? -normal : normal;
+        along_sum = height + dot3(chord, normal);
+        if (!(dot3(normal, q.normal) >= same_surface_cosine)) {
+            return false;
+        }
     }
-    real cosine = dot3(unpack_photon_normal(packed), q.normal);
-    return (is_area && !q.front ? -cosine : cosine) >= same_surface_cosine;
+    return along_sum * along_sum <= chord_tolerance * chord_tolerance * dot3(chord, chord);
+}
+
+// The part of an area sample on the query's side. carried: the sample's second four words.
+FN real open_area(IN(Query) q, uvec4 carried) {
+    return bits_float(q.front ? carried.x : carried.y);
 }
 
 // Whether the area samples around the query tell how much of its disc lies on surfaces.

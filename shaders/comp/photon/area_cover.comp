@@ -1,0 +1,16 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/bsdf.h"
+#include "shared/geometry_records.h"
+#include "shared/photon_records.h"
+#include "material_features.glsl"
+
+layout(set = 0, binding = 0) readonly buffer Triangles { uvec4 triangles[]; };
+layout(set = 0, binding = 1) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 0, binding = 2) readonly buffer Hits { HitRecord hits[]; };
+layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4) buffer Photons { PhotonRecord photons[]; };
+layout(push_constant) uniform Push { AreaCoverParams params; };
+
+#include "shared/kernels/photon/area_cover.h"

@@ -1,0 +1,14 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/geometry_records.h"
+#include "shared/intersect.h"
+#include "shared/photon.h"
+
+layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 1) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 2) writeonly buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 3) writeonly buffer Active { uint active_slots[]; };
+layout(push_constant) uniform Push { AreaCoverParams params; };
+
+#include "shared/kernels/photon/area_rays.h"

@@ -1,0 +1,17 @@
+// Writes a short ray along the normal of each side of the area samples, which finds what lies on
+// it.
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= params.count) {
+        return;
+    }
+    uint side = params.first + i;
+    PhotonRecord place = photons[counters[counter_stored_slots] + side / 2u];
+    vec3 front = unpack_photon_normal(place.normal);
+    vec3 normal = side % 2u == 0u ? front : -front;
+    vec3 origin =
+        offset_ray_origin(vec3(place.x, place.y, place.z), vec3(params.error), normal, normal);
+    rays[i] =
+        RayRecord(origin.x, origin.y, origin.z, params.height, normal.x, normal.y, normal.z, 0u);
+    active_slots[i] = i;
+}
