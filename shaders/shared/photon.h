@@ -66,6 +66,9 @@ CONSTANT real disc_half_height = real(0.1);
 // is curved; parallel layers fail unless the chord is 20 times as long as their distance. This is
 // the most that may be left: the component of a unit chord along the sum of the normals.
 CONSTANT real chord_tolerance = real(0.1);
+// Square of the most that a unit chord then rises over the tangent plane: the sine of half the
+// angle between the normals, at most 60°, and of the tolerance.
+CONSTANT real steepest_chord = real(0.302);
 // Photons whose normal is at an angle with a cosine below this belong to another surface.
 CONSTANT real same_surface_cosine = real(0.5);
 

@@ -61,8 +61,12 @@ FN Query make_query(uint slot) {
 // Whether a photon or an area sample of this packed normal, at the end of a chord from the query,
 // lies on the query's surface, on the query's side of it.
 FN bool on_same_surface(IN(Query) q, uint packed, vec3 chord) {
-    bool is_area = (packed & area_sample_bit) != 0u;
     real height = dot3(chord, q.normal);
+    real length2 = dot3(chord, chord);
+    if (height * height > steepest_chord * length2) {
+        return false; // before the normal is unpacked
+    }
+    bool is_area = (packed & area_sample_bit) != 0u;
     real along_sum = height + height;
     // On flat surfaces the packed normals are equal, which saves unpacking.
     if ((packed & photon_normal_mask) != (is_area ? q.front_normal : q.own_normal)) {
@@ -73,7 +77,7 @@ FN bool on_same_surface(IN(Query) q, uint packed, vec3 chord) {
             return false;
         }
     }
-    return along_sum * along_sum <= chord_tolerance * chord_tolerance * dot3(chord, chord);
+    return along_sum * along_sum <= chord_tolerance * chord_tolerance * length2;
 }
 
 // The part of an area sample on the query's side. carried: the sample's second four words.
