@@ -169,14 +169,41 @@ FN vec3 layer_reflectance(IN(ReflectionParameters) r, real cosine) {
            dielectric_fresnel(r, cosine) * r.layer_share;
 }
 
-// Reflectance of the diffuse lobe for light that passes the layer at this cosine to the half
-// vector.
-FN vec3 diffuse_reflectance(IN(ReflectionParameters) r, real cosine) {
-    if (is_phong(r)) {
-        return r.base_color * r.opaque_share;
+// Part of the light that passes the layer: 1 less Schlick's approximation. grazing_less: 1 less its
+// weight of f90. No difference of nearly equal numbers is taken.
+FN real passes_layer(IN(ReflectionParameters) r, real grazing_less) {
+    if (!may_have(r.absent, MATERIAL_LAYER)) {
+        return real(1.0);
     }
-    return r.base_color *
-           (r.opaque_share * (real(1.0) - max_component(dielectric_fresnel(r, cosine))));
+    return (real(1.0) - r.f90) + (r.f90 - max_component(r.f0)) * grazing_less;
+}
+
+// The same at a cosine to the normal: 1 - (1 - c)^5, expanded.
+FN real passes_layer_at(IN(ReflectionParameters) r, real cosine) {
+    real c = clamp(cosine, real(0.0), real(1.0));
+    real less = c * (real(5.0) + c * (real(-10.0) + c * (real(10.0) + c * (real(-5.0) + c))));
+    return passes_layer(r, less);
+}
+
+// Albedo of the diffuse lobe under its layer, for light from a direction of this cosine.
+FN vec3 diffuse_albedo(IN(ReflectionParameters) r, real cosine) {
+    real passed = is_phong(r) ? real(1.0) : passes_layer_at(r, cosine);
+    return r.base_color * (r.opaque_share * passed);
+}
+
+// Value of the diffuse lobe, times pi. Light passes the layer twice, at wo and at wi, and what the
+// layer throws back from below is not lost (Shirley, Smits, Hu and Lafortune 1997). glTF's appendix
+// B mixes diffuse and glossy reflection by Fresnel's factor at the half vector instead: at grazing
+// angles a white surface then reflects up to half as much again as it receives, and light between
+// two such surfaces grows without bound.
+FN vec3 diffuse_reflectance(IN(ReflectionParameters) r, real cosine_o, real cosine_i) {
+    vec3 reflectance = diffuse_albedo(r, cosine_o);
+    if (is_phong(r) || !may_have(r.absent, MATERIAL_LAYER)) {
+        return reflectance;
+    }
+    // The mean of (1 - c)^5 over the hemisphere is 1/21.
+    real average = passes_layer(r, real(20.0 / 21.0));
+    return reflectance * (passes_layer_at(r, cosine_i) / max(average, real(1.0e-6)));
 }
 
 // Reflectance and transmittance of the delta lobes.
@@ -256,8 +283,7 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     vec3 albedo = vec3(real(0.0));
     ReflectionParameters reflection = reflection_parameters(m);
     if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
-        // For most wi the half vector stays near wo, where Fresnel's factor is little above f0.
-        albedo += diffuse_reflectance(reflection, real(1.0));
+        albedo += diffuse_albedo(reflection, wo.z);
     }
     if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
         albedo += layer_reflectance(reflection, wo.z);
@@ -280,7 +306,7 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     ReflectionParameters reflection = reflection_parameters(m);
     vec3 layer = layer_reflectance(reflection, cosine);
     if (wants_lobe(m, present, LOBE_DIFFUSE)) {
-        p.x = mean_component(diffuse_reflectance(reflection, real(1.0)));
+        p.x = mean_component(diffuse_albedo(reflection, cosine));
     }
     if (wants_lobe(m, present, LOBE_GLOSSY)) {
         p.y = mean_component(layer);
@@ -312,7 +338,7 @@ FN vec3 bsdf_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, uint lob
     }
     real cosine = min(real(0.5) * sqrt(h2), real(1.0)); // between wo (or wi) and the half vector
     if (may_have(r.absent, LOBE_DIFFUSE) && (lobes & LOBE_DIFFUSE) != 0u) {
-        f = diffuse_reflectance(r, cosine) * INV_PI;
+        f = diffuse_reflectance(r, wo.z, wi.z) * INV_PI;
         pdf = probabilities.x * cosine_hemisphere_pdf(wi.z);
     }
     if (may_have(r.absent, LOBE_GLOSSY) && (lobes & LOBE_GLOSSY) != 0u &&
@@ -429,10 +455,8 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         return false;
     }
     if (p.x == real(1.0)) {
-        vec3 sum = wo + s.wi;
         // All other factors cancel exactly.
-        real cosine = min(real(0.5) * sqrt(dot3(sum, sum)), real(1.0));
-        s.weight = diffuse_reflectance(reflection, cosine);
+        s.weight = diffuse_reflectance(reflection, wo.z, s.wi.z);
     } else {
         s.weight = f * (s.wi.z / s.pdf);
     }

@@ -122,6 +122,22 @@ TEST_F(Flux, BlackRoomAbsorbsWhatIsEmittedAndAWhiteOneNothingUntilItIsCut) {
     expect_near(white.cut(), white.emitted(), 1e-4);
 }
 
+Scene white_glossy_room() {
+    Material white = lambertian(glm::vec3(1));
+    white.specular = 1;
+    white.roughness = 0.2f;
+    Scene scene = box_scene(white);
+    scene.lights = {point_light({0.2f, 0.1f, 0}, glm::vec3(1))};
+    return scene;
+}
+
+TEST_F(Flux, AWhiteGlossyRoomGainsNothing) {
+    const Traced traced = trace(white_glossy_room(), 40);
+    EXPECT_TRUE(traced.balances());
+    EXPECT_LT(traced.cut().g, 1.01 * traced.emitted().g);
+    EXPECT_GT(traced.cut().g, 0.5 * traced.emitted().g);
+}
+
 TEST_F(Flux, EmittedIsTheLightsPower) {
     Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
     const glm::vec3 color(1, 0.5f, 2);

@@ -143,8 +143,9 @@ TEST(Bsdf, LobesAddUp) {
     }
 }
 
-// The formulas of glTF's appendix B, implemented independently for one pair of directions.
-TEST(Bsdf, DielectricAgreesWithTheSpecification) {
+// The glossy lobe of glTF's appendix B and the diffuse lobe of Shirley et al. 1997, implemented
+// independently for one pair of directions.
+TEST(Bsdf, DielectricAgreesWithItsFormulas) {
     for (const double roughness : {0.1, 0.5, 1.0}) {
         for (const double angle : {0.0, 30.0, 80.0}) {
             const MaterialRecord m = glossy_dielectric(float(roughness));
@@ -159,9 +160,14 @@ TEST(Bsdf, DielectricAgreesWithTheSpecification) {
                                       (l.z * std::sqrt(v.z * v.z * (1 - a2) + a2) +
                                        v.z * std::sqrt(l.z * l.z * (1 - a2) + a2)) /
                                       2;
-            const double fresnel = 0.04 + 0.96 * std::pow(1 - glm::dot(v, h), 5);
+            const auto fresnel = [](double cosine) {
+                return 0.04 + 0.96 * std::pow(1 - cosine, 5);
+            };
             const glm::dvec3 base(m.base_r, m.base_g, m.base_b);
-            const glm::dvec3 f = (1 - fresnel) * base / 3.14159265358979 + fresnel * d * visibility;
+            const double mean_fresnel = 0.04 + 0.96 / 21;
+            const glm::dvec3 diffuse = base / 3.14159265358979 * (1 - fresnel(v.z)) *
+                                       (1 - fresnel(l.z)) / (1 - mean_fresnel);
+            const glm::dvec3 f = diffuse + fresnel(glm::dot(v, h)) * d * visibility;
             expect_near(bsdf_eval(m, wo, wi, LOBES_ALL), f, 1e-5 * f.x);
         }
     }
