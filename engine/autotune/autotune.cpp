@@ -30,9 +30,16 @@ public:
         if (!control_ && !is_interrupted()) {
             render_best();
         }
+        if (control_ && control_->outcome() == Outcome::slow && !is_interrupted()) {
+            render_as_witness();
+        }
         if (control_) {
             tuned_.measured = control_->measured();
-            tuned_.reached = control_->reached();
+            tuned_.outcome = control_->outcome();
+        }
+        if (witness_ && witness_->seconds() > 0) {
+            tuned_.witness = witness_->pass().method;
+            tuned_.witness_seconds = witness_->seconds();
         }
         return std::move(tuned_);
     }
@@ -98,7 +105,39 @@ private:
         tuned_.settings = best().settings;
         tuned_.pilot_seconds = seconds_since(start_);
         on_pick_(tuned_);
-        control_.emplace(target, tuned_.candidates.front(), pilots_.truth(), tuned_.pilot_seconds);
+        call_witness();
+        control_.emplace(target, tuned_.candidates.front(), witness_ ? &*witness_ : nullptr,
+                         pilots_.with_unbiased(), tuned_.pilot_seconds);
+    }
+
+    /// Prepares the witness of the best candidate, if it has bias: the unbiased method, or where
+    /// that misses light, the candidate itself with narrow bandwidths.
+    void call_witness() {
+        const MethodInfo* unbiased = tuned_.target.methods.unbiased();
+        if (best_is_unbiased()) {
+            return;
+        }
+        if (unbiased && exploration_.eye_paths_find_all) {
+            witness_.emplace(render_, *unbiased, exploration_.short_pass(*unbiased));
+        } else {
+            witness_.emplace(render_, tuned_.target.methods.at(best().settings.method),
+                             best().settings);
+        }
+        if (pilots_.truth() && witness_->is_unbiased()) {
+            witness_->add(*pilots_.truth(), pilots_.truth_samples(), pilots_.truth_seconds());
+        }
+    }
+
+    /// Renders again from the start, with the method of the witness.
+    void render_as_witness() {
+        Candidate& refuted = tuned_.candidates.front();
+        refuted.error = control_->measured()->error();
+        tuned_.candidates.insert(tuned_.candidates.begin(), control_->of_witness());
+        tuned_.settings = tuned_.candidates.front().settings;
+        on_pick_(tuned_);
+        control_.emplace(tuned_.target, tuned_.candidates.front(), nullptr, false,
+                         seconds_since(start_));
+        tuned_.result = render_(tuned_.settings, std::ref(*control_));
     }
 
     /// Renders the best candidate from the start, after more paths where they improve the estimate
@@ -120,6 +159,7 @@ private:
     const OnPick& on_pick_;
     Clock::time_point start_;
     AutotunedRender tuned_;
+    std::optional<Witness> witness_;    ///< of the final render, if its method has bias
     std::optional<RunControl> control_; ///< of the final render, once it is picked
 };
 

@@ -20,6 +20,27 @@ std::string numbers_of(const RenderSettings& settings, MethodTable methods) {
                        counted(settings.samples, "sample", "samples"));
 }
 
+/// What there is to say of the target error, as the end of a line. Empty without one.
+std::string describe_target(const AutotunedRender& render) {
+    if (!render.target.error) {
+        return "";
+    }
+    const std::string judge =
+        render.witness.empty()
+            ? ""
+            : fmt::format(" by '{}' in {:.2g} s", render.witness, render.witness_seconds);
+    switch (render.outcome) {
+    case Outcome::reached:
+        return judge.empty() ? "" : "; confirmed" + judge;
+    case Outcome::unconfirmed:
+        return fmt::format("; the target of {:.2g} is not reached for certain: it could not be "
+                           "confirmed{}",
+                           *render.target.error, judge);
+    default:
+        return fmt::format("; the target of {:.2g} is not reached", *render.target.error);
+    }
+}
+
 std::string error_of(const Candidate& candidate) {
     return std::isfinite(candidate.error) ? fmt::format("relMSE {:.2g}", candidate.error)
                                           : "unknown error";
@@ -52,10 +73,7 @@ std::string describe_pick(const AutotunedRender& render) {
 }
 
 std::string describe_outcome(const AutotunedRender& render) {
-    const bool missed = render.target.error && !render.reached;
-    const std::string missing =
-        missed ? fmt::format("; the target of {:.2g} is not reached", *render.target.error)
-               : std::string();
+    const std::string missing = describe_target(render);
     if (render.candidates.empty()) {
         return "its error is unknown: it was interrupted while methods were tried";
     }

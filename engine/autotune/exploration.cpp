@@ -84,6 +84,10 @@ std::optional<RenderSettings> Exploration::next_pilot() const {
     return std::nullopt;
 }
 
+RenderSettings Exploration::short_pass(const MethodInfo& unbiased) const {
+    return settings_of_pass(base, {}, unbiased.name);
+}
+
 RenderSettings Exploration::of_method(const std::string& method) const {
     RenderSettings other = settings_of_pass(base, user_set, method);
     other.samples = pilots.last().settings.samples;

@@ -23,6 +23,9 @@ struct Exploration {
     /// Settings of the next pilot. Nothing if no further pilot is worth its time.
     std::optional<RenderSettings> next_pilot() const;
 
+    /// Settings of a short pass of the unbiased method, whatever samples the user has set.
+    RenderSettings short_pass(const MethodInfo& unbiased) const;
+
     /// Seconds after which the next pilot may end early.
     double pilot_time_limit() const;
 

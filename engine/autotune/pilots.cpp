@@ -104,7 +104,7 @@ void Pilots::fit_models() {
     const Image guess = best_guess(pilots_);
     models_.clear();
     for (const Pilot& pilot : pilots_) {
-        models_.push_back(model_of(pilot, truth_ ? &*truth_ : nullptr, guess));
+        models_.push_back(model_of(pilot, truth_ ? &truth_->estimated : nullptr, guess));
     }
 }
 
@@ -128,12 +128,18 @@ void Pilots::add_truth(const Pilot& unbiased) {
         return;
     }
     const double samples = static_cast<double>(unbiased.passes) * unbiased.settings.samples;
-    const ImagePair &a = unbiased.initial.estimated, &b = unbiased.reduced.estimated;
-    const ImagePair more{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
-    truth_ = truth_ ? ImagePair{weighted_mean((*truth_)[0], truth_samples_, more[0], samples),
-                                weighted_mean((*truth_)[1], truth_samples_, more[1], samples)}
-                    : more;
+    const auto add = [&](ImagePair& all, const ImagePair& a, const ImagePair& b) {
+        for (std::size_t half = 0; half < all.size(); ++half) {
+            const Image more = mean_of(a[half], b[half]);
+            all[half] = truth_ ? weighted_mean(all[half], truth_samples_, more, samples) : more;
+        }
+    };
+    PilotImages all = truth_.value_or(PilotImages{});
+    add(all.whole, unbiased.initial.whole, unbiased.reduced.whole);
+    add(all.estimated, unbiased.initial.estimated, unbiased.reduced.estimated);
+    truth_ = std::move(all);
     truth_samples_ += samples;
+    truth_seconds_ += unbiased.seconds;
 }
 
 } // namespace argand

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "autotune/candidate.hpp"
+#include "autotune/witness.hpp"
 
 #include <functional>
 #include <optional>
@@ -8,10 +9,6 @@
 #include <vector>
 
 namespace argand {
-
-/// Renders passes of these settings, as argand::render does with `on_pass`.
-using RenderPasses =
-    std::function<RenderResult(const RenderSettings& settings, const OnPass& on_pass)>;
 
 /// Called when a pilot is complete. Returns the control of further passes that continue from the
 /// pilot's, or null to throw its passes away.
@@ -34,8 +31,11 @@ public:
     /// methods better. Returns false if it was interrupted.
     bool improve_truth(double seconds);
 
-    /// Estimated light without bias, once the unbiased method has run.
-    const std::optional<ImagePair>& truth() const { return truth_; }
+    /// Pictures without bias, once the unbiased method has run.
+    const std::optional<PilotImages>& truth() const { return truth_; }
+    /// Eye paths per pixel of the pictures without bias, both halves together.
+    double truth_samples() const { return truth_samples_; }
+    double truth_seconds() const { return truth_seconds_; } ///< spent on them
 
     /// Number of pilots of this method so far.
     std::size_t count(const std::string& method) const;
@@ -45,6 +45,8 @@ public:
 
     /// Time of all pilots.
     double seconds() const { return seconds_; }
+    /// Whether the unbiased method is a candidate.
+    bool with_unbiased() const { return with_unbiased_; }
     /// Mean time of a pilot.
     double seconds_each() const { return seconds_ / static_cast<double>(pilots_.size()); }
 
@@ -61,8 +63,8 @@ private:
     const RenderPasses& render_;
     const Target& target_;
     bool with_unbiased_;
-    std::optional<ImagePair> truth_;
-    double truth_samples_ = 0, seconds_ = 0;
+    std::optional<PilotImages> truth_;
+    double truth_samples_ = 0, truth_seconds_ = 0, seconds_ = 0;
     std::vector<Pilot> pilots_;
     std::vector<ErrorModel> models_; ///< of each pilot
     std::vector<Candidate> candidates_;

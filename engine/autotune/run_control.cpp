@@ -14,12 +14,18 @@ namespace {
 // follows from smoothed images, because a penumbra may be black in one of the halves.
 constexpr double passes_for_pixels = 16;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
+// A witness confirms that the error is at most so many times the target error.
+constexpr double tolerance = 1.5;
+// Without a time budget a witness may take this many times as long as all else, and at least these
+// seconds.
+constexpr double most_of_witness = 10, seconds_of_witness = 2;
 
 } // namespace
 
-RunControl::RunControl(const Target& target, const Candidate& candidate,
-                       const std::optional<ImagePair>& truth, double spent)
-    : target_(target), candidate_(candidate), truth_(truth), model_(candidate.model),
+RunControl::RunControl(const Target& target, const Candidate& candidate, Witness* witness,
+                       bool may_switch, double spent)
+    : target_(target), candidate_(candidate), witness_(witness), may_switch_(may_switch),
+      spent_(spent), model_(candidate.model),
       seconds_(target.seconds ? *target.seconds - spent : unlimited),
       budget_(target.seconds ? std::optional(seconds_) : std::nullopt), start_(Clock::now()) {}
 
@@ -46,9 +52,14 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
         const std::vector<Layer> layers = so_far.layers();
         add(layers.front().image, needs_estimated_light() ? estimated_light(layers) : Image());
     }
-    if (target_.error && measured_ && measured_->error() <= *target_.error) {
-        reached_ = true;
-        return std::nullopt;
+    if (target_.error && measured_) {
+        question();
+        if (outcome_ == Outcome::unfinished && witness_is_faster(done)) {
+            outcome_ = Outcome::slow;
+        }
+        if (outcome_ != Outcome::unfinished) {
+            return std::nullopt;
+        }
     }
     if (target_.seconds && so_far.passes > 0 && !has_time(done)) {
         return std::nullopt;
@@ -61,7 +72,8 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
                        static_cast<double>(done))) {
         return std::nullopt;
     }
-    return PassPlan{.expected = std::max(expected, passes + 1), .stream = halves_.stream()};
+    expected_ = std::max(expected, passes + 1);
+    return PassPlan{.expected = expected_, .stream = halves_.stream()};
 }
 
 /// Whether there is time for another pass. done: passes so far, without the pilot's.
@@ -84,12 +96,10 @@ const MethodInfo& RunControl::method() const {
     return target_.methods.at(candidate_.settings.method);
 }
 
-bool RunControl::measures_bias() const { return !method().abilities.unbiased && truth_; }
-
-/// Whether to read the estimated light. If the pilot was too short to fit a model, its noise tells
-/// which bias is usual.
+/// Whether to read the estimated light. An unbiased witness measures its bias, now or later. If the
+/// pilot was too short to fit a model, its noise tells which bias is usual.
 bool RunControl::needs_estimated_light() const {
-    return measures_bias() || !std::isfinite(model_.fixed);
+    return (witness_ && witness_->is_unbiased()) || !std::isfinite(model_.fixed);
 }
 
 /// Adds the images at the end of a turn of the halves.
@@ -106,9 +116,8 @@ void RunControl::add(const Image& mean_so_far, const Image& estimated_so_far) {
 void RunControl::measure() {
     const auto passes = static_cast<double>(halves_.passes());
     const ImagePair& means = halves_.means();
-    const Image guess = passes < passes_for_pixels
-                            ? guess_from({smoothed(means[0]), smoothed(means[1])})
-                            : guess_from(means);
+    Image guess = passes < passes_for_pixels ? guess_from({smoothed(means[0]), smoothed(means[1])})
+                                             : guess_from(means);
     if (!std::isfinite(model_.fixed)) {
         // The pilot was too short to fit a model.
         const PilotImages images{means, estimated_.means()};
@@ -121,11 +130,89 @@ void RunControl::measure() {
                           nullptr, guess);
         model_.initial_passes = initial_passes;
     }
-    measured_ = {.passes = passes,
-                 .noise = halves_.noise(guess),
-                 .bias = measures_bias()
-                             ? bias_of(estimated_.means(), model_, passes, *truth_, guess)
-                             : bias_after(model_, passes)};
+    measured_ = {.passes = passes, .noise = halves_.noise(guess)};
+    const bool has_witness = witness_ && witness_->images() && target_.error;
+    if (has_witness && measured_->noise <= *target_.error) {
+        guess = darkened_by(witness_->images()->whole, guess);
+        measured_->noise = halves_.noise(guess);
+        measured_->testimony = witness_->testimony(means, guess);
+        variance_of_witness_ = witness_->variance_per_pass(guess);
+    }
+    measured_->bias = measured_bias(guess);
+}
+
+/// The bias that the error model expects and, as far as its noise allows, the witness measures. If
+/// the witness refutes that, only its word counts.
+Estimate RunControl::measured_bias(const Image& guess) const {
+    const ImagePair* truth = witness_ ? witness_->truth() : nullptr;
+    const Estimate expected =
+        truth ? bias_of(estimated_.means(), model_, measured_->passes, *truth, guess)
+              : bias_after(model_, measured_->passes);
+    const std::optional<Testimony>& testimony = measured_->testimony;
+    return testimony && refutes(*testimony, expected.value) ? testimony->pixels : expected;
+}
+
+/// Lets the witness decide whether the error is as small as it seems: renders more of it until it
+/// confirms that, measures a larger error, or has no more time.
+void RunControl::question() {
+    while (measured_->error() <= *target_.error) {
+        const double most_bias = tolerance * *target_.error - measured_->noise;
+        const std::optional<Testimony>& testimony = measured_->testimony;
+        if (!witness_ || (testimony && confirms(*testimony, most_bias))) {
+            outcome_ = Outcome::reached;
+            return;
+        }
+        const double growth = testimony ? growth_to_confirm(*testimony, most_bias) : 1;
+        if (!ask_witness((growth - 1) * witness_->passes())) {
+            outcome_ = Outcome::unconfirmed;
+            return;
+        }
+        measure();
+    }
+}
+
+/// Renders more passes of the witness. Returns false if there is no time for them, or the user has
+/// interrupted it.
+bool RunControl::ask_witness(double passes) {
+    const double left = seconds_of_witness_left();
+    return left > 2 * witness_->seconds_per_pass() && budget_.once([&] {
+        return witness_->render_more(passes, left, std::max(expected_, measured_->passes));
+    });
+}
+
+double RunControl::seconds_of_witness_left() const {
+    const double elapsed = seconds_since(start_);
+    if (target_.seconds) {
+        return seconds_ - elapsed;
+    }
+    const double others = spent_ + elapsed - witness_->seconds();
+    return std::min(std::max(most_of_witness * others, seconds_of_witness) - witness_->seconds(),
+                    default_time_limit - elapsed);
+}
+
+/// Whether the witness has measured so much bias that its own method reaches the target error
+/// sooner. done: passes so far, without the pilot's.
+bool RunControl::witness_is_faster(std::uint64_t done) const {
+    if (!may_switch_ || !measured_->testimony || !witness_->is_unbiased()) {
+        return false;
+    }
+    const double elapsed = seconds_since(start_) - witness_->seconds(),
+                 each =
+                     done > 0 ? elapsed / static_cast<double>(done) : candidate_.seconds_per_pass,
+                 more = (passes_to_target() - measured_->passes) * each,
+                 left = target_.seconds ? seconds_ - seconds_since(start_) : default_time_limit,
+                 other = of_witness().seconds;
+    return other < more && other <= left;
+}
+
+Candidate RunControl::of_witness() const {
+    Candidate c{.settings = witness_->pass(),
+                .model = {.fixed = variance_of_witness_, .law = {}},
+                .seconds_per_pass = witness_->seconds_per_pass()};
+    c.passes = std::max(std::ceil(passes_for(c.model, *target_.error)), 2.0);
+    c.seconds = c.passes * c.seconds_per_pass;
+    c.error = error_after(c.model, c.passes);
+    return c;
 }
 
 /// Number of passes in all that reach the target error. Scales the model to the measured noise,

@@ -2,6 +2,7 @@
 
 #include "autotune/candidate.hpp"
 #include "autotune/independent_halves.hpp"
+#include "autotune/witness.hpp"
 #include "base/clock.hpp"
 #include "methods/budget.hpp"
 
@@ -14,20 +15,31 @@ inline constexpr double default_time_limit = 3600;
 
 /// The error of an image, measured while it is rendered.
 struct MeasuredError {
-    double passes = 0;   ///< after which it was measured
-    double noise = 0;    ///< relMSE that is due to noise
-    Estimate bias{0, 0}; ///< squared
+    double passes = 0;                  ///< after which it was measured
+    double noise = 0;                   ///< relMSE that is due to noise
+    Estimate bias{0, 0};                ///< squared
+    std::optional<Testimony> testimony; ///< of the witness, if there is one so far
     double error() const { return noise + bias.value; }
 };
 
+/// How a final render ended.
+enum class Outcome : std::uint8_t {
+    unfinished,  ///< the target error was not reached
+    reached,     ///< by noise and bias, and a witness confirms it if the method has bias
+    unconfirmed, ///< by noise and bias, but no witness could confirm it in time
+    slow         ///< the witness measured more bias than expected: its method gets there sooner
+};
+
 /// Controls the final render: measures its error, and decides after each pass whether to render
-/// another.
+/// another. A method with bias does not reach the target error on the word of its error model: a
+/// witness must confirm it.
 class RunControl {
 public:
-    /// truth: estimated light without bias, if it is known. spent: seconds of the budget that are
-    /// over. Keeps references to the target and to the truth.
-    RunControl(const Target& target, const Candidate& candidate,
-               const std::optional<ImagePair>& truth, double spent);
+    /// witness: null if the method has no bias. may_switch: the render may end where the witness's
+    /// method is faster. spent: seconds of the budget that are over. Keeps a reference to the
+    /// target, and the pointer.
+    RunControl(const Target& target, const Candidate& candidate, Witness* witness, bool may_switch,
+               double spent);
 
     /// Continues from the passes of a pilot, which become the first passes of the render. Call it
     /// before the first further pass.
@@ -37,8 +49,9 @@ public:
 
     /// The last measurement. Nothing before both halves have a pass.
     const std::optional<MeasuredError>& measured() const { return measured_; }
-    /// Whether the measured error is at most the target error.
-    bool reached() const { return reached_; }
+    Outcome outcome() const { return outcome_; }
+    /// The candidate that reaches the target error with the witness's method. Requires a testimony.
+    Candidate of_witness() const;
 
 private:
     void add(const Image& mean_so_far, const Image& estimated_so_far);
@@ -46,14 +59,22 @@ private:
     bool has_time(std::uint64_t done);
     double passes_in_time(std::uint64_t done) const;
     const MethodInfo& method() const;
-    bool measures_bias() const;
+    Estimate measured_bias(const Image& guess) const;
     bool needs_estimated_light() const;
+    void question();
+    bool ask_witness(double passes);
+    double seconds_of_witness_left() const;
+    bool witness_is_faster(std::uint64_t done) const;
     double passes_to_target() const;
     bool takes_too_long(double times) const;
 
     const Target& target_;
     Candidate candidate_;
-    const std::optional<ImagePair>& truth_;
+    Witness* witness_;
+    bool may_switch_;
+    double spent_;                   ///< seconds before the render
+    double variance_of_witness_ = 0; ///< of one of its passes
+    double expected_ = 1;            ///< passes, when the last one was planned
     ErrorModel model_;
     double seconds_; ///< left for the render after the pilots
     Budget budget_;
@@ -62,7 +83,7 @@ private:
     IndependentHalves halves_;           ///< of all light
     IndependentHalves estimated_;        ///< of estimated light, if it is needed
     std::optional<MeasuredError> measured_;
-    bool reached_ = false;
+    Outcome outcome_ = Outcome::unfinished;
 };
 
 } // namespace argand

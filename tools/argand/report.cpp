@@ -158,7 +158,9 @@ Json autotune_report(const AutotunedRender& render, MethodTable methods) {
             {"pilot_seconds", render.pilot_seconds},
             {"noise", render.measured ? Json(render.measured->noise) : Json()},
             {"squared_bias", render.measured ? Json(render.measured->bias.value) : Json()},
-            {"reached", target.error ? Json(render.reached) : Json()}};
+            {"witness", render.witness.empty() ? Json() : Json(render.witness)},
+            {"witness_seconds", render.witness_seconds},
+            {"reached", target.error ? Json(render.reached()) : Json()}};
 }
 
 } // namespace argand
