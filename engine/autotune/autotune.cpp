@@ -37,7 +37,8 @@ public:
             tuned_.measured = control_->measured();
             tuned_.outcome = control_->outcome();
         }
-        if (witness_ && witness_->seconds() > 0) {
+        if (witness_ &&
+            (witness_->seconds() > 0 || (tuned_.measured && tuned_.measured->testimony))) {
             tuned_.witness = witness_->pass().method;
             tuned_.witness_seconds = witness_->seconds();
         }

@@ -51,37 +51,53 @@ Estimate mean_of_tiles(const std::vector<double>& values, int width, int height)
 
 } // namespace
 
-Estimate posterior(double usual, double factor, std::span<const Estimate> estimates) {
-    if (!(usual > 0)) {
-        return {0, 0};
-    }
-    constexpr int steps = 1000;
-    constexpr double unusual = 0.05; // weight of the uniform part of the prior
-    const double range = std::log(1e4), deviation = std::log(factor);
-    std::array<double, 2 * steps + 1> shifts{}, logs{};
-    for (std::size_t i = 0; i < shifts.size(); ++i) {
-        shifts[i] = range * (static_cast<double>(i) - steps) / steps;
-        const double t = shifts[i] / deviation;
-        logs[i] = std::log((1 - unusual) * std::exp(-0.5 * t * t) /
-                               (deviation * std::sqrt(2 * std::numbers::pi)) +
-                           unusual / (2 * range));
-        const double value = usual * std::exp(shifts[i]);
+Posterior::Posterior(const Prior& prior, std::span<const Estimate> estimates)
+    : usual_(prior.usual) {
+    const double range = std::log(1e4), deviation = std::log(prior.factor);
+    const double half = static_cast<double>(shifts_.size() - 1) / 2;
+    for (std::size_t i = 0; i < shifts_.size(); ++i) {
+        shifts_[i] = range * (static_cast<double>(i) - half) / half;
+        const double t = shifts_[i] / deviation;
+        weights_[i] = std::log((1 - prior.unusual) * std::exp(-0.5 * t * t) /
+                                   (deviation * std::sqrt(2 * std::numbers::pi)) +
+                               prior.unusual / (2 * range));
+        const double value = usual_ * std::exp(shifts_[i]);
         for (const Estimate& estimate : estimates) {
             // The lower bound keeps a very exact estimate from falling between two steps.
             const double off = (value - estimate.value) / std::max(estimate.error, 0.01 * value);
-            logs[i] -= 0.5 * off * off;
+            weights_[i] -= 0.5 * off * off;
         }
     }
-    const double most = *std::max_element(logs.begin(), logs.end());
-    double weights = 0, sum = 0, squares = 0;
-    for (std::size_t i = 0; i < shifts.size(); ++i) {
-        const double weight = std::exp(logs[i] - most);
-        weights += weight;
-        sum += weight * shifts[i];
-        squares += weight * shifts[i] * shifts[i];
+    const double most = *std::max_element(weights_.begin(), weights_.end());
+    double sum = 0;
+    for (double& weight : weights_) {
+        weight = std::exp(weight - most);
+        sum += weight;
     }
-    const double mean = sum / weights, value = usual * std::exp(mean);
-    return {value, value * std::sqrt(std::max(squares / weights - mean * mean, 0.0))};
+    for (double& weight : weights_) {
+        weight /= sum;
+    }
+}
+
+Estimate Posterior::estimate() const {
+    if (!(usual_ > 0)) {
+        return {0, 0};
+    }
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < shifts_.size(); ++i) {
+        mean += weights_[i] * shifts_[i];
+        squares += weights_[i] * shifts_[i] * shifts_[i];
+    }
+    const double value = usual_ * std::exp(mean);
+    return {value, value * std::sqrt(std::max(squares - mean * mean, 0.0))};
+}
+
+double Posterior::probability_below(double most) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < shifts_.size(); ++i) {
+        sum += usual_ * std::exp(shifts_[i]) <= most ? weights_[i] : 0;
+    }
+    return sum;
 }
 
 std::array<Estimate, 2> squared_difference(const ImagePair& a, const ImagePair& b,

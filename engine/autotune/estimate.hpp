@@ -21,11 +21,29 @@ inline Estimate scaled(const Estimate& estimate, double by) {
     return {by * estimate.value, by * estimate.error};
 }
 
-/// Bayesian estimate of a positive number: the exponential of the posterior mean of its logarithm,
-/// with standard error. The prior is log-normal around `usual`, with a standard deviation of
-/// log(`factor`); one time in twenty it is uniform in the logarithm from 1/10,000 to 10,000 times
-/// `usual`. `estimates` are independent estimates of the number with normal errors.
-Estimate posterior(double usual, double factor, std::span<const Estimate> estimates);
+/// What is known of a positive number before it is measured: it is log-normal around `usual`, with
+/// a standard deviation of log(`factor`), but with the probability `unusual` it is uniform in the
+/// logarithm from 1/10,000 to 10,000 times `usual`.
+struct Prior {
+    double usual = 0, factor = 1;
+    double unusual = 0.05;
+};
+
+/// What is known of a positive number after it is measured (Bayes).
+class Posterior {
+public:
+    /// estimates: independent estimates of the number with normal errors.
+    Posterior(const Prior& prior, std::span<const Estimate> estimates);
+
+    /// The exponential of the mean of its logarithm, with standard error. 0 if `usual` is 0.
+    Estimate estimate() const;
+    /// The probability that the number is at most `most`.
+    double probability_below(double most) const;
+
+private:
+    double usual_;
+    std::array<double, 2001> shifts_{}, weights_{}; ///< logarithms over that of `usual_`
+};
 
 /// Estimates the squared difference of the images that the pairs `a` and `b` show without noise:
 /// the mean over the pixels of (a[0] − b[0])(a[1] − b[1]), divided as in relMSE by a denominator

@@ -134,16 +134,22 @@ ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& gue
             add(pilot.reduced.estimated, *truth, 1 / reduced_share);
         }
     }
-    model.bias = posterior(usual_bias * estimated, spread_of_bias, estimates);
+    model.bias = Posterior({.usual = usual_bias * estimated, .factor = spread_of_bias}, estimates)
+                     .estimate();
     model.estimated = estimated;
     return model;
 }
 
+Prior usual_bias_after(const ErrorModel& model, double passes) {
+    return {.usual =
+                usual_bias * model.estimated * bias_share(model.law, passes, model.initial_passes),
+            .factor = spread_of_bias};
+}
+
 Estimate bias_of(const ImagePair& estimated, const ErrorModel& model, double passes,
                  const ImagePair& truth, const Image& guess) {
-    return posterior(usual_bias * model.estimated *
-                         bias_share(model.law, passes, model.initial_passes),
-                     spread_of_bias, squared_difference(estimated, truth, guess));
+    return Posterior(usual_bias_after(model, passes), squared_difference(estimated, truth, guess))
+        .estimate();
 }
 
 } // namespace argand

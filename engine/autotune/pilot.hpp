@@ -81,6 +81,9 @@ Image estimated_light(std::span<const Layer> layers);
 /// infinite if the pilot has one pass only.
 ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& guess);
 
+/// The squared bias that is usual after `passes` passes.
+Prior usual_bias_after(const ErrorModel& model, double passes);
+
 /// Squared bias of estimated light after `passes` passes, from the bias that is usual and from the
 /// difference from `truth`, the same light without bias.
 Estimate bias_of(const ImagePair& estimated, const ErrorModel& model, double passes,

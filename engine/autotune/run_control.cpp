@@ -116,8 +116,9 @@ void RunControl::add(const Image& mean_so_far, const Image& estimated_so_far) {
 void RunControl::measure() {
     const auto passes = static_cast<double>(halves_.passes());
     const ImagePair& means = halves_.means();
-    Image guess = passes < passes_for_pixels ? guess_from({smoothed(means[0]), smoothed(means[1])})
-                                             : guess_from(means);
+    const Image guess = passes < passes_for_pixels
+                            ? guess_from({smoothed(means[0]), smoothed(means[1])})
+                            : guess_from(means);
     if (!std::isfinite(model_.fixed)) {
         // The pilot was too short to fit a model.
         const PilotImages images{means, estimated_.means()};
@@ -133,37 +134,58 @@ void RunControl::measure() {
     measured_ = {.passes = passes, .noise = halves_.noise(guess)};
     const bool has_witness = witness_ && witness_->images() && target_.error;
     if (has_witness && measured_->noise <= *target_.error) {
-        guess = darkened_by(witness_->images()->whole, guess);
-        measured_->noise = halves_.noise(guess);
-        measured_->testimony = witness_->testimony(means, guess);
-        variance_of_witness_ = witness_->variance_per_pass(guess);
+        const Image seen = darkened_by(witness_->images()->whole, guess);
+        const double bias = std::sqrt(bias_share(model_.law, passes, model_.initial_passes));
+        measured_->testimony = witness_->testimony(means, bias, seen);
+        variance_of_witness_ = witness_->variance_per_pass(seen);
     }
-    measured_->bias = measured_bias(guess);
+    measured_->bias = expected_bias(guess);
+    is_doubtful_ = false;
+    if (measured_->testimony) {
+        is_doubtful_ = measured_->error() <= *target_.error;
+        measured_->bias = judgement().bias();
+    }
 }
 
-/// The bias that the error model expects and, as far as its noise allows, the witness measures. If
-/// the witness refutes that, only its word counts.
-Estimate RunControl::measured_bias(const Image& guess) const {
+/// The bias that the error model expects and, as far as its noise allows, the truth about estimated
+/// light measures.
+Estimate RunControl::expected_bias(const Image& guess) const {
     const ImagePair* truth = witness_ ? witness_->truth() : nullptr;
-    const Estimate expected =
-        truth ? bias_of(estimated_.means(), model_, measured_->passes, *truth, guess)
-              : bias_after(model_, measured_->passes);
-    const std::optional<Testimony>& testimony = measured_->testimony;
-    return testimony && refutes(*testimony, expected.value) ? testimony->pixels : expected;
+    return truth ? bias_of(estimated_.means(), model_, measured_->passes, *truth, guess)
+                 : bias_after(model_, measured_->passes);
+}
+
+/// Requires a testimony.
+Judgement RunControl::judgement() const {
+    return {usual_bias_after(model_, measured_->passes), *measured_->testimony,
+            tolerance * *target_.error - measured_->noise};
 }
 
 /// Lets the witness decide whether the error is as small as it seems: renders more of it until it
-/// confirms that, measures a larger error, or has no more time.
+/// confirms or refutes that, or has no more time.
 void RunControl::question() {
-    while (measured_->error() <= *target_.error) {
-        const double most_bias = tolerance * *target_.error - measured_->noise;
-        const std::optional<Testimony>& testimony = measured_->testimony;
-        if (!witness_ || (testimony && confirms(*testimony, most_bias))) {
+    if (measured_->error() > *target_.error && !measured_->testimony) {
+        return;
+    }
+    double passes = 0;
+    while (true) {
+        if (!witness_) {
             outcome_ = Outcome::reached;
             return;
         }
-        const double growth = testimony ? growth_to_confirm(*testimony, most_bias) : 1;
-        if (!ask_witness((growth - 1) * witness_->passes())) {
+        if (measured_->testimony) {
+            const Judgement now = judgement();
+            const Verdict verdict = now.verdict();
+            const bool seems_reached = measured_->error() <= *target_.error;
+            if (verdict == Verdict::confirmed && seems_reached) {
+                outcome_ = Outcome::reached;
+            }
+            if (verdict != Verdict::open || !(seems_reached || is_doubtful_)) {
+                return;
+            }
+            passes = (now.growth() - 1) * witness_->passes();
+        }
+        if (!ask_witness(passes)) {
             outcome_ = Outcome::unconfirmed;
             return;
         }

@@ -59,7 +59,8 @@ private:
     bool has_time(std::uint64_t done);
     double passes_in_time(std::uint64_t done) const;
     const MethodInfo& method() const;
-    Estimate measured_bias(const Image& guess) const;
+    Estimate expected_bias(const Image& guess) const;
+    Judgement judgement() const;
     bool needs_estimated_light() const;
     void question();
     bool ask_witness(double passes);
@@ -74,6 +75,7 @@ private:
     bool may_switch_;
     double spent_;                   ///< seconds before the render
     double variance_of_witness_ = 0; ///< of one of its passes
+    bool is_doubtful_ = false;       ///< the target error seems reached, but for the witness
     double expected_ = 1;            ///< passes, when the last one was planned
     ErrorModel model_;
     double seconds_; ///< left for the render after the pilots

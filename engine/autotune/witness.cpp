@@ -14,24 +14,32 @@ namespace argand {
 
 namespace {
 
-// One-sided 95 % of a normal distribution.
-constexpr double deviations = 1.645;
+constexpr double confidence = 0.95;
+// How often the bias is far from the usual one. A verdict doubts more than a prediction does: it is
+// there for scenes unlike those in which the usual bias was measured.
+constexpr double doubt = 0.5;
+// The usual bias is taken to be at least this share of what is to be confirmed. Where no photons
+// arrive, none would be expected.
+constexpr double least_usual = 1e-3;
+// A testimony with a standard error below this share of what is to be confirmed needs no
+// confidence.
+constexpr double exact = 0.2;
+// A witness usually can tell once its standard error is this share of what is to be confirmed.
+constexpr double telling = 0.6;
 // A narrow witness has the bandwidth of a render of so many times the passes: half the bandwidth.
 // Narrower ones see more of the bias, but their noise grows faster.
 constexpr double times_passes = 64;
+// It starts anew when it should have the bandwidth of so many times the passes.
+constexpr double too_wide = 2;
 // A witness grows by at least and at most these factors at a time. Each time its kernels and the
 // scene are set up anew; a large factor trusts a first, noisy estimate.
 constexpr double least_growth = 1.5, most_growth = 8;
 constexpr float far_too_bright = 4;
 
-double most_of(const Estimate& estimate) {
-    return std::max(estimate.value, 0.0) + deviations * estimate.error;
-}
-
-/// The share of the squared bias of a picture that its difference from a narrow witness shows.
-double seen_by_narrow(const ErrorLaw& law) {
-    const double lost = 1 - std::sqrt(bias_share(law, times_passes));
-    return lost * lost;
+Prior doubted(const Prior& usual, double most) {
+    return {.usual = std::max(usual.usual, least_usual * most),
+            .factor = usual.factor,
+            .unusual = doubt};
 }
 
 float brightness(const glm::vec3& pixel) { return std::max(pixel.r + pixel.g + pixel.b, 0.0f); }
@@ -44,26 +52,25 @@ Testimony testimony_on(const ImagePair& picture, const ImagePair& witness, doubl
     return {.pixels = scaled(difference[0], 1 / seen), .smooth = scaled(difference[1], 1 / seen)};
 }
 
-bool confirms(const Testimony& testimony, double most) {
-    const Estimate& pixels = testimony.pixels;
-    const bool smooth_may_decide = pixels.value <= most && pixels.error <= most;
-    return most_of(pixels) <= most || (smooth_may_decide && most_of(testimony.smooth) <= most);
+Judgement::Judgement(const Prior& usual, const Testimony& testimony, double most)
+    : testimony_(testimony), most_(most),
+      posterior_(doubted(usual, most), std::array{testimony.pixels, testimony.smooth}) {}
+
+Verdict Judgement::verdict() const {
+    const double probability = posterior_.probability_below(most_);
+    if (testimony_.pixels.error < exact * most_) {
+        return probability > 0.5 ? Verdict::confirmed : Verdict::refuted;
+    }
+    return probability > confidence       ? Verdict::confirmed
+           : probability < 1 - confidence ? Verdict::refuted
+                                          : Verdict::open;
 }
 
-bool refutes(const Testimony& testimony, double expected) {
-    return testimony.pixels.value - deviations * testimony.pixels.error > expected;
-}
-
-double growth_to_confirm(const Testimony& testimony, double most) {
+double Judgement::growth() const {
     // The error of a product of two noisy halves falls as one over their samples.
-    const auto growth = [&](const Estimate& estimate) {
-        const double room = std::max(most - std::max(estimate.value, 0.0), 0.2 * most);
-        return deviations * estimate.error / room;
-    };
-    const double by_pixels = growth(testimony.pixels),
-                 by_smooth = std::max(growth(testimony.smooth), testimony.pixels.error / most);
-    const double factor = std::min(by_pixels, by_smooth);
-    return std::isfinite(factor) ? std::clamp(factor, least_growth, most_growth) : least_growth;
+    const double error = std::min(testimony_.pixels.error, testimony_.smooth.error),
+                 factor = error / (telling * most_);
+    return std::isfinite(factor) ? std::clamp(factor, least_growth, most_growth) : most_growth;
 }
 
 Image darkened_by(const ImagePair& witness, const Image& guess) {
@@ -99,7 +106,12 @@ void Witness::add(const PilotImages& images, double samples, double seconds) {
 bool Witness::render_more(double passes, double seconds, double expected) {
     RenderSettings settings = pass_;
     settings.seed += ++renders_;
-    const double plan = is_unbiased() ? std::max(passes, 2.0) : times_passes * expected;
+    if (!is_unbiased() && times_passes * expected > too_wide * planned_for_) {
+        planned_for_ = times_passes * expected;
+        images_.reset();
+        samples_ = seconds_of_all_ = 0;
+    }
+    const double plan = is_unbiased() ? std::max(passes, 2.0) : planned_for_;
     const Clock::time_point start = Clock::now();
     IndependentHalves whole, estimated;
     const auto is_over = [&](std::uint64_t done) {
@@ -135,9 +147,10 @@ double Witness::variance_per_pass(const Image& guess) const {
     return rel_variance(images_->whole, guess, guess) * passes() / 2;
 }
 
-Testimony Witness::testimony(const ImagePair& picture, const Image& guess) const {
-    return testimony_on(picture, images_->whole, is_unbiased() ? 1 : seen_by_narrow(method_.law),
-                        guess);
+Testimony Witness::testimony(const ImagePair& picture, double bias, const Image& guess) const {
+    const double own = is_unbiased() ? 0 : std::sqrt(bias_share(method_.law, planned_for_)),
+                 seen = 1 - own / bias;
+    return testimony_on(picture, images_->whole, seen * seen, guess);
 }
 
 } // namespace argand

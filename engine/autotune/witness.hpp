@@ -3,6 +3,7 @@
 #include "autotune/estimate.hpp"
 #include "autotune/pilot.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -25,15 +26,25 @@ struct Testimony {
 Testimony testimony_on(const ImagePair& picture, const ImagePair& witness, double seen,
                        const Image& guess);
 
-/// Whether the squared bias is at most `most`, with a confidence of 95 %. Smoothed pictures decide
-/// only if single pixels do not contradict them.
-bool confirms(const Testimony& testimony, double most);
+enum class Verdict : std::uint8_t { confirmed, refuted, open };
 
-/// Whether the squared bias is more than `expected`, with a confidence of 95 %.
-bool refutes(const Testimony& testimony, double expected);
+/// What is known of a squared bias before and after a witness has seen the picture.
+class Judgement {
+public:
+    /// usual: what is expected without a witness. most: the largest squared bias to confirm.
+    Judgement(const Prior& usual, const Testimony& testimony, double most);
 
-/// Factor by which the witness must grow before it may confirm this. At least 1.
-double growth_to_confirm(const Testimony& testimony, double most);
+    /// Whether the squared bias is at most `most`, or whether a larger witness is needed to tell.
+    Verdict verdict() const;
+    Estimate bias() const { return posterior_.estimate(); }
+    /// Factor by which the witness must grow to tell, about. More than 1.
+    double growth() const;
+
+private:
+    Testimony testimony_;
+    double most_;
+    Posterior posterior_;
+};
 
 /// Darkens `guess` where the witness is less than a quarter as bright. A picture that is far too
 /// bright would otherwise hide its error in the denominator of relMSE.
@@ -59,7 +70,8 @@ public:
     const std::optional<PilotImages>& images() const { return images_; }
     /// The light that photons estimate, without bias. Null if the witness has bias.
     const ImagePair* truth() const;
-    Testimony testimony(const ImagePair& picture, const Image& guess) const;
+    /// bias: that of the picture (not squared), over that of one pass at the initial bandwidth.
+    Testimony testimony(const ImagePair& picture, double bias, const Image& guess) const;
 
     const RenderSettings& pass() const { return pass_; }
     bool is_unbiased() const { return method_.abilities.unbiased; }
@@ -77,6 +89,7 @@ private:
     std::optional<PilotImages> images_;
     double samples_ = 0, seconds_ = 0;
     double seconds_of_all_ = 0; ///< with pictures added
+    double planned_for_ = 0;    ///< passes that narrow bandwidths follow from
     std::uint32_t renders_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <span>
 
 namespace argand {
 namespace {
@@ -83,6 +84,10 @@ TEST(Estimate, SquaredDifferenceIsFreeOfNoise) {
     EXPECT_NEAR(none.value, 0, 4 * none.error);
     EXPECT_NEAR(smooth_none.value, 0, 4 * smooth_none.error);
     EXPECT_LT(smooth_none.error, 0.5 * none.error);
+}
+
+Estimate posterior(double usual, double factor, std::span<const Estimate> estimates) {
+    return Posterior({.usual = usual, .factor = factor}, estimates).estimate();
 }
 
 TEST(Estimate, PosteriorLiesBetweenPriorAndEstimates) {
