@@ -37,11 +37,7 @@ public:
             tuned_.measured = control_->measured();
             tuned_.outcome = control_->outcome();
         }
-        if (witness_ &&
-            (witness_->seconds() > 0 || (tuned_.measured && tuned_.measured->testimony))) {
-            tuned_.witness = witness_->pass().method;
-            tuned_.witness_seconds = witness_->seconds();
-        }
+        tell_of_witness();
         return std::move(tuned_);
     }
 
@@ -126,6 +122,19 @@ private:
         }
         if (pilots_.truth() && witness_->is_unbiased()) {
             witness_->add(*pilots_.truth(), pilots_.truth_samples(), pilots_.truth_seconds());
+        }
+    }
+
+    /// Tells who judged the result.
+    void tell_of_witness() {
+        if (!witness_) {
+            return;
+        }
+        tuned_.witness_seconds = witness_->seconds();
+        // The result of a render that went on with the witness's method has no bias to judge.
+        const bool is_judged = tuned_.measured && tuned_.measured->testimony;
+        if (is_judged || tuned_.outcome == Outcome::unconfirmed) {
+            tuned_.witness = witness_->pass().method;
         }
     }
 

@@ -164,28 +164,23 @@ Judgement RunControl::judgement() const {
 /// Lets the witness decide whether the error is as small as it seems: renders more of it until it
 /// confirms or refutes that, or has no more time.
 void RunControl::question() {
-    if (measured_->error() > *target_.error && !measured_->testimony) {
-        return;
-    }
-    double passes = 0;
-    while (true) {
+    while (measured_->error() <= *target_.error || is_doubtful_) {
         if (!witness_) {
             outcome_ = Outcome::reached;
             return;
         }
+        double more = 0;
         if (measured_->testimony) {
             const Judgement now = judgement();
-            const Verdict verdict = now.verdict();
-            const bool seems_reached = measured_->error() <= *target_.error;
-            if (verdict == Verdict::confirmed && seems_reached) {
+            if (now.verdict() == Verdict::confirmed && measured_->error() <= *target_.error) {
                 outcome_ = Outcome::reached;
             }
-            if (verdict != Verdict::open || !(seems_reached || is_doubtful_)) {
+            if (now.verdict() != Verdict::open) {
                 return;
             }
-            passes = (now.growth() - 1) * witness_->passes();
+            more = (now.growth() - 1) * witness_->passes();
         }
-        if (!ask_witness(passes)) {
+        if (!ask_witness(more)) {
             outcome_ = Outcome::unconfirmed;
             return;
         }
