@@ -30,7 +30,7 @@ public:
         if (!control_ && !is_interrupted()) {
             render_best();
         }
-        if (control_ && control_->outcome() == Outcome::slow && !is_interrupted()) {
+        if (control_ && control_->outcome() == RunOutcome::slow && !is_interrupted()) {
             render_as_witness();
         }
         if (control_) {
@@ -133,7 +133,7 @@ private:
         tuned_.witness_seconds = witness_->seconds();
         // The result of a render that went on with the witness's method has no bias to judge.
         const bool is_judged = tuned_.measured && tuned_.measured->testimony;
-        if (is_judged || tuned_.outcome == Outcome::unconfirmed) {
+        if (is_judged || tuned_.outcome == RunOutcome::unconfirmed) {
             tuned_.witness = witness_->pass().method;
         }
     }

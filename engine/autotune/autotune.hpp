@@ -20,12 +20,12 @@ struct AutotunedRender {
     std::vector<Candidate> candidates;
     double pilot_seconds = 0;
     std::optional<MeasuredError> measured; ///< of the result; none: it has too few passes
-    Outcome outcome = Outcome::unfinished;
+    RunOutcome outcome = RunOutcome::unfinished;
     std::string witness; ///< the method that judged the result's bias; empty: none was needed
     double witness_seconds = 0;
 
     /// Whether the result has the target error, as far as a witness can tell.
-    bool reached() const { return outcome == Outcome::reached; }
+    bool reached() const { return outcome == RunOutcome::reached; }
 };
 
 /// Called with the pick before it is rendered.

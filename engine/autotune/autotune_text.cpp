@@ -30,9 +30,9 @@ std::string describe_target(const AutotunedRender& render) {
             ? ""
             : fmt::format(" by '{}' in {:.2g} s", render.witness, render.witness_seconds);
     switch (render.outcome) {
-    case Outcome::reached:
+    case RunOutcome::reached:
         return judge.empty() ? "" : "; confirmed" + judge;
-    case Outcome::unconfirmed:
+    case RunOutcome::unconfirmed:
         return fmt::format("; the target of {:.2g} is not reached for certain: it could not be "
                            "confirmed{}",
                            *render.target.error, judge);

@@ -54,10 +54,10 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
     }
     if (target_.error && measured_) {
         question();
-        if (outcome_ == Outcome::unfinished && witness_is_faster(done)) {
-            outcome_ = Outcome::slow;
+        if (outcome_ == RunOutcome::unfinished && witness_is_faster(done)) {
+            outcome_ = RunOutcome::slow;
         }
-        if (outcome_ != Outcome::unfinished) {
+        if (outcome_ != RunOutcome::unfinished) {
             return std::nullopt;
         }
     }
@@ -166,14 +166,14 @@ Judgement RunControl::judgement() const {
 void RunControl::question() {
     while (measured_->error() <= *target_.error || is_doubtful_) {
         if (!witness_) {
-            outcome_ = Outcome::reached;
+            outcome_ = RunOutcome::reached;
             return;
         }
         double more = 0;
         if (measured_->testimony) {
             const Judgement now = judgement();
             if (now.verdict() == Verdict::confirmed && measured_->error() <= *target_.error) {
-                outcome_ = Outcome::reached;
+                outcome_ = RunOutcome::reached;
             }
             if (now.verdict() != Verdict::open) {
                 return;
@@ -181,7 +181,7 @@ void RunControl::question() {
             more = (now.growth() - 1) * witness_->passes();
         }
         if (!ask_witness(more)) {
-            outcome_ = Outcome::unconfirmed;
+            outcome_ = RunOutcome::unconfirmed;
             return;
         }
         measure();

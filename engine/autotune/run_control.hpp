@@ -23,7 +23,7 @@ struct MeasuredError {
 };
 
 /// How a final render ended.
-enum class Outcome : std::uint8_t {
+enum class RunOutcome : std::uint8_t {
     unfinished,  ///< the target error was not reached
     reached,     ///< by noise and bias, and a witness confirms it if the method has bias
     unconfirmed, ///< by noise and bias, but no witness could confirm it in time
@@ -49,7 +49,7 @@ public:
 
     /// The last measurement. Nothing before both halves have a pass.
     const std::optional<MeasuredError>& measured() const { return measured_; }
-    Outcome outcome() const { return outcome_; }
+    RunOutcome outcome() const { return outcome_; }
     /// The candidate that reaches the target error with the witness's method. Requires a testimony.
     Candidate of_witness() const;
 
@@ -85,7 +85,7 @@ private:
     IndependentHalves halves_;           ///< of all light
     IndependentHalves estimated_;        ///< of estimated light, if it is needed
     std::optional<MeasuredError> measured_;
-    Outcome outcome_ = Outcome::unfinished;
+    RunOutcome outcome_ = RunOutcome::unfinished;
 };
 
 } // namespace argand

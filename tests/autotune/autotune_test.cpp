@@ -200,7 +200,7 @@ TEST(Autotune, EndsInTimeIfNoiseDoesNotFall) {
         }
         ++done;
     }
-    EXPECT_EQ(control.outcome(), Outcome::unfinished);
+    EXPECT_EQ(control.outcome(), RunOutcome::unfinished);
 }
 
 TEST(Autotune, PilotsEndEarlyIfFewPassesSuffice) {
@@ -431,7 +431,7 @@ TEST(Autotune, SaysWhatNoWitnessCouldConfirm) {
     fake.path_deviation = 50;
     fake.path_seconds = 0.02;
     const AutotunedRender tuned = tune(fake, box(), {.error = 0.005, .seconds = 0.5});
-    EXPECT_EQ(tuned.outcome, Outcome::unconfirmed);
+    EXPECT_EQ(tuned.outcome, RunOutcome::unconfirmed);
     EXPECT_FALSE(tuned.reached());
     EXPECT_THAT(describe_outcome(tuned), ::testing::HasSubstr("could not be confirmed by 'path'"));
 }
