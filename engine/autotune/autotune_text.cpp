@@ -25,10 +25,12 @@ std::string describe_target(const AutotunedRender& render) {
     if (!render.target.error) {
         return "";
     }
-    const std::string judge =
-        render.witness.empty()
-            ? ""
-            : fmt::format(" by '{}' in {:.2g} s", render.witness, render.witness_seconds);
+    std::string judge;
+    if (!render.witness.empty()) {
+        judge = render.witness_seconds > 0
+                    ? fmt::format(" by '{}' in {:.2g} s", render.witness, render.witness_seconds)
+                    : fmt::format(" by '{}' of the pilots", render.witness);
+    }
     switch (render.outcome) {
     case RunOutcome::reached:
         return judge.empty() ? "" : "; confirmed" + judge;
