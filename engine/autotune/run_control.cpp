@@ -172,13 +172,15 @@ void RunControl::question() {
         double more = 0;
         if (measured_->testimony) {
             const Judgement now = judgement();
-            if (now.verdict() == Verdict::confirmed && measured_->error() <= *target_.error) {
+            more = witness_->passes_missing();
+            if (more == 0 && now.verdict() == Verdict::confirmed &&
+                measured_->error() <= *target_.error) {
                 outcome_ = RunOutcome::reached;
             }
-            if (now.verdict() != Verdict::open) {
+            if (more == 0 && now.verdict() != Verdict::open) {
                 return;
             }
-            more = (now.growth() - 1) * witness_->passes();
+            more = std::max(more, (now.growth() - 1) * witness_->passes());
         }
         if (!ask_witness(more)) {
             outcome_ = RunOutcome::unconfirmed;

@@ -31,6 +31,8 @@ constexpr double telling = 0.6;
 constexpr double times_passes = 64;
 // It starts anew when it should have the bandwidth of so many times the passes.
 constexpr double too_wide = 2;
+// Fewer unbiased passes may have missed all the rare bright paths that make up their noise.
+constexpr double least_passes = 8;
 // A witness grows by at least and at most these factors at a time. Each time its kernels and the
 // scene are set up anew; a large factor trusts a first, noisy estimate.
 constexpr double least_growth = 1.5, most_growth = 8;
@@ -46,10 +48,21 @@ float brightness(const glm::vec3& pixel) { return std::max(pixel.r + pixel.g + p
 
 } // namespace
 
+namespace {
+
+/// Rare bright paths that both halves of a witness missed make a squared bias look negative. As it
+/// cannot be, that much of the estimate is noise.
+Estimate without_negative(const Estimate& estimate) {
+    return estimate.value < 0 ? Estimate{0, std::hypot(estimate.error, estimate.value)} : estimate;
+}
+
+} // namespace
+
 Testimony testimony_on(const ImagePair& picture, const ImagePair& witness, double seen,
                        const Image& guess) {
     const std::array<Estimate, 2> difference = squared_difference(picture, witness, guess);
-    return {.pixels = scaled(difference[0], 1 / seen), .smooth = scaled(difference[1], 1 / seen)};
+    return {.pixels = scaled(without_negative(difference[0]), 1 / seen),
+            .smooth = scaled(without_negative(difference[1]), 1 / seen)};
 }
 
 Judgement::Judgement(const Prior& usual, const Testimony& testimony, double most)
@@ -141,6 +154,10 @@ bool Witness::render_more(double passes, double seconds, double expected) {
 
 const ImagePair* Witness::truth() const {
     return images_ && is_unbiased() ? &images_->estimated : nullptr;
+}
+
+double Witness::passes_missing() const {
+    return is_unbiased() ? std::max(least_passes - passes(), 0.0) : 0;
 }
 
 double Witness::variance_per_pass(const Image& guess) const {

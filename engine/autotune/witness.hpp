@@ -76,6 +76,8 @@ public:
     const RenderSettings& pass() const { return pass_; }
     bool is_unbiased() const { return method_.abilities.unbiased; }
     double passes() const { return samples_ / pass_.samples; }
+    /// Passes without which its own noise is not known well enough to believe it.
+    double passes_missing() const;
     double seconds() const { return seconds_; } ///< of its renders, without pictures added
     /// 0 if there are no pictures yet.
     double seconds_per_pass() const { return samples_ > 0 ? seconds_of_all_ / passes() : 0; }
