@@ -315,7 +315,7 @@ std::vector<Function> paths_and_samples() {
              put_material(d);
              d.put(static_cast<float>(d.bits() % 2));
          },
-         20, "d331", conditioned, 50, 0.06},
+         20, "d331", conditioned, 200, 0.06},
     };
 }
 
