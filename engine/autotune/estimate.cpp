@@ -26,7 +26,10 @@ Estimate mean_of_tiles(const std::vector<double>& values, int width, int height)
     std::array<double, side * side> sums{}, counts{};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const auto tile = static_cast<std::size_t>(y * side / height * side + x * side / width);
+            const int row = y * side / height;
+            const int column = x * side / width;
+            const auto tile =
+                static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
             sums[tile] += values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                  static_cast<std::size_t>(x)];
             ++counts[tile];

@@ -46,10 +46,6 @@ Prior doubted(const Prior& usual, double most) {
 
 float brightness(const glm::vec3& pixel) { return std::max(pixel.r + pixel.g + pixel.b, 0.0f); }
 
-} // namespace
-
-namespace {
-
 /// Rare bright paths that both halves of a witness missed make a squared bias look negative. As it
 /// cannot be, that much of the estimate is noise.
 Estimate without_negative(const Estimate& estimate) {
