@@ -80,7 +80,7 @@ private:
     /// first.
     OnPass continuation() {
         // More paths measure the bias of other methods better.
-        const bool needs_more_truth = pilots_.truth() && !best_is_unbiased();
+        const bool needs_more_truth = pilots_.truth().images && !best_is_unbiased();
         if (!best().continues_pilot || needs_more_truth || exploration_.next_pilot()) {
             return nullptr;
         }
@@ -120,8 +120,9 @@ private:
             witness_.emplace(render_, tuned_.target.methods.at(best().settings.method),
                              best().settings);
         }
-        if (pilots_.truth() && witness_->is_unbiased()) {
-            witness_->add(*pilots_.truth(), pilots_.truth_samples(), pilots_.truth_seconds());
+        const PooledImages& truth = pilots_.truth();
+        if (truth.images && witness_->is_unbiased()) {
+            witness_->add(*truth.images, truth.samples, truth.seconds);
         }
     }
 

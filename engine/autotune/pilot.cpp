@@ -90,6 +90,22 @@ Image best_guess(std::span<const Pilot> pilots) {
     return best;
 }
 
+void PooledImages::add(const PilotImages& more, double samples_of_more, double seconds_of_more) {
+    if (!images) {
+        images = more;
+    } else {
+        const auto include = [&](ImagePair& all, const ImagePair& others) {
+            for (std::size_t half = 0; half < all.size(); ++half) {
+                all[half] = weighted_mean(all[half], samples, others[half], samples_of_more);
+            }
+        };
+        include(images->whole, more.whole);
+        include(images->estimated, more.estimated);
+    }
+    samples += samples_of_more;
+    seconds += seconds_of_more;
+}
+
 Image estimated_light(std::span<const Layer> layers) {
     Image estimated = layers.front().image;
     if (const Image* direct = find_layer(layers, "direct")) {

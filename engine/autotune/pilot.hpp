@@ -19,6 +19,15 @@ struct PilotImages {
     ImagePair estimated; ///< the light that is estimated from photons
 };
 
+/// The images of several renders with the same settings of a pass, pooled by their samples.
+struct PooledImages {
+    std::optional<PilotImages> images;
+    double samples = 0; ///< eye paths per pixel, both halves together
+    double seconds = 0; ///< spent on the renders
+
+    void add(const PilotImages& more, double samples_of_more, double seconds_of_more);
+};
+
 /// Passes of a complete pilot.
 inline constexpr std::uint64_t pilot_passes = 4;
 /// The first passes of a pilot, which use the initial bandwidth: that of a render of one pass.

@@ -104,7 +104,8 @@ void Pilots::fit_models() {
     const Image guess = best_guess(pilots_);
     models_.clear();
     for (const Pilot& pilot : pilots_) {
-        models_.push_back(model_of(pilot, truth_ ? &truth_->estimated : nullptr, guess));
+        models_.push_back(
+            model_of(pilot, truth_.images ? &truth_.images->estimated : nullptr, guess));
     }
 }
 
@@ -128,18 +129,12 @@ void Pilots::add_truth(const Pilot& unbiased) {
         return;
     }
     const double samples = static_cast<double>(unbiased.passes) * unbiased.settings.samples;
-    const auto add = [&](ImagePair& all, const ImagePair& a, const ImagePair& b) {
-        for (std::size_t half = 0; half < all.size(); ++half) {
-            const Image more = mean_of(a[half], b[half]);
-            all[half] = truth_ ? weighted_mean(all[half], truth_samples_, more, samples) : more;
-        }
+    const auto mean = [](const ImagePair& a, const ImagePair& b) {
+        return ImagePair{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
     };
-    PilotImages all = truth_.value_or(PilotImages{});
-    add(all.whole, unbiased.initial.whole, unbiased.reduced.whole);
-    add(all.estimated, unbiased.initial.estimated, unbiased.reduced.estimated);
-    truth_ = std::move(all);
-    truth_samples_ += samples;
-    truth_seconds_ += unbiased.seconds;
+    truth_.add({.whole = mean(unbiased.initial.whole, unbiased.reduced.whole),
+                .estimated = mean(unbiased.initial.estimated, unbiased.reduced.estimated)},
+               samples, unbiased.seconds);
 }
 
 } // namespace argand

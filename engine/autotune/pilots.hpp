@@ -32,10 +32,7 @@ public:
     bool improve_truth(double seconds);
 
     /// Pictures without bias, once the unbiased method has run.
-    const std::optional<PilotImages>& truth() const { return truth_; }
-    /// Eye paths per pixel of the pictures without bias, both halves together.
-    double truth_samples() const { return truth_samples_; }
-    double truth_seconds() const { return truth_seconds_; } ///< spent on them
+    const PooledImages& truth() const { return truth_; }
 
     /// Number of pilots of this method so far.
     std::size_t count(const std::string& method) const;
@@ -63,8 +60,8 @@ private:
     const RenderPasses& render_;
     const Target& target_;
     bool with_unbiased_;
-    std::optional<PilotImages> truth_;
-    double truth_samples_ = 0, truth_seconds_ = 0, seconds_ = 0;
+    PooledImages truth_;
+    double seconds_ = 0;
     std::vector<Pilot> pilots_;
     std::vector<ErrorModel> models_; ///< of each pilot
     std::vector<Candidate> candidates_;

@@ -97,19 +97,7 @@ Image darkened_by(const ImagePair& witness, const Image& guess) {
 }
 
 void Witness::add(const PilotImages& images, double samples, double seconds) {
-    if (!images_) {
-        images_ = images;
-    } else {
-        const auto include = [&](ImagePair& all, const ImagePair& more) {
-            for (std::size_t half = 0; half < all.size(); ++half) {
-                all[half] = weighted_mean(all[half], samples_, more[half], samples);
-            }
-        };
-        include(images_->whole, images.whole);
-        include(images_->estimated, images.estimated);
-    }
-    samples_ += samples;
-    seconds_of_all_ += seconds;
+    all_.add(images, samples, seconds);
 }
 
 bool Witness::render_more(double passes, double seconds, double expected) {
@@ -117,8 +105,7 @@ bool Witness::render_more(double passes, double seconds, double expected) {
     settings.seed += ++renders_;
     if (!is_unbiased() && times_passes * expected > too_wide * planned_for_) {
         planned_for_ = times_passes * expected;
-        images_.reset();
-        samples_ = seconds_of_all_ = 0;
+        all_ = {};
     }
     const double plan = is_unbiased() ? std::max(passes, 2.0) : planned_for_;
     const Clock::time_point start = Clock::now();
@@ -149,7 +136,7 @@ bool Witness::render_more(double passes, double seconds, double expected) {
 }
 
 const ImagePair* Witness::truth() const {
-    return images_ && is_unbiased() ? &images_->estimated : nullptr;
+    return all_.images && is_unbiased() ? &all_.images->estimated : nullptr;
 }
 
 double Witness::passes_missing() const {
@@ -157,13 +144,13 @@ double Witness::passes_missing() const {
 }
 
 double Witness::variance_per_pass(const Image& guess) const {
-    return rel_variance(images_->whole, guess, guess) * passes() / 2;
+    return rel_variance(all_.images->whole, guess, guess) * passes() / 2;
 }
 
 Testimony Witness::testimony(const ImagePair& picture, double bias, const Image& guess) const {
     const double own = is_unbiased() ? 0 : std::sqrt(bias_share(method_.law, planned_for_)),
                  seen = 1 - own / bias;
-    return testimony_on(picture, images_->whole, seen * seen, guess);
+    return testimony_on(picture, all_.images->whole, seen * seen, guess);
 }
 
 } // namespace argand

@@ -67,7 +67,7 @@ public:
     /// if it was interrupted.
     bool render_more(double passes, double seconds, double expected);
 
-    const std::optional<PilotImages>& images() const { return images_; }
+    const std::optional<PilotImages>& images() const { return all_.images; }
     /// The light that photons estimate, without bias. Null if the witness has bias.
     const ImagePair* truth() const;
     /// bias: that of the picture (not squared), over that of one pass at the initial bandwidth.
@@ -75,12 +75,12 @@ public:
 
     const RenderSettings& pass() const { return pass_; }
     bool is_unbiased() const { return method_.abilities.unbiased; }
-    double passes() const { return samples_ / pass_.samples; }
+    double passes() const { return all_.samples / pass_.samples; }
     /// Passes without which its own noise is not known well enough to believe it.
     double passes_missing() const;
     double seconds() const { return seconds_; } ///< of its renders, without pictures added
     /// 0 if there are no pictures yet.
-    double seconds_per_pass() const { return samples_ > 0 ? seconds_of_all_ / passes() : 0; }
+    double seconds_per_pass() const { return all_.samples > 0 ? all_.seconds / passes() : 0; }
     /// relMSE of the mean of one pass. Requires pictures.
     double variance_per_pass(const Image& guess) const;
 
@@ -88,10 +88,9 @@ private:
     const RenderPasses& render_;
     const MethodInfo& method_;
     RenderSettings pass_;
-    std::optional<PilotImages> images_;
-    double samples_ = 0, seconds_ = 0;
-    double seconds_of_all_ = 0; ///< with pictures added
-    double planned_for_ = 0;    ///< passes that narrow bandwidths follow from
+    PooledImages all_; ///< with pictures added
+    double seconds_ = 0;
+    double planned_for_ = 0; ///< passes that narrow bandwidths follow from
     std::uint32_t renders_ = 0;
 };
 
