@@ -133,6 +133,16 @@ template <class Kernel> void dispatch(Device& device, const Kernel& kernel, cons
     }
 }
 
+/// Memory that nobody else holds: `last`, or if it is in use elsewhere or too small, new memory,
+/// which becomes `last`.
+inline Buffer unshared(Device& device, Buffer& last, const char* name, std::uint64_t bytes) {
+    if (last.size() < bytes || last.storage().use_count() > 1) {
+        last = Buffer(); // freed first, for it may be large
+        last = device.allocate(name, bytes);
+    }
+    return last;
+}
+
 /// Allocates a buffer for the elements and uploads them. The buffer has room for at least one
 /// element so that it can be bound.
 template <class T> // NOLINTNEXTLINE(performance-unnecessary-value-param): moved below

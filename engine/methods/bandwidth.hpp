@@ -2,6 +2,7 @@
 
 #include "methods/render.hpp"
 #include "photon/gather.hpp"
+#include "photon/sort_photons.hpp"
 
 #include <span>
 
@@ -20,9 +21,11 @@ struct Bandwidth {
 struct FirstPass {
     Device& device;
     const DeviceScene& scene;
-    const PhotonWorkspace& workspace; ///< holds the pass's photons
+    PhotonWorkspace& workspace; ///< holds the pass's photons
     const StoredPhotons& stored;
-    std::span<const glm::vec3> queries; ///< points at which the picture queries the photon map
+    const SortedPhotons& photons;
+    std::span<const glm::vec4> queries; ///< points at which the picture queries the photon map; the
+                                        ///< fourth component does not count
     double passes = 1; ///< of as many photons each, over which the picture averages
 };
 

@@ -228,12 +228,12 @@ public:
         for (const std::uint32_t slot : download<std::uint32_t>(device_, queries.slots, count)) {
             const QueryRecord& record = records[slot];
             if ((record.flags & query_caustics) == 0) {
-                points.emplace_back(record.x, record.y, record.z);
+                points.emplace_back(record.x, record.y, record.z, 0);
             }
         }
     }
 
-    std::vector<glm::vec3> points;
+    std::vector<glm::vec4> points;
 
 private:
     Device& device_;
@@ -324,7 +324,7 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
     return true;
 }
 
-std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                                       const RenderSettings& settings, const Camera& camera) {
     const EyeBatch batch = batch_of_small_image(w, settings, 48);
     const Buffer small_image = camera_of(device, batch, camera);

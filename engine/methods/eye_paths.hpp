@@ -38,8 +38,8 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& wor
                      const EyePass& pass, const PhotonLookup* lookup, const OnProgress& progress);
 
 /// Points at which the eye paths of a small version of the picture query the photon map, without
-/// those that look for caustics only. Waits for the device.
-std::vector<glm::vec3> sample_queries(Device& device, const DeviceScene& scene,
+/// those that look for caustics only; the fourth component is 0. Waits for the device.
+std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene,
                                       EyeWorkspace& workspace, const RenderSettings& settings,
                                       const Camera& camera);
 

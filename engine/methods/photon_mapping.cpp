@@ -62,12 +62,14 @@ public:
     void begin(Budget& budget) override {
         first_ = trace_first(budget);
         learnt_ = budget.once([&] {
-            const std::vector<glm::vec3> queries = sample_queries(
+            const std::vector<glm::vec4> queries = sample_queries(
                 c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
+            const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
             const FirstPass first{.device = c_.device,
                                   .scene = c_.on_device,
                                   .workspace = photons_,
                                   .stored = *first_,
+                                  .photons = sorted,
                                   .queries = queries,
                                   .passes = static_cast<double>(split_.passes)};
             const Bandwidth learnt = strategy_->learn(first, c_.settings);
@@ -92,7 +94,7 @@ public:
 private:
     PhotonPass emission_of(const PassNumbers& numbers) const;
     void make_workspace();
-    void sample_areas_in_view(const std::vector<glm::vec3>& queries, double radius);
+    void sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius);
     std::optional<StoredPhotons> trace(const PassNumbers& numbers);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
@@ -174,7 +176,7 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
 
 /// Samples areas only where most of what is in view lies, if the radius needs more samples than
 /// there is room for on all surfaces: in a room on a large ground, in the room and before it.
-void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec3>& queries, double radius) {
+void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius) {
     constexpr double reach = 4; // over the median distance of what is in view
     const DeviceScene& scene = c_.on_device;
     if (queries.empty() || has_room_for_area_samples(scene.surface_area, radius)) {
@@ -183,8 +185,8 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec3>& queries, 
     const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
     std::vector<double> distances;
     distances.reserve(queries.size());
-    for (const glm::vec3& query : queries) {
-        distances.push_back(glm::distance(query, eye));
+    for (const glm::vec4& query : queries) {
+        distances.push_back(glm::distance(glm::vec3(query), eye));
     }
     sample_areas(c_.device, c_.scene, c_.on_device, {eye, reach * median(std::move(distances))});
 }

@@ -7,18 +7,15 @@
 #include "kernels/flux_sum.hpp"
 #include "kernels/photon_advance.hpp"
 #include "kernels/photon_boxes.hpp"
-#include "kernels/photon_codes.hpp"
-#include "kernels/photon_count.hpp"
 #include "kernels/photon_emit.hpp"
 #include "kernels/photon_footprints.hpp"
 #include "kernels/photon_leaves.hpp"
 #include "kernels/photon_order.hpp"
-#include "kernels/photon_points.hpp"
 #include "kernels/photon_scatter.hpp"
 #include "kernels/photon_tally.hpp"
 #include "parallel/compact.hpp"
-#include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"
+#include "photon/sort_photons.hpp"
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
@@ -143,16 +140,6 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
     return download_word(device, w.traversal.unfinished) == 0 || w.traversal.careful;
 }
 
-/// Memory that nobody else holds: `last`, or if its map is still in use or it is too small, new
-/// memory, which becomes `last`.
-Buffer unshared(Device& device, Buffer& last, const char* name, std::uint64_t bytes) {
-    if (last.size() < bytes || last.storage().use_count() > 1) {
-        last = Buffer(); // freed first, for it may be large
-        last = device.allocate(name, bytes);
-    }
-    return last;
-}
-
 /// Finds the sides of area samples that other surfaces cover: short rays along the normals. The
 /// samples lie behind the stored slots.
 void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
@@ -229,34 +216,6 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     upload_word(device, w.counters, counter_stored_slots,
                 static_cast<std::uint32_t>(stored.slots + samples));
     return samples;
-}
-
-/// Sorts the places of the records by code into w.order, and counts the records. boxes: memory for
-/// a box per record.
-void sort_photons(Device& device, PhotonWorkspace& w, const Buffer& boxes, bool wide_codes) {
-    const Count slots(w.counters, counter_stored_slots, w.capacity);
-    const Buffer bounds = device.scratch("photon map bounds", sizeof(BoxRecord));
-    dispatch(device,
-             kernels::photon_points{.counters = w.counters, .photons = w.photons, .boxes = boxes},
-             slots);
-    reduce_box(device, boxes, bounds, 0, slots);
-    dispatch(device,
-             kernels::photon_codes{.bounds = bounds,
-                                   .counters = w.counters,
-                                   .photons = w.photons,
-                                   .codes = w.codes,
-                                   .order = w.order,
-                                   .constants = {.codes64 = wide_codes}},
-             slots);
-    if (wide_codes) {
-        radix_sort_pairs64(device, w.codes, w.order, slots);
-    } else {
-        radix_sort_pairs(device, w.codes, w.order, slots);
-    }
-    dispatch(device,
-             kernels::photon_count{
-                 .codes = w.codes, .counters = w.counters, .constants = {.codes64 = wide_codes}},
-             slots);
 }
 
 /// Computes the footprints of the map's records. Waits for the device.
@@ -419,10 +378,6 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
                            const StoredPhotons& stored, const PhotonMapSettings& settings) {
     PhotonMap map;
     make_room(device, w, stored.slots, stored.slots + settings.area_samples);
-    const std::uint64_t bytes_of_codes = w.capacity * (settings.wide_codes ? 8 : 4);
-    if (w.codes.size() < bytes_of_codes) {
-        w.codes = device.allocate("photon codes", bytes_of_codes);
-    }
     map.photons =
         unshared(device, w.last_sorted, "photons, sorted", w.capacity * sizeof(PhotonRecord));
     map.area_samples = add_area_samples(device, scene, w, stored, settings);
@@ -431,7 +386,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     map.corrected = {scene.sampled_part.center, inner_share * scene.sampled_part.reach};
     {
         const StageScope stage(device, "sort photons");
-        sort_photons(device, w, map.photons, settings.wide_codes);
+        sort_places(device, w, map.photons, settings.wide_codes);
     }
     const StageScope stage(device, "build photon map");
     dispatch_indirect(

@@ -1,6 +1,8 @@
 #include "photon/radius.hpp"
 
-#include "shared/morton.h"
+#include "base/median.hpp"
+#include "kernels/photon_distances.hpp"
+#include "shared/photon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,41 +18,62 @@ double photons_in_disc(double photons_stored, bool caustic) {
     return std::max(in_disc * std::pow(photons_stored / reference_photons, 2.0 / 3.0), 4.0);
 }
 
-double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points,
-                     glm::vec3 low, glm::vec3 high, double in_disc) {
-    if (photons.empty() || points.empty()) {
+namespace {
+
+// Rank, among the photons looked at, of the distance that is measured: enough for an error of 9 %
+// at one point, and of less than 1 % in the median of all points.
+constexpr double enough_rank = 32;
+// Photons looked at on either side of a point's place in the order, over those that a disc holds.
+constexpr double reach_over_disc = 4;
+
+/// The median distance to the `in_disc`-th nearest photon. caustic_step: as in
+/// PhotonDistanceParams.
+double median_distance(Device& device, const SortedPhotons& sorted, const Buffer& points,
+                       std::size_t count, double in_disc, std::uint32_t caustic_step) {
+    const StageScope stage(device, "learn bandwidth");
+    // A point may be that of a photon, which is not its own neighbour.
+    const double others = caustic_step > 0 ? 0 : sorted.others;
+    const double rank = std::min(in_disc, others + sorted.caustics - 1) + 1;
+    const double stride = std::max(std::floor(rank / enough_rank), 1.0);
+    const Buffer distances = device.scratch("learnt distances", count * sizeof(float));
+    dispatch(device,
+             kernels::photon_distances{
+                 .photons = sorted.photons,
+                 .codes = sorted.codes,
+                 .bounds = sorted.bounds,
+                 .points = points,
+                 .distances = distances,
+                 .params = {.points = static_cast<std::uint32_t>(count),
+                            .rank = rank_among_every(stride, rank),
+                            .reach = static_cast<std::uint32_t>(reach_over_disc * rank),
+                            .stride = static_cast<std::uint32_t>(stride),
+                            .others = sorted.others,
+                            .caustics = sorted.caustics,
+                            .caustic_step = caustic_step}},
+             count);
+    const std::vector<float> found = download<float>(device, distances, count);
+    return median({found.begin(), found.end()});
+}
+
+} // namespace
+
+double median_radius(Device& device, const SortedPhotons& sorted, std::span<const glm::vec4> points,
+                     double in_disc) {
+    if (sorted.others + sorted.caustics == 0 || points.empty()) {
         return 0;
     }
-    std::vector<std::uint32_t> codes;
-    codes.reserve(photons.size());
-    for (const PhotonRecord& photon : photons) {
-        codes.push_back(morton30({photon.x, photon.y, photon.z}, low, high));
+    return median_distance(device, sorted, upload(device, "learning points", points), points.size(),
+                           in_disc, 0);
+}
+
+double median_caustic_radius(Device& device, const SortedPhotons& sorted, double in_disc) {
+    if (sorted.caustics == 0) {
+        return 0;
     }
-    // Neighbours on a surface are near in the order, but on both sides and with gaps.
-    const auto nearest = static_cast<std::size_t>(in_disc);
-    const std::size_t reach = 3 * nearest;
-    std::vector<double> radii;
-    std::vector<double> distances;
-    for (const glm::vec3& point : points) {
-        const auto place = static_cast<std::size_t>(
-            std::lower_bound(codes.begin(), codes.end(), morton30(point, low, high)) -
-            codes.begin());
-        const std::size_t begin = place > reach ? place - reach : 0;
-        const std::size_t end = std::min(place + reach + 1, photons.size());
-        distances.clear();
-        for (std::size_t j = begin; j < end; ++j) {
-            const glm::dvec3 d =
-                glm::dvec3(photons[j].x, photons[j].y, photons[j].z) - glm::dvec3(point);
-            distances.push_back(glm::dot(d, d));
-        }
-        const auto last = distances.begin() +
-                          static_cast<std::ptrdiff_t>(std::min(nearest, distances.size() - 1));
-        std::nth_element(distances.begin(), last, distances.end());
-        radii.push_back(std::sqrt(*last));
-    }
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return *middle;
+    constexpr std::uint32_t points = 1024;
+    const std::uint32_t step = std::max(sorted.caustics / points, 1u);
+    return median_distance(device, sorted, sorted.bounds, (sorted.caustics + step - 1) / step,
+                           in_disc, step);
 }
 
 namespace {

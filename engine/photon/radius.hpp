@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shared/photon_records.h"
+#include "photon/sort_photons.hpp"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -14,11 +14,15 @@ namespace argand {
 double photons_in_disc(double photons_stored, bool caustic = false);
 
 /// Radius within which half of the points have `in_disc` or more photons, in the scene's units: the
-/// median distance to the `in_disc`-th nearest photon. photons: sorted by their Morton codes in the
-/// box from `low` to `high`; only those near in this order are looked at. 0 without photons or
-/// points.
-double median_radius(std::span<const PhotonRecord> photons, std::span<const glm::vec3> points,
-                     glm::vec3 low, glm::vec3 high, double in_disc);
+/// median distance to the `in_disc`-th nearest photon. Looks at a sample of the photons that are
+/// near a point in their order. points: the fourth component does not count. 0 without photons or
+/// points. Waits for the device.
+double median_radius(Device& device, const SortedPhotons& sorted, std::span<const glm::vec4> points,
+                     double in_disc);
+
+/// The same for caustic photons alone, at the places of about a thousand of them, because that is
+/// where caustics are.
+double median_caustic_radius(Device& device, const SortedPhotons& sorted, double in_disc);
 
 /// Whether a map has room for the samples of surfaces of this area that discs of this radius want.
 bool has_room_for_area_samples(double surface_area, double radius);

@@ -26,6 +26,14 @@ struct FootprintParams {
     uint pad0, pad1;
 };
 
+// Which footprints footprint_distances looks at.
+struct FootprintDistanceParams {
+    uint points;
+    uint rank;       // of the distance to find among the footprints looked at, from 1
+    uint stride;     // between footprints looked at
+    uint footprints; // looked at
+};
+
 // Unit in which footprint areas are summed: this many units are the scene's surface area, so that
 // the sum over area_shares is the mean number of footprints over a point.
 CONSTANT uint area_shares = 65536u;

@@ -124,6 +124,20 @@ CONSTANT uint leaf_first_mask = 0x7fffffu;
 CONSTANT uint most_photons_a_leaf = 512u;
 CONSTANT uint most_photons_in_map = 0x800000u;
 
+// Which photons photon_distances looks at, of those in the order of codes.
+struct PhotonDistanceParams {
+    uint points;
+    uint rank;   // of the distance to find among the photons looked at, from 1
+    uint reach;  // photons looked at on either side of a point's place in the order
+    uint stride; // between photons looked at
+    // Photons that are not caustic, and caustic ones behind them.
+    uint others, caustics;
+    // 0: the points are given. Else they are every step-th caustic photon, and only caustic photons
+    // are looked at.
+    uint caustic_step;
+    uint pad0;
+};
+
 struct PhotonBoxParams {
     float32 flatness; // of footprints
     uint pad0, pad1, pad2;
@@ -145,6 +159,7 @@ CONSTANT uint counter_photons = 6u; // photons among the records
 // Sum of the footprints' areas, in units of the scene's area / area_shares.
 CONSTANT uint counter_footprints = 7u;
 CONSTANT uint counter_area_places = 8u; // area samples among the records
+CONSTANT uint counter_others = 9u;      // photons of the map that are not caustic, which come first
 CONSTANT uint counter_count = 16u;
 
 ARGAND_SHARED_END

@@ -211,7 +211,7 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> jitter;
     std::vector<Query> queries;
-    std::vector<glm::vec3> points;
+    std::vector<glm::vec4> points;
     constexpr int side = 24;
     for (int face = 0; face < 6; ++face) {
         for (int i = 0; i < side * side; ++i) {
@@ -222,16 +222,16 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
             q.position[(axis + 1) % 3] = 2 * (float(i % side) + jitter(random)) / side - 1;
             q.position[(axis + 2) % 3] = 2 * (float(i / side) + jitter(random)) / side - 1;
             queries.push_back(q);
-            points.push_back(q.position);
+            points.emplace_back(q.position, 0);
         }
     }
     const auto scale_for = [&](float smoothing, float largest) {
         return make_footprint_scale(float(count), float(count), scene.record.radius,
                                     {smoothing, 5, largest, 0.3f, 1.0f / 6});
     };
-    const auto photons = download<PhotonRecord>(device(), workspace.photons, stored->slots);
-    const auto offsets = download<glm::uvec4>(device(), workspace.offsets, stored->slots);
-    const double smoothing = median_smoothing(photons, offsets, points, scale_for(1, 1e6f), 150);
+    SortedPhotons sorted = sort_photons(device(), workspace, *stored);
+    add_footprints(device(), workspace, scale_for(1, 1e6f), sorted);
+    const double smoothing = median_smoothing(device(), sorted, points, 150);
     ASSERT_GT(smoothing, 0);
 
     const auto integral = [&](std::uint64_t area_samples) {

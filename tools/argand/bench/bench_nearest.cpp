@@ -8,15 +8,17 @@
 #include "shared/photon.h"
 #include "shared/query_record.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace argand {
 
 std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
                                     PhotonWorkspace& workspace, const StoredPhotons& stored) {
-    const PhotonMap map = build_photon_map(device, scene, workspace, stored);
+    const SortedPhotons sorted = sort_photons(device, workspace, stored);
     const std::vector<PhotonRecord> photons =
-        download<PhotonRecord>(device, map.photons, stored.photons);
+        download<PhotonRecord>(device, sorted.photons, stored.photons);
     std::vector<glm::vec3> points;
     std::vector<glm::vec3> asked;
     std::vector<QueryRecord> records;
@@ -48,14 +50,19 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
         .count = Count(number, 0, n),
         .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
         .unfinished = upload(device, "bench unfinished", std::vector{0u})};
-    const glm::vec3 center(scene.record.center_x, scene.record.center_y, scene.record.center_z);
+    std::vector<glm::vec4> some;
+    for (std::size_t i = 0; i < std::min<std::size_t>(n, 2000); ++i) {
+        some.emplace_back(asked[i], 0);
+    }
+    constexpr std::array<std::uint32_t, 3> neighbours{50, 150, 500};
+    std::array<double, neighbours.size()> radii{};
+    std::transform(neighbours.begin(), neighbours.end(), radii.begin(),
+                   [&](std::uint32_t k) { return 2.5 * median_radius(device, sorted, some, k); });
+    const PhotonMap map = build_photon_map(device, scene, workspace, stored);
     std::vector<BenchRow> rows;
-    for (const std::uint32_t k : {50u, 150u, 500u}) {
-        const double radius =
-            2.5 * median_radius(photons,
-                                std::span(asked).subspan(0, std::min<std::size_t>(n, 2000)),
-                                center - scene.record.radius, center + scene.record.radius, k);
-        NearestEstimator estimator(device, scene.plan, {.neighbours = k, .radius = radius});
+    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+        const std::uint32_t k = neighbours[i];
+        NearestEstimator estimator(device, scene.plan, {.neighbours = k, .radius = radii[i]});
         const double seconds = median_host_seconds([&] { device.wait(); },
                                                    [&] {
                                                        estimator.estimate(map, queries);
