@@ -1,6 +1,6 @@
 #include "methods/bandwidth.hpp"
 
-#include "base/median.hpp"
+#include "methods/view_extent.hpp"
 #include "photon/radius.hpp"
 #include "photon/smoothing.hpp"
 #include "shared/footprint.h"
@@ -39,21 +39,7 @@ constexpr double sharpest_caustic = 0.17;
 /// few photons arrive, the learnt radius would reach through the walls.
 double largest_radius(std::span<const glm::vec4> queries) {
     constexpr double share_of_view = 0.25;
-    glm::dvec3 middle;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> places;
-        places.reserve(queries.size());
-        for (const glm::vec4& query : queries) {
-            places.push_back(query[axis]);
-        }
-        middle[axis] = median(std::move(places));
-    }
-    std::vector<double> distances;
-    distances.reserve(queries.size());
-    for (const glm::vec4& query : queries) {
-        distances.push_back(glm::length(glm::dvec3(query) - middle));
-    }
-    const double extent = median(std::move(distances));
+    const double extent = view_extent(queries).distance;
     // All queries are at one point: nothing is known about the extent of what is in view.
     return extent > 0 ? share_of_view * extent : std::numeric_limits<double>::infinity();
 }

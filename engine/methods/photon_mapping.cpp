@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/median.hpp"
 #include "methods/bandwidth.hpp"
+#include "methods/photon_targets.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
@@ -60,10 +61,11 @@ public:
     }
 
     void begin(Budget& budget) override {
+        const std::vector<glm::vec4> queries = sample_queries(
+            c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
+        aim_at_casters(c_, queries);
         first_ = trace_first(budget);
         learnt_ = budget.once([&] {
-            const std::vector<glm::vec4> queries = sample_queries(
-                c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
             const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
             const FirstPass first{.device = c_.device,
                                   .scene = c_.on_device,

@@ -2,6 +2,8 @@
 
 #include "scene/material_record.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -140,6 +142,19 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
     const std::vector<LightChoice> of_photons = light_choices(table, for_photons);
     choices.insert(choices.end(), of_photons.begin(), of_photons.end());
     scene.light_choices = upload(device, "light choices", choices);
+}
+
+void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> spheres,
+                 double share) {
+    SceneRecord& record = scene.record;
+    const std::array<lane4*, most_targets> targets = {&record.target_0, &record.target_1,
+                                                      &record.target_2, &record.target_3};
+    record.target_count = static_cast<std::uint32_t>(std::min(spheres.size(), targets.size()));
+    for (std::size_t i = 0; i < record.target_count; ++i) {
+        *targets[i] = spheres[i];
+    }
+    record.target_share = static_cast<float>(share / std::max(record.target_count, 1u));
+    scene.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
 }
 
 CameraRecord camera_record(const Camera& camera, int width, int height) {

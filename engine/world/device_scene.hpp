@@ -52,6 +52,11 @@ void sample_areas(Device& device, const Scene& scene, DeviceScene& on_device,
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,
                        const std::vector<double>& for_photons);
 
+/// Aims photons from lights inside the scene at up to four spheres (center, radius), and uploads
+/// `record` with them. share: of the photons, for all spheres together. Records only.
+void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> spheres,
+                 double share);
+
 /// The camera for a picture of this size in pixels. The vertical angle does not depend on the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);
 

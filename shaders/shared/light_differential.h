@@ -32,7 +32,7 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(Emitt
             density = max(spot_falloff(dot3(direction, f.z), cos_inner, cos_outer), least) /
                       max(all, real(1e-12));
         }
-        real spread = photon_spacing(photons, density);
+        real spread = photon_spacing(photons * p.concentration, density);
         vec3 axis_u, axis_v;
         direction_axes(f, direction, axis_u, axis_v);
         d.dd_du = axis_u * spread;
@@ -51,7 +51,7 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(Emitt
         real cosine = max(abs(dot3(direction, p.normal)), SMALLEST_EMISSION_COSINE);
         real sides = light_sides(l);
         side = sqrt(area * sides * cosine / max(photons, real(1.0)));
-        spread = sqrt(sides) * photon_spacing(emitter_photons, cosine * INV_PI);
+        spread = sqrt(sides) * photon_spacing(emitter_photons * p.concentration, cosine * INV_PI);
     }
     d.dp_du = f.x * side;
     d.dp_dv = f.y * side;

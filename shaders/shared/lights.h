@@ -7,6 +7,7 @@
 #include "shared/geometry_records.h"
 #include "shared/intersect.h"
 #include "shared/light_record.h"
+#include "shared/scene_records.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -29,7 +30,8 @@ struct EmittedPhoton {
     vec3 direction; // unit
     vec3 normal;    // of the emitting surface, on the photon's side; (0,0,0) if there is none
     vec3 flux;      // the light's power, which the photon carries if it is the light's only one
-    // Density of the photon's position across its direction, over that of even emission.
+    // Density of photons like this one over that of even emission: of positions across their
+    // direction if they come from outside, else of directions.
     real concentration;
 };
 
@@ -69,6 +71,45 @@ FN real focus_concentration(IN(Focus) focus, real scene_radius, real distance, r
     concentration += nearest <= focus.radius.y && focus.share.y > real(0.0) ? density.y : real(0.0);
     concentration += nearest <= focus.radius.z && focus.share.z > real(0.0) ? density.z : real(0.0);
     return concentration;
+}
+
+// Spheres, (center, radius), at which photons from lights inside the scene are aimed.
+struct Targets {
+    vec4 spheres[most_targets];
+    uint count;
+    real share; // of the photons, for each sphere
+};
+
+// Directions in which a sphere is seen from a point: those within an angle of the axis.
+struct Cone {
+    vec3 axis;
+    real sine2;  // of the angle, squared
+    real height; // 1 - cosine of the angle; 0: the point is in the sphere, or nearly
+};
+
+FN Cone cone_of(vec4 sphere, vec3 from) {
+    Cone c;
+    real distance;
+    c.axis = unit_and_length(vec3(sphere) - from, distance);
+    bool outside = real(sphere.w) * real(1.1) < distance;
+    real sine = outside ? real(sphere.w) / distance : real(1.0);
+    c.sine2 = sine * sine;
+    c.height = outside ? c.sine2 / (real(1.0) + sqrt(real(1.0) - c.sine2)) : real(0.0);
+    return c;
+}
+
+FN bool is_in_cone(IN(Cone) c, vec3 direction) {
+    vec3 across = cross3(c.axis, direction);
+    return dot3(c.axis, direction) > real(0.0) && dot3(across, across) <= c.sine2;
+}
+
+// A direction in the cone, evenly distributed over its solid angle.
+FN vec3 sample_cone(IN(Cone) c, vec2 u) {
+    real below = u.x * c.height;
+    real s, k;
+    sincos_2pi(u.y, s, k);
+    real sine = safe_sqrt(below * (real(2.0) - below));
+    return to_world(make_frame(c.axis), vec3(sine * k, sine * s, real(1.0) - below));
 }
 
 // Whether the light is of this kind. `kinds` (1u << light_*) are the kinds that the scene has;
@@ -229,10 +270,11 @@ FN vec3 sample_spot(IN(LightRecord) l, vec4 u, vec2 v) {
     return to_world(make_frame(light_direction(l)), vec3(sine * c, sine * s, real(1.0) - below));
 }
 
-// Emits a photon into a scene with these bounds. Returns false if the light emits nothing. Photons
-// of directional lights and the sky start on a disc that covers the bounding sphere from outside.
-FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec4 v,
-                   OUT(EmittedPhoton) p) {
+// A photon from a point of the surface, or of the disc on which photons from outside start. error:
+// bound of the rounding error of a point on a surface, from which the caller moves the origin.
+FN bool emit_evenly(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec4 v,
+                    OUT(EmittedPhoton) p, OUT(vec3) error) {
+    error = vec3(real(0.0));
     p.origin = light_position(l);
     p.direction = light_direction(l);
     p.normal = vec3(real(0.0));
@@ -252,10 +294,8 @@ FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec
         p.normal = is_double_sided(l) && v.x < real(0.5) ? -normal : normal;
         p.direction = to_world(make_frame(p.normal), sample_cosine_hemisphere(vec2(u.x, u.y)));
         vec2 b = sample_triangle(vec2(u.z, u.w));
-        vec3 error;
-        vec3 q =
+        p.origin =
             hit_point(p.origin, vec3(l.dx, l.dy, l.dz), vec3(l.ex, l.ey, l.ez), b.x, b.y, error);
-        p.origin = offset_ray_origin(q, error, p.normal, p.direction);
         return area > real(0.0);
     }
     if ((kinds & light_kinds_from_outside) == 0u) {
@@ -270,16 +310,25 @@ FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec
     return true;
 }
 
-// As light_emit, but aims photons from outside at the focus. Their flux is divided by their
-// concentration (balance heuristic), so that the mean is the same. choice: in [0,1), the sphere at
-// which to aim.
-FN bool light_emit_focused(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Focus) focus,
-                           vec4 u, vec4 v, real choice, OUT(EmittedPhoton) p) {
-    bool emitted = light_emit(l, kinds, bounds, u, v, p);
-    bool from_outside = is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky);
-    if (!from_outside || !(focus.share.x + focus.share.y + focus.share.z > real(0.0))) {
-        return emitted;
+FN void leave_surface(IN(LightRecord) l, uint kinds, vec3 error, INOUT(EmittedPhoton) p) {
+    if (is_light(l, kinds, light_triangle)) {
+        p.origin = offset_ray_origin(p.origin, error, p.normal, p.direction);
     }
+}
+
+// Emits a photon into a scene with these bounds. Returns false if the light emits nothing. Photons
+// of directional lights and the sky start on a disc that covers the bounding sphere from outside.
+FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec4 v,
+                   OUT(EmittedPhoton) p) {
+    vec3 error;
+    bool emitted = emit_evenly(l, kinds, bounds, u, v, p, error);
+    leave_surface(l, kinds, error, p);
+    return emitted;
+}
+
+// Aims a photon from outside at the focus.
+FN void aim_at_focus(IN(Sphere) bounds, IN(Focus) focus, vec4 u, real choice,
+                     INOUT(EmittedPhoton) p) {
     real aimed = choose_focus(focus, choice);
     if (aimed > real(0.0)) {
         Frame f = make_frame(p.direction);
@@ -293,7 +342,75 @@ FN bool light_emit_focused(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(
     // Less its rounding errors: a photon that is wrongly taken to be outside becomes a firefly.
     real distance = max(sqrt(dot3(across, across)) - bounds.radius * error_bound(16), real(0.0));
     p.concentration = focus_concentration(focus, bounds.radius, distance, aimed);
-    p.flux = p.flux / p.concentration;
+}
+
+// Solid-angle density of emit_evenly for lights inside the scene. front: normal of a triangle.
+FN real emission_density(IN(LightRecord) l, uint kinds, vec3 front, vec3 direction) {
+    if (is_light(l, kinds, light_triangle)) {
+        real cosine = dot3(front, direction);
+        return (is_double_sided(l) ? real(0.5) * abs(cosine) : max(cosine, real(0.0))) * INV_PI;
+    }
+    if (is_light(l, kinds, light_spot)) {
+        real ramp, ramp_share;
+        real all = spot_solid_angles(real(l.cos_inner), real(l.cos_outer), ramp, ramp_share);
+        return spot_falloff(dot3(direction, light_direction(l)), real(l.cos_inner),
+                            real(l.cos_outer)) /
+               max(all, real(1e-12));
+    }
+    return UNIFORM_SPHERE_PDF;
+}
+
+// Aims a photon from inside the scene at the targets, in proportion to their shares. Returns false
+// if the light does not shine in the direction chosen.
+FN bool aim_at_targets(IN(LightRecord) l, uint kinds, IN(Targets) targets, vec2 u, real choice,
+                       INOUT(EmittedPhoton) p) {
+    uint aimed = min(uint(choice / targets.share), most_targets);
+    real area;
+    vec3 front = light_normal(l, area);
+    if (aimed < targets.count) {
+        Cone c = cone_of(targets.spheres[aimed], p.origin);
+        // Photons that start in a target are not aimed.
+        if (c.height > real(0.0)) {
+            p.direction = sample_cone(c, u);
+            if (is_light(l, kinds, light_triangle)) {
+                p.normal =
+                    is_double_sided(l) && dot3(front, p.direction) < real(0.0) ? -front : front;
+            }
+        } else {
+            aimed = most_targets;
+        }
+    }
+    real even = emission_density(l, kinds, front, p.direction);
+    real density = even * (real(1.0) - real(targets.count) * targets.share);
+    for (uint i = 0u; i < targets.count; ++i) {
+        Cone c = cone_of(targets.spheres[i], p.origin);
+        if (!(c.height > real(0.0))) {
+            density += even * targets.share;
+        } else if (i == aimed || is_in_cone(c, p.direction)) { // the former whatever the rounding
+            density += targets.share / (real(2.0) * PI * c.height);
+        }
+    }
+    p.concentration = density / even;
+    return even > real(0.0) && is_finite(p.concentration);
+}
+
+// As light_emit, but aims photons from outside at the focus, and others at the targets. Their flux
+// is divided by their concentration (balance heuristic), so that the mean is the same. choice: in
+// [0,1), at what to aim.
+FN bool light_emit_aimed(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Focus) focus,
+                         IN(Targets) targets, vec4 u, vec4 v, real choice, OUT(EmittedPhoton) p) {
+    vec3 error;
+    bool emitted = emit_evenly(l, kinds, bounds, u, v, p, error);
+    if (is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky)) {
+        if (focus.share.x + focus.share.y + focus.share.z > real(0.0)) {
+            aim_at_focus(bounds, focus, u, choice, p);
+            p.flux = p.flux / p.concentration;
+        }
+    } else if (targets.count > 0u && emitted) {
+        emitted = aim_at_targets(l, kinds, targets, vec2(u.x, u.y), choice, p);
+        p.flux = p.flux / (emitted ? p.concentration : real(1.0));
+    }
+    leave_surface(l, kinds, error, p);
     return emitted;
 }
 

@@ -5,6 +5,9 @@
 
 ARGAND_SHARED_BEGIN
 
+// Spheres at which photons may be aimed.
+CONSTANT uint most_targets = 4u;
+
 // Data of the whole scene for kernels; a storage buffer holds one of these.
 struct SceneRecord {
     float32 center_x, center_y, center_z, radius; // bounding sphere
@@ -23,6 +26,12 @@ struct SceneRecord {
     float32 focus_x, focus_y, focus_z, pad2;
     float32 focus_radius_0, focus_radius_1, focus_radius_2, pad3;
     float32 focus_share_0, focus_share_1, focus_share_2, pad4;
+    // Spheres (center and radius) at which photons from all other lights are aimed, their number,
+    // and the share of these photons for each (Targets).
+    lane4 target_0, target_1, target_2, target_3;
+    uint target_count;
+    float32 target_share;
+    uint pad5, pad6;
 };
 
 // A row of the table that chooses a light, by inversion of the cumulative probabilities: that keeps

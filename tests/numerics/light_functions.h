@@ -47,7 +47,7 @@ CONSTANT uint of_refract_differential = 93u;
 CONSTANT uint of_differential_record = 94u;
 CONSTANT uint of_unpack_dual = 95u;
 CONSTANT uint of_dual_read = 96u;
-CONSTANT uint of_light_emit_focused = 97u;
+CONSTANT uint of_light_emit_aimed = 97u;
 CONSTANT uint of_triangle_piece = 98u;
 CONSTANT uint end_of_lights = 99u;
 
@@ -171,7 +171,7 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));
         put3(r, 4, p.direction);
         put3(r, 7, p.flux);
-    } else if (function == of_light_emit_focused) {
+    } else if (function == of_light_emit_aimed) {
         Sphere bounds;
         bounds.center = vec3(real(0.0));
         bounds.radius = number_at(a, 6);
@@ -179,11 +179,17 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         focus.center = vec3(real(0.25), real(-0.125), real(0.5)) * bounds.radius;
         focus.radius = vec3(real(0.0625), real(0.125), real(0.25)) * bounds.radius;
         focus.share = vec3(real(0.25));
+        Targets targets;
+        targets.spheres[0] = vec4(real(0.5), real(0.25), real(-0.25), real(0.0625)) * bounds.radius;
+        targets.spheres[1] = vec4(real(-0.5), real(0.0), real(0.5), real(0.25)) * bounds.radius;
+        targets.spheres[2] = targets.spheres[3] = vec4(real(0.0));
+        targets.count = 2u;
+        targets.share = real(0.25);
         EmittedPhoton p;
         bool emitted =
-            light_emit_focused(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
-                               bounds, focus, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
-                               vec4(a.x[4], a.x[5], real(0.0), real(0.0)), number_at(a, 7), p);
+            light_emit_aimed(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
+                             bounds, focus, targets, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                             vec4(a.x[4], a.x[5], real(0.0), real(0.0)), number_at(a, 7), p);
         r.y[0] = emitted ? real(1.0) : real(0.0);
         put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));
         put3(r, 4, p.direction);

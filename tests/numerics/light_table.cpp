@@ -191,7 +191,7 @@ std::vector<Function> light_samples_and_photons() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          22, "d333", conditioned, 4},
-        {"light_emit_focused", of_light_emit_focused,
+        {"light_emit_aimed", of_light_emit_aimed,
          "as light_emit, three spheres of 1/16 … 1/4 of the scene; the photon's place",
          [](Draw& d) {
              const float kind = any_kind(d);

@@ -66,8 +66,8 @@ Mean flux_on_square(const LightRecord& l, const Focus& focus, float x, float y, 
     for (uint i = 0; i < 200'000; ++i) {
         const vec4 choice = random4(33, i, 0, 2);
         EmittedPhoton p;
-        light_emit_focused(l, all_light_kinds, {center, radius}, focus, random4(33, i, 0, 0),
-                           random4(33, i, 0, 1), choice.x, p);
+        light_emit_aimed(l, all_light_kinds, {center, radius}, focus, {}, random4(33, i, 0, 0),
+                         random4(33, i, 0, 1), choice.x, p);
         const float t = (1 - p.origin.z) / p.direction.z;
         const vec3 q = p.origin + p.direction * t;
         const bool hit = t > 0 && std::abs(q.x - x) < half && std::abs(q.y - y) < half;
@@ -98,20 +98,93 @@ TEST(LightEmission, AimedPhotonsBringTheSameIrradiance) {
     }
 }
 
-TEST(LightEmission, PhotonsFromInsideTheSceneAreNotAimed) {
+TEST(LightEmission, PhotonsFromInsideTheSceneAreNotAimedAtTheFocus) {
     for (const LightRecord& l : one_of_each()) {
         if (l.kind == light_directional || l.kind == light_sky) {
             continue;
         }
         for (uint i = 0; i < 100; ++i) {
             EmittedPhoton p;
-            EXPECT_TRUE(light_emit_focused(l, all_light_kinds, {center, radius}, three_spheres(),
-                                           random4(31, i, 0, 0), random4(31, i, 0, 1), 0.1f, p));
+            EXPECT_TRUE(light_emit_aimed(l, all_light_kinds, {center, radius}, three_spheres(), {},
+                                         random4(31, i, 0, 0), random4(31, i, 0, 1), 0.1f, p));
             const EmittedPhoton plain = photon_of(l, i);
             EXPECT_EQ(p.origin, plain.origin);
             EXPECT_EQ(p.flux, plain.flux);
             EXPECT_EQ(p.concentration, 1);
         }
+    }
+}
+
+/// A small target, one that overlaps with it, one around most lights, and one that is very far.
+Targets four_targets() {
+    return {.spheres = {vec4(1, 1, 1, 0.1f), vec4(1.1f, 1.1f, 1.2f, 0.3f),
+                        vec4(1, 1.5f, 4.5f, 0.7f), vec4(1e4f, 0, 0, 1)},
+            .count = 4,
+            .share = 0.1f};
+}
+
+/// Mean flux that passes a sphere, as light_emit or light_emit_aimed emits it.
+Mean flux_through(const LightRecord& l, const vec4& sphere, const Targets& targets) {
+    Mean flux;
+    for (uint i = 0; i < 100'000; ++i) {
+        EmittedPhoton p;
+        const bool emitted = light_emit_aimed(
+            l, all_light_kinds, {center, radius}, {vec3(0), vec3(0), vec3(0)}, targets,
+            random4(35, i, 0, 0), random4(35, i, 0, 1), random4(35, i, 0, 2).x, p);
+        const vec3 to = vec3(sphere) - p.origin;
+        const float along = dot3(to, p.direction);
+        const bool hit = along > 0 && dot3(to, to) - along * along < sphere.w * sphere.w;
+        flux.add(emitted && hit ? p.flux.y : 0);
+    }
+    return flux;
+}
+
+TEST(LightEmission, AimingAtTargetsChangesNoFlux) {
+    const std::vector<vec4> spheres{
+        vec4(1, 1, 1, 0.1f),       // a target
+        vec4(1.1f, 1, 1.1f, 0.1f), // across the rims of two
+        vec4(0, 2, 1, 0.8f),       // beside them
+        vec4(1, 1.5f, 5, 50),      // everything
+    };
+    for (const LightRecord& l : one_of_each()) {
+        if (l.kind == light_directional || l.kind == light_sky) {
+            continue;
+        }
+        for (const vec4& sphere : spheres) {
+            const Mean even = flux_through(l, sphere, {});
+            const Mean aimed = flux_through(l, sphere, four_targets());
+            EXPECT_NEAR(aimed.value(), even.value(),
+                        5 * std::hypot(aimed.deviation(), even.deviation()) + 1e-5 * even.value())
+                << l.kind << ", " << sphere.x << ", " << sphere.y;
+        }
+        const Mean even = flux_through(l, spheres[0], {});
+        const Mean aimed = flux_through(l, spheres[0], four_targets());
+        // One of the spots does not shine on this target.
+        EXPECT_TRUE(even.value() == 0 || aimed.deviation() < 0.5 * even.deviation()) << l.kind;
+    }
+}
+
+// Photons that start in a target are emitted evenly, and a target of a millionth of the scene's
+// size is hit by those that are aimed at it.
+TEST(LightEmission, TargetsOfAnySize) {
+    const LightRecord l = point_light(vec3(1, 1.5f, 5), color);
+    Targets around{.spheres = {vec4(1, 1.5f, 5, 1)}, .count = 1, .share = 0.5f};
+    Targets tiny{.spheres = {vec4(1, 1, 1, 4e-6f)}, .count = 1, .share = 0.5f};
+    for (uint i = 0; i < 1000; ++i) {
+        const vec4 u = random4(31, i, 0, 0);
+        const vec4 v = random4(31, i, 0, 1);
+        EmittedPhoton p;
+        EXPECT_TRUE(light_emit_aimed(l, all_light_kinds, {center, radius},
+                                     {vec3(0), vec3(0), vec3(0)}, around, u, v, 0.2f, p));
+        EXPECT_EQ(p.direction, photon_of(l, i).direction);
+        EXPECT_NEAR(p.concentration, 1, 1e-6);
+        EXPECT_TRUE(light_emit_aimed(l, all_light_kinds, {center, radius},
+                                     {vec3(0), vec3(0), vec3(0)}, tiny, u, v, 0.2f, p));
+        const vec3 to = vec3(1, 1, 1) - p.origin;
+        const vec3 across = glm::cross(to, p.direction);
+        EXPECT_LT(glm::length(across), 6e-6f);
+        const double solid_angle = pi * 16e-12 / glm::dot(to, to);
+        EXPECT_NEAR(p.concentration, 0.5 + 0.5 * 4 * pi / solid_angle, 1e-4 * p.concentration);
     }
 }
 

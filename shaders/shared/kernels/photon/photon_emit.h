@@ -23,9 +23,16 @@ FN void main() {
     focus.center = vec3(s.focus_x, s.focus_y, s.focus_z);
     focus.radius = vec3(s.focus_radius_0, s.focus_radius_1, s.focus_radius_2);
     focus.share = vec3(s.focus_share_0, s.focus_share_1, s.focus_share_2);
+    Targets targets;
+    targets.spheres[0] = vec4(s.target_0);
+    targets.spheres[1] = vec4(s.target_1);
+    targets.spheres[2] = vec4(s.target_2);
+    targets.spheres[3] = vec4(s.target_3);
+    targets.count = s.target_count;
+    targets.share = s.target_share;
     EmittedPhoton p;
-    bool emitted =
-        light_emit_focused(light, light_kinds, bounds, focus, u, vec4(v.z, v.w, v.x, v.y), w.y, p);
+    bool emitted = light_emit_aimed(light, light_kinds, bounds, focus, targets, u,
+                                    vec4(v.z, v.w, v.x, v.y), w.y, p);
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;

@@ -1,0 +1,157 @@
+#include "methods/photon_targets.hpp"
+
+#include "base/hash_floats.hpp"
+#include "methods/view_extent.hpp"
+#include "scene/material_record.hpp"
+#include "shared/follow.h"
+#include "shared/lights.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <tuple>
+#include <unordered_map>
+
+namespace argand {
+
+namespace {
+
+// Share of the photons that is aimed, at all targets together.
+constexpr double aimed_share = 0.1;
+// A caster that more of the photons hit anyway is no target.
+constexpr double most_natural_share = 0.005;
+// Targets lie within this distance from the middle of what is in view, over its extent.
+constexpr double reach = 4;
+// Casters, the nearest ones, of which the natural share is computed.
+constexpr std::size_t most_candidates = 64;
+
+/// Sets of numbers that are joined two by two.
+class DisjointSets {
+public:
+    std::uint32_t add() {
+        parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
+        return parents_.back();
+    }
+
+    std::uint32_t root(std::uint32_t i) {
+        while (parents_[i] != i) {
+            parents_[i] = parents_[parents_[i]];
+            i = parents_[i];
+        }
+        return i;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
+
+private:
+    std::vector<std::uint32_t> parents_;
+};
+
+glm::vec4 sphere_around(const Bounds& box) {
+    const glm::vec3 center = 0.5f * (box.low + box.high);
+    return {center, 1.001f * glm::distance(center, box.high)};
+}
+
+/// Points that represent a light inside the scene: its own, or the middle of its triangle.
+glm::dvec3 middle_of(const LightRecord& light) {
+    const glm::dvec3 first(light.x, light.y, light.z);
+    if (light.kind != light_triangle) {
+        return first;
+    }
+    return (first + glm::dvec3(light.dx, light.dy, light.dz) +
+            glm::dvec3(light.ex, light.ey, light.ez)) /
+           3.0;
+}
+
+bool is_inside(const LightRecord& light) {
+    return ((1u << light.kind) & light_kinds_from_outside) == 0;
+}
+
+/// About the share of the photons from lights inside the scene that hits this sphere if none are
+/// aimed.
+double natural_share(const LightTable& table, const glm::vec4& sphere) {
+    double hits = 0;
+    double all = 0;
+    for (std::size_t i = 0; i < table.lights.size(); ++i) {
+        if (!is_inside(table.lights[i])) {
+            continue;
+        }
+        const glm::dvec3 to = glm::dvec3(sphere) - middle_of(table.lights[i]);
+        const double sine2 = double(sphere.w) * sphere.w / std::max(glm::dot(to, to), 1e-300);
+        hits += table.weights[i] * std::min(sine2 / 4, 1.0);
+        all += table.weights[i];
+    }
+    return all > 0 ? hits / all : 1;
+}
+
+} // namespace
+
+std::vector<glm::vec4> caustic_casters(const Scene& scene, float follow_roughness) {
+    std::vector<bool> casts;
+    casts.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        casts.push_back(followed_lobes(material_record(material), follow_roughness) != 0);
+    }
+    DisjointSets sets;
+    std::unordered_map<std::array<float, 3>, std::uint32_t, HashFloats> corners;
+    const auto corner = [&](const glm::vec3& p) {
+        const auto [place, is_new] = corners.try_emplace({p.x, p.y, p.z}, 0);
+        if (is_new) {
+            place->second = sets.add();
+        }
+        return place->second;
+    };
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        if (casts[scene.triangle_material[i]]) {
+            const glm::uvec3& t = scene.triangles[i];
+            const std::uint32_t first = corner(scene.positions[t.x]);
+            sets.join(first, corner(scene.positions[t.y]));
+            sets.join(first, corner(scene.positions[t.z]));
+        }
+    }
+    std::unordered_map<std::uint32_t, Bounds> boxes;
+    for (const auto& [position, number] : corners) {
+        Bounds& box = boxes[sets.root(number)];
+        const glm::vec3 p(position[0], position[1], position[2]);
+        box.low = glm::min(box.low, p);
+        box.high = glm::max(box.high, p);
+    }
+    std::vector<glm::vec4> spheres;
+    spheres.reserve(boxes.size());
+    for (const auto& [root, box] : boxes) {
+        spheres.push_back(sphere_around(box));
+    }
+    return spheres;
+}
+
+void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points) {
+    DeviceScene& scene = context.on_device;
+    const LightTable& table = scene.light_table;
+    if (points.empty() || !scene.plan.needs(Feature::caustics) ||
+        std::none_of(table.lights.begin(), table.lights.end(), is_inside)) {
+        return;
+    }
+    const ViewExtent view = view_extent(points);
+    std::vector<glm::vec4> casters =
+        caustic_casters(context.scene, scene.plan.request.follow_roughness);
+    const auto distance = [&](const glm::vec4& sphere) {
+        return glm::distance(glm::dvec3(sphere), view.middle) - double(sphere.w);
+    };
+    // Spheres at one distance are told apart, so that their order does not depend on the hash.
+    std::sort(casters.begin(), casters.end(), [&](const glm::vec4& a, const glm::vec4& b) {
+        return std::tuple(distance(a), a.x, a.y, a.z) < std::tuple(distance(b), b.x, b.y, b.z);
+    });
+    casters.resize(std::min(casters.size(), most_candidates));
+    std::vector<glm::vec4> targets;
+    std::copy_if(casters.begin(), casters.end(), std::back_inserter(targets),
+                 [&](const glm::vec4& sphere) {
+                     return distance(sphere) < reach * view.distance && sphere.w > 0 &&
+                            natural_share(table, sphere) < most_natural_share;
+                 });
+    targets.resize(std::min<std::size_t>(targets.size(), most_targets));
+    if (!targets.empty()) {
+        set_targets(context.device, scene, targets, aimed_share);
+    }
+}
+
+} // namespace argand

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "methods/method.hpp"
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace argand {
+
+/// Bounding spheres (center, radius) of the scene's connected surfaces whose light is followed:
+/// glass, mirrors, and what is nearly one.
+std::vector<glm::vec4> caustic_casters(const Scene& scene, float follow_roughness);
+
+/// Aims some of the photons from lights inside the scene at small casters of caustics near what is
+/// in view, which few photons would hit otherwise (the projection maps of Jensen 1996 have the same
+/// purpose). points: in view.
+void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points);
+
+} // namespace argand

@@ -1,0 +1,102 @@
+// Photons are aimed at small objects that throw caustics into view, which few would hit otherwise.
+#include "methods/photon_targets.hpp"
+
+#include "rendering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace argand::testing {
+namespace {
+
+using ::testing::SizeIs;
+
+TEST(CausticCasters, AreConnectedSurfacesOfGlassAndMirrors) {
+    Scene scene;
+    const std::uint32_t white = add_material(scene, lambertian(glm::vec3(0.7f)));
+    const std::uint32_t clear = add_material(scene, glass(1.5f, true));
+    const std::uint32_t silver = add_material(scene, mirror());
+    add_box(scene, {-2, 0, -2}, {2, 2.5f, 2}, white, true);
+    EXPECT_THAT(caustic_casters(scene, 0.25f), SizeIs(0));
+    add_box(scene, {0, 0, 0}, {0.1f, 0.2f, 0.2f}, clear, false);
+    add_box(scene, {1, 0, 0}, {1.1f, 0.2f, 0.2f}, clear, false);
+    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, silver);
+    std::vector<glm::vec4> spheres = caustic_casters(scene, 0.25f);
+    ASSERT_THAT(spheres, SizeIs(3));
+    std::sort(spheres.begin(), spheres.end(),
+              [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; });
+    EXPECT_NEAR(spheres[0].x, 0.05f, 1e-6f);
+    EXPECT_NEAR(spheres[0].y, 0.1f, 1e-6f);
+    EXPECT_NEAR(spheres[0].w, 0.15f, 3e-4f);
+    EXPECT_NEAR(spheres[1].y, 1.5f, 1e-6f);
+    EXPECT_NEAR(spheres[1].w, std::sqrt(0.5f), 1e-3f);
+    EXPECT_NEAR(spheres[2].x, 1.05f, 1e-6f);
+}
+
+TEST(CausticCasters, GlossyOnesDependOnTheRoughnessThatIsFollowed) {
+    Scene scene;
+    Material rough = mirror();
+    rough.roughness = 0.2f;
+    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, add_material(scene, rough));
+    EXPECT_THAT(caustic_casters(scene, 0.25f), SizeIs(1));
+    EXPECT_THAT(caustic_casters(scene, 0.1f), SizeIs(0));
+}
+
+/// A glass block of 4 cm on the floor of a room of 6 m, seen from near.
+Scene block_in_a_room() {
+    Scene scene;
+    const std::uint32_t white = add_material(scene, lambertian({0.7f, 0.6f, 0.5f}));
+    const std::uint32_t lamp = add_material(scene, emitter(glm::vec3(2.5f)));
+    const std::uint32_t clear = add_material(scene, glass(1.5f, true));
+    add_box(scene, {-3, 0, -3}, {3, 2.8f, 3}, white, true);
+    add_quad(scene, {-0.6f, 2.7f, -1.6f}, {2, 0, 0}, {0, 0, 2}, lamp);
+    add_box(scene, {-0.02f, 0.001f, -0.02f}, {0.02f, 0.041f, 0.02f}, clear, false);
+    scene.cameras = {look_at({0.02f, 0.13f, 0.15f}, {-0.01f, 0, 0}, 45)};
+    return scene;
+}
+
+class PhotonTargets : public EveryMethod {
+protected:
+    RenderSettings settings() const {
+        RenderSettings settings = settings_of(GetParam(), 16, 16);
+        settings.photons = 100'000;
+        return settings;
+    }
+
+    /// The same for all methods.
+    const RenderResult& truth() {
+        static const RenderResult result = [&] {
+            RenderSettings s = settings();
+            s.method = "path";
+            s.samples = 2048;
+            s.seed = 1;
+            return render(block_in_a_room(), s);
+        }();
+        return result;
+    }
+};
+
+// One photon in 20,000 hits the block if none are aimed.
+TEST_P(PhotonTargets, ASmallBlockThrowsItsCaustic) {
+    RenderSettings s = settings();
+    const RenderResult found = render(block_in_a_room(), s);
+    if (found.statistics.photons_emitted == 0) {
+        return; // the truth's own method
+    }
+    const double caustic = mean(layer(truth(), "caustic")).g;
+    EXPECT_RELATIVE(mean(layer(found, "caustic")).g, caustic, 0.3);
+    // Two to four times the mean if none are aimed.
+    s.seed = 1;
+    const RenderResult other = render(block_in_a_room(), s);
+    EXPECT_LT(compare(layer(found, "caustic"), layer(other, "caustic")).rmse, caustic);
+    const double power = double(pi) * 4 * 2.5;
+    EXPECT_RELATIVE(static_cast<double>(found.statistics.flux.emitted[1]) *
+                        found.statistics.flux.unit,
+                    power, 0.02);
+}
+
+INSTANTIATE_METHODS(PhotonTargets);
+
+} // namespace
+} // namespace argand::testing
