@@ -31,9 +31,12 @@ constexpr double reference_photons = 200'000;
 // Footprints that should contain a point over photons that a disc should hold. Footprints differ in
 // size, and so do their weights.
 constexpr double footprints_for_disc = 1.7;
-// Least radius of caustics over that of all other light. Caustics whose radius would be twice this
-// or more get no radius of their own.
+// Least radius of caustics over that of all other light, unless most_over_median times the median
+// is smaller. Caustics whose radius would be twice this or more get no radius of their own.
 constexpr double sharpest_caustic = 0.17;
+// Most of a caustic's photons lie where it is brightest. With the median radius the few elsewhere
+// would be seen one by one.
+constexpr double most_over_median = 2.4;
 
 /// Largest radius at which an estimate still tells one part of what is in view from another. Where
 /// few photons arrive, the learnt radius would reach through the walls.
@@ -44,6 +47,23 @@ double largest_radius(std::span<const glm::vec4> queries) {
     return extent > 0 ? share_of_view * extent : std::numeric_limits<double>::infinity();
 }
 
+/// The radius for all light but caustics.
+double indirect_radius(const FirstPass& first, double in_disc) {
+    const double learnt = median_radius(first.device, first.photons, first.queries, in_disc);
+    // Without photons, or with all of them at one point, there is nothing to learn from.
+    if (!(learnt > 0)) {
+        return 0.01 * first.scene.record.radius;
+    }
+    const double largest = largest_radius(first.queries);
+    if (learnt <= largest) {
+        return learnt;
+    }
+    // A close-up of a small part of a room: discs of that size would hold hardly a photon.
+    constexpr double least_share = 0.1;
+    return std::max(
+        largest, median_radius(first.device, first.photons, first.queries, least_share * in_disc));
+}
+
 /// The radii for a picture. That of caustics is measured where caustic photons lie.
 GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neighbours) {
     const SortedPhotons& photons = first.photons;
@@ -52,20 +72,16 @@ GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neig
                           : in_disc_of_pass(static_cast<double>(number), first.passes, is_caustic);
     };
     GatherRadii radii;
-    // Without photons, or with all of them at one point, there is nothing to learn from.
-    const double learnt =
-        median_radius(first.device, photons, first.queries,
-                      in_disc(std::uint64_t(photons.others) + photons.caustics, false));
-    radii.indirect = learnt > 0 ? std::min(learnt, largest_radius(first.queries))
-                                : 0.01 * first.scene.record.radius;
+    radii.indirect =
+        indirect_radius(first, in_disc(std::uint64_t(photons.others) + photons.caustics, false));
     const double of_caustics =
         median_caustic_radius(first.device, photons, in_disc(photons.caustics, true));
-    // Most of a caustic's photons lie where it is brightest. With a smaller radius the few
-    // elsewhere would be seen one by one. A radius that is little smaller than the other gains
-    // nothing, and loses the boundary correction.
-    const bool sharp = of_caustics > 0 && of_caustics < 2 * sharpest_caustic * radii.indirect;
+    // A radius that is little smaller than the other gains nothing, and loses the boundary
+    // correction.
+    const double least = sharpest_caustic * radii.indirect;
+    const bool sharp = of_caustics > 0 && of_caustics < 2 * least;
     radii.caustic =
-        sharp ? std::max(of_caustics, sharpest_caustic * radii.indirect) : radii.indirect;
+        sharp ? std::clamp(least, of_caustics, most_over_median * of_caustics) : radii.indirect;
     return radii;
 }
 
