@@ -1,6 +1,7 @@
 """Writes shapes, materials, lights and cameras as glTF 2.0, as far as make_scenes.py needs them."""
 
 import base64
+import hashlib
 import json
 import math
 import struct
@@ -66,6 +67,33 @@ class Mesh:
         return Mesh(self.positions, [(a, c, b) for a, b, c in self.triangles],
                     self.normals and [scaled(n, -1) for n in self.normals])
 
+    def divided(self, n):
+        """Cuts each triangle into n² similar ones. Those of neighbours share the vertices on their common edge."""
+        number = {}  # index of a vertex by its position to six decimals
+        positions, triangles = [], []
+
+        def vertex(corners, i, j):
+            point = tuple((a * (n - i - j) + b * i + c * j) / n for a, b, c in zip(*corners))
+            key = tuple(rounded(x) for x in point)
+            if key not in number:
+                number[key] = len(positions)
+                positions.append(point)
+            return number[key]
+
+        for triangle in self.triangles:
+            corners = [self.positions[v] for v in triangle]
+            for i in range(n):
+                for j in range(n - i):
+                    triangles.append((vertex(corners, i, j), vertex(corners, i + 1, j), vertex(corners, i, j + 1)))
+                    if i + j + 1 < n:
+                        triangles.append((vertex(corners, i + 1, j), vertex(corners, i + 1, j + 1),
+                                          vertex(corners, i, j + 1)))
+        return Mesh(positions, triangles)
+
+    def shuffled(self):
+        """The same triangles in random order."""
+        return Mesh(self.positions, sorted(self.triangles, key=lambda t: hashlib.md5(repr(t).encode()).digest()))
+
 
 def quad(a, b, c, d):
     return Mesh([a, b, c, d], [(0, 1, 2), (0, 2, 3)])
@@ -86,26 +114,9 @@ def sphere(radius, frequency):
     faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
              (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
              (8, 6, 7), (9, 8, 1)]
-    number = {}  # index of a vertex by its direction to six decimals: faces share the vertices on their edges
-    normals, triangles = [], []
-
-    def vertex(face, i, j):
-        weights = (frequency - i - j, i, j)
-        point = add(add(scaled(tops[face[0]], weights[0]), scaled(tops[face[1]], weights[1])),
-                    scaled(tops[face[2]], weights[2]))
-        direction = tuple(rounded(x) for x in unit(point))
-        if direction not in number:
-            number[direction] = len(normals)
-            normals.append(direction)
-        return number[direction]
-
-    for face in faces:
-        for i in range(frequency):
-            for j in range(frequency - i):
-                triangles.append((vertex(face, i, j), vertex(face, i + 1, j), vertex(face, i, j + 1)))
-                if i + j + 1 < frequency:
-                    triangles.append((vertex(face, i + 1, j), vertex(face, i + 1, j + 1), vertex(face, i, j + 1)))
-    return Mesh([scaled(n, radius) for n in normals], triangles, normals)
+    geodesic = Mesh(tops, faces).divided(frequency)
+    normals = [tuple(rounded(x) for x in unit(point)) for point in geodesic.positions]
+    return Mesh([scaled(n, radius) for n in normals], geodesic.triangles, normals)
 
 
 def revolved(profile, segments):
