@@ -10,9 +10,11 @@ import math
 import pathlib
 import sys
 
-from gltf_writer import (Mesh, Scene, blended, box, emitter, glass, lambertian, metal, phong, quad, revolved, sphere)
+from gltf_writer import (Mesh, Scene, blended, box, emitter, glass, lambertian, metal, phong, quad, revolved, scaled,
+                         sphere)
 
-WHITE, RED, GREEN = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
+WHITE, RED, GREEN, WOOD = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091), (0.63, 0.3, 0.1)
+ROOM, SHELL = ((-2, 0, -2), (2, 2.5, 2)), ((-2.2, -0.04, -2.2), (2.2, 2.7, 2.2))
 SUNK = 0.01  # bodies reach this far into the floor, so that they are closed without a face in its plane
 
 
@@ -20,24 +22,28 @@ def ceiling(x0, x1, z0, z1, y=2):
     return quad((x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1))
 
 
-def cornell(light=False):
+def cornell(light=False, cut=lambda mesh: mesh):
     """The empty Cornell box (after Goral et al.), 2 × 2 × 2, open towards the camera in front of it, with or without a
-    light set flush into the ceiling."""
+    light set flush into the ceiling. `cut` changes the triangles of walls."""
     scene = Scene()
     l, r, b, t, n, f = -1, 1, 0, 2, 1, -1
-    scene.add("floor", quad((l, b, n), (r, b, n), (r, b, f), (l, b, f)), lambertian(WHITE))
+
+    def wall(name, mesh, color=WHITE):
+        scene.add(name, cut(mesh), lambertian(color))
+
+    wall("floor", quad((l, b, n), (r, b, n), (r, b, f), (l, b, f)))
     if light:
         x, z, strength = 0.25, 0.2, 22
-        scene.add("ceiling, back", ceiling(l, r, f, -z), lambertian(WHITE))
-        scene.add("ceiling, front", ceiling(l, r, z, n), lambertian(WHITE))
-        scene.add("ceiling, left", ceiling(l, -x, -z, z), lambertian(WHITE))
-        scene.add("ceiling, right", ceiling(x, r, -z, z), lambertian(WHITE))
+        wall("ceiling, back", ceiling(l, r, f, -z))
+        wall("ceiling, front", ceiling(l, r, z, n))
+        wall("ceiling, left", ceiling(l, -x, -z, z))
+        wall("ceiling, right", ceiling(x, r, -z, z))
         scene.add("light", ceiling(-x, x, -z, z), emitter((strength, 0.86 * strength, 0.68 * strength)))
     else:
-        scene.add("ceiling", ceiling(l, r, f, n), lambertian(WHITE))
-    scene.add("back wall", quad((l, b, f), (r, b, f), (r, t, f), (l, t, f)), lambertian(WHITE))
-    scene.add("left wall", quad((l, b, n), (l, b, f), (l, t, f), (l, t, n)), lambertian(RED))
-    scene.add("right wall", quad((r, b, f), (r, b, n), (r, t, n), (r, t, f)), lambertian(GREEN))
+        wall("ceiling", ceiling(l, r, f, n))
+    wall("back wall", quad((l, b, f), (r, b, f), (r, t, f), (l, t, f)))
+    wall("left wall", quad((l, b, n), (l, b, f), (l, t, f), (l, t, n)), RED)
+    wall("right wall", quad((r, b, f), (r, b, n), (r, t, n), (r, t, f)), GREEN)
     scene.camera((0, 1, 3.72), (0, 1, 0))
     return scene
 
@@ -202,8 +208,145 @@ def courtyard():
     return scene
 
 
+def room(strength=20, paint=lambertian):
+    """A closed room of 4 × 4 × 2.5 m with a table and a lamp under the ceiling (unless its strength is 0), seen from a
+    corner."""
+    scene = Scene()
+    scene.add("room", box(*ROOM).inside_out(), paint(WHITE))
+    scene.add("table", box((-0.5, -SUNK, -0.8), (0.6, 0.7, 0.2)), paint(WOOD))
+    if strength:
+        scene.add("lamp", ceiling(-0.3, 0.3, -0.3, 0.3, 2.49), emitter(scaled((1, 0.9, 0.75), strength)))
+    scene.camera((1.7, 1.5, 1.7), (-0.6, 0.7, -0.7), degrees=70)
+    return scene
+
+
+def add_ground(scene):
+    scene.add("ground", quad((-100, -0.05, 100), (100, -0.05, 100), (100, -0.05, -100), (-100, -0.05, -100)),
+              lambertian((0.4, 0.4, 0.35)))
+
+
+def closed_room():
+    return room()
+
+
+def sunlit_ground():
+    """The closed room in a shell on 200 m of ground, under a sun that does not come in."""
+    scene = room()
+    add_ground(scene)
+    scene.add("shell", box(*SHELL), lambertian(WHITE))
+    scene.light("directional", 1e5, towards=(-0.5, -1, -0.4))
+    return scene
+
+
+def forty_rooms():
+    """The closed room and 39 others like it. Only the first is seen."""
+    scene = room()
+    furnished = [node for node in scene.nodes if "mesh" in node]
+    for i in range(1, 40):
+        scene.nodes += [{**node, "name": f"{node['name']} {i}", "translation": [5 * (i % 8), 0, 5 * (i // 8)]}
+                        for node in furnished]
+    return scene
+
+
+def with_window(low, high, y0, y1, z):
+    """A box that faces outwards, with an opening in its wall at the greatest x: from y0 to y1 and from -z to z."""
+    mesh = box(low, high)
+    del mesh.triangles[2:4]  # that wall
+    for bottom, top, left, right in ((low[1], y0, low[2], high[2]), (y1, high[1], low[2], high[2]),
+                                     (y0, y1, low[2], -z), (y0, y1, z, high[2])):
+        mesh += quad((high[0], bottom, right), (high[0], bottom, left), (high[0], top, left), (high[0], top, right))
+    return mesh
+
+
+def window_room():
+    """A room with a window of 1.3 m², which the sun and the sunlit ground light."""
+    y0, y1, z = 0.9, 2, 0.6
+    scene = Scene()
+    add_ground(scene)
+    scene.add("room", with_window(*ROOM, y0, y1, z).inside_out(), lambertian(WHITE))
+    scene.add("shell", with_window(*SHELL, y0, y1, z), lambertian(WHITE))
+    inner, outer = ROOM[1][0], SHELL[1][0]
+    reveal = box((inner, y0, -z), (outer, y1, z)).inside_out()
+    del reveal.triangles[:4]  # the opening's ends
+    scene.add("reveal", reveal, lambertian(WHITE))
+    scene.add("table", box((-0.5, -SUNK, -0.8), (0.6, 0.7, 0.2)), lambertian(WOOD))
+    scene.light("directional", 60, towards=(-1, -0.8, 0.1), color=(1, 0.93, 0.8))
+    scene.camera((-1.7, 1.5, 1.7), (0.6, 0.7, -0.7), degrees=75)
+    return scene
+
+
+def marble(scale):
+    """A glass marble of 4 cm on a table, and its caustic, in a room `scale` times as large as one of 6 m. The room is
+    scaled about the marble's foot, so that the picture is nearly the same."""
+    scene = Scene()
+
+    def about(low, high):
+        return box(scaled(low, scale), scaled(high, scale))
+
+    scene.add("room", about((-3, -0.75, -3), (3, 2.05, 3)).inside_out(), lambertian(WHITE))
+    scene.add("table", about((-0.6, -0.75 - SUNK, -0.6), (0.6, 0, 0.6)), lambertian((0.63, 0.5, 0.3)))
+    x, z, half = 0.9 * scale, -0.5 * scale, 0.2 * scale
+    scene.add("lamp", ceiling(x - half, x + half, z - half, z + half, 2.04 * scale), emitter((60, 54, 45)))
+    scene.add("marble", sphere(0.02, 12).moved((0, 0.0202, 0)), glass(0.04))
+    scene.camera((0.01, 0.095, 0.11), (-0.006, 0.004, 0.002), degrees=45)
+    return scene
+
+
+def glass_marble():
+    return marble(1)
+
+
+def marble_box():
+    """The marble's twin, in a box of 0.6 m."""
+    return marble(0.1)
+
+
+def bulb():
+    """A lamp inside a bulb of glass: all light is a caustic."""
+    scene = room(strength=0)
+    centre = (-0.2, 1.5, -0.3)
+    scene.add("lamp", sphere(0.25, 4).moved(centre), emitter((12, 10.8, 9)))
+    scene.add("bulb", sphere(0.35, 10).moved(centre), glass(0.02))
+    scene.add("bulb, inside", sphere(0.33, 10).inside_out().moved(centre), glass(0.02))
+    return scene
+
+
+def small_emitters():
+    """Strings of 512 beads along the ceiling, small tetrahedra that emit light of eight colours."""
+    scene = room(strength=0)
+    corners = ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
+    bead = Mesh([scaled(c, 0.006) for c in corners], [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])
+    strings = [Mesh() for _ in range(8)]
+    for i in range(512):
+        string, place = i % 16, i // 16 / 31  # both along and across, from wall to wall
+        x, z = -1.8 + 3.6 * place, -1.8 + 3.6 * string / 15
+        strings[string // 2] += bead.turned(37 * i).moved((x, 2.4 - 1.2 * place * (1 - place), z))
+    for i, color in enumerate(((1, 0.25, 0.15), (1, 0.6, 0.2), (1, 0.9, 0.5), (0.3, 1, 0.3), (0.2, 0.8, 1), (0.25, 0.35, 1),
+                               (0.8, 0.3, 1), (1, 0.4, 0.7))):
+        scene.add(f"beads {i}", strings[i], emitter(scaled(color, 30 + 10 * i)))
+    return scene
+
+
+def dark_room():
+    """The closed room, painted nearly black."""
+    return room(strength=400, paint=lambda color: lambertian((0.02, 0.02, 0.02)))
+
+
+def gloss_only():
+    """The closed room of rough metals. No surface is diffuse."""
+    return room(paint=lambda color: metal(color, 0.4 if color == WHITE else 0.2))
+
+
+def shuffled_walls():
+    """cornell_area, its walls cut into small triangles in random order."""
+    scene = cornell(light=True, cut=lambda mesh: mesh.divided(16).shuffled())
+    add_boxes(scene)
+    return scene
+
+
 BINARY = (cornell_point, cornell_area, cornell_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
-          inside_glass, sky_room, spot, courtyard, veil)
+          inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
+          glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls)
 READABLE = (plane_point, closed_box)
 
 
