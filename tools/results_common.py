@@ -26,6 +26,7 @@ PAGES = [
     ("Error at default settings", "errors.md", "tools/results"),
     ("Time from start to picture", "start.md", "tools/results"),
     ("Errors and times on request", "targets.md", "tools/results_targets"),
+    ("Errors as told and as they are", "reached.md", "tools/results_targets --targets"),
     ("Error at equal time", "budgets.md", "a script outside the repository"),
     ("Fabianowski and Dingliana 2009", "fd09.md", "argand bench --paper fd09"),
     ("Bandwidth", "bandwidth.md", "a script outside the repository"),

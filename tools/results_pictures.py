@@ -1,0 +1,72 @@
+"""Reads the pictures that argand writes, and measures the error of each layer against a pair of references."""
+
+import itertools
+import struct
+import zlib
+
+DARK_SHARE = 0.01  # as in engine/image/metrics.cpp
+
+
+def read_exr(path):
+    """Layers by name ("" is the image), each a list of values r, g, b of each pixel. Reads ZIP and 32-bit floats only."""
+    data = path.read_bytes()
+    attributes, at = {}, 8
+    while data[at]:
+        name, kind, at = *data[at:].split(b"\0", 2)[:2], at
+        at += len(name) + len(kind) + 2
+        size = struct.unpack_from("<i", data, at)[0]
+        attributes[name] = data[at + 4:at + 4 + size]
+        at += 4 + size
+    assert attributes[b"compression"] == b"\3"
+    left, top, right, bottom = struct.unpack("<4i", attributes[b"dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    channels, rest = [], attributes[b"channels"]
+    while rest[0]:
+        name, rest = rest.split(b"\0", 1)
+        assert struct.unpack_from("<i", rest)[0] == 2
+        channels.append(name.decode())
+        rest = rest[16:]
+    values = {name: [] for name in channels}
+    for block in struct.unpack_from(f"<{(height + 15) // 16}q", data, at + 1):
+        first, size = struct.unpack_from("<2i", data, block)
+        rows = min(16, bottom + 1 - first)
+        packed = data[block + 8:block + 8 + size]
+        bytes_ = packed if size == 4 * width * rows * len(channels) else unpredicted(zlib.decompress(packed))
+        row = struct.Struct(f"<{width}f")
+        for i, name in enumerate(channels * rows):
+            values[name] += row.unpack_from(bytes_, i * row.size)
+    layers = {name.rpartition(".")[0] for name in channels}
+    return {layer: list(itertools.chain.from_iterable(zip(*(values[f"{layer}.{c}".lstrip(".")] for c in "RGB"))))
+            for layer in layers}
+
+
+def unpredicted(data):
+    """Undoes what OpenEXR does before it compresses: differences of successive bytes, after a split into even and odd ones."""
+    sums = bytes(itertools.accumulate(data, lambda a, b: (a + b - 128) & 255))
+    half = (len(sums) + 1) // 2
+    result = bytearray(len(sums))
+    result[::2], result[1::2] = sums[:half], sums[half:]
+    return bytes(result)
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+def scales(first, second):
+    """The squares by which relMSE divides. A black layer has none."""
+    both = [(x + y) / 2 for x, y in zip(first, second)]
+    dark = DARK_SHARE * mean(both) ** 2
+    return [b * b + dark for b in both] if dark else None
+
+
+def rel_mse(a, first, second):
+    """relMSE of `a` against references whose independent noise cancels on average. None if they are black."""
+    squares = scales(first, second)
+    return squares and mean([(v - x) * (v - y) / s for v, x, y, s in zip(a, first, second, squares)])
+
+
+def rel_variance(first, second):
+    """relMSE of the mean of the references due to noise. None if they are black."""
+    squares = scales(first, second)
+    return squares and mean([(x - y) ** 2 / s for x, y, s in zip(first, second, squares)]) / 4
