@@ -39,7 +39,8 @@ PAGES = [
     ("Backends: summary", "backends.md", "tools/results_backends"),
     ("Backends: lavapipe and the host", "backends_vulkan_cpu.md", "tools/results_backends vulkan cpu"),
     ("Path tracer compared with Cycles", "cycles.md", "argand render, Blender"),
-    ("Scenes unlike a box of two metres", "hard_scenes.md", "argand render, argand compare, test_methods"),
+    ("Scenes unlike a box of two metres", "hard_scenes.md", "tools/results_hard_scenes"),
+    ("What was wrong outside the Cornell box", "rooms.md", "argand render, argand compare, test_methods"),
     ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
 ]
 
