@@ -47,9 +47,19 @@ double largest_radius(std::span<const glm::vec4> queries) {
     return extent > 0 ? share_of_view * extent : std::numeric_limits<double>::infinity();
 }
 
-/// The radius for all light but caustics.
-double indirect_radius(const FirstPass& first, double in_disc) {
-    const double learnt = median_radius(first.device, first.photons, first.queries, in_disc);
+/// Photons that a disc of one pass should hold.
+double in_disc(const FirstPass& first, std::uint64_t photons, bool caustic,
+               std::optional<std::uint32_t> neighbours) {
+    return neighbours ? *neighbours
+                      : in_disc_of_pass(static_cast<double>(photons), first.passes, caustic);
+}
+
+/// The radius in which discs at the query points hold enough of these photons.
+double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
+                         std::optional<std::uint32_t> neighbours) {
+    const double wanted =
+        in_disc(first, std::uint64_t(photons.others) + photons.caustics, false, neighbours);
+    const double learnt = median_radius(first.device, photons, first.queries, wanted);
     // Without photons, or with all of them at one point, there is nothing to learn from.
     if (!(learnt > 0)) {
         return 0.01 * first.scene.record.radius;
@@ -60,29 +70,26 @@ double indirect_radius(const FirstPass& first, double in_disc) {
     }
     // A close-up of a small part of a room: discs of that size would hold hardly a photon.
     constexpr double least_share = 0.1;
-    return std::max(
-        largest, median_radius(first.device, first.photons, first.queries, least_share * in_disc));
+    return std::max(largest,
+                    median_radius(first.device, photons, first.queries, least_share * wanted));
 }
 
 /// The radii for a picture. That of caustics is measured where caustic photons lie.
 GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neighbours) {
     const SortedPhotons& photons = first.photons;
-    const auto in_disc = [&](std::uint64_t number, bool is_caustic) {
-        return neighbours ? *neighbours
-                          : in_disc_of_pass(static_cast<double>(number), first.passes, is_caustic);
-    };
-    GatherRadii radii;
-    radii.indirect =
-        indirect_radius(first, in_disc(std::uint64_t(photons.others) + photons.caustics, false));
-    const double of_caustics =
-        median_caustic_radius(first.device, photons, in_disc(photons.caustics, true));
+    const double of_all = radius_at_queries(first, photons, neighbours);
+    const double of_caustics = median_caustic_radius(
+        first.device, photons, in_disc(first, photons.caustics, true, neighbours));
+    const double least = sharpest_caustic * of_all;
     // A radius that is little smaller than the other gains nothing, and loses the boundary
     // correction.
-    const double least = sharpest_caustic * radii.indirect;
-    const bool sharp = of_caustics > 0 && of_caustics < 2 * least;
-    radii.caustic =
-        sharp ? std::clamp(least, of_caustics, most_over_median * of_caustics) : radii.indirect;
-    return radii;
+    if (!(of_caustics > 0 && of_caustics < 2 * least)) {
+        return {of_all, of_all};
+    }
+    SortedPhotons others = photons;
+    others.caustics = 0;
+    return {radius_at_queries(first, others, neighbours),
+            std::clamp(least, of_caustics, most_over_median * of_caustics)};
 }
 
 FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing,

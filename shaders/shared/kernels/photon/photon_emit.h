@@ -1,5 +1,11 @@
 #include "shared/kernels/scene.h"
 
+// The logarithm that photon_aimed_shift describes.
+FN uint aimed_by(real concentration) {
+    real most = real(1u << most_photon_aimed);
+    return uint(findMSB(uint(clamp(concentration, real(1.0), most))));
+}
+
 FN void main() {
     uint slot = THREAD_INDEX;
     if (slot >= batch.count) {
@@ -42,7 +48,10 @@ FN void main() {
     }
     rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
                            p.direction.x, p.direction.y, p.direction.z, 0u);
-    paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed);
+    bool at_target = targets.count > 0u && ((1u << light.kind) & light_kinds_from_outside) == 0u;
+    uint aimed = at_target && emitted ? aimed_by(p.concentration) : 0u;
+    paths[slot] =
+        PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed | (aimed << photon_aimed_shift));
     ledgers[slot] =
         FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u), uvec4(0u));
     active_slots[slot] = slot;

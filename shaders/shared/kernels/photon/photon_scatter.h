@@ -67,10 +67,12 @@ FN Departure depart(Arrival a, MaterialRecord m, uint lobes, vec4 u) {
 }
 
 // Probability with which Russian roulette lets a photon continue; it keeps the flux of photons
-// roughly equal.
-FN real survival_probability(Arrival a, Departure d) {
+// roughly equal. aimed: how many photons of little flux were aimed in the place of one, as a
+// logarithm; it is 0 unless the photon leaves the caustic that it was aimed for.
+FN real survival_probability(Arrival a, Departure d, uint aimed) {
     return min(max_component(d.flux) / max_component(a.flux),
-               a.depth < 64u ? real(1.0) : real(0.95));
+               a.depth < 64u ? real(1.0) : real(0.95)) /
+           real(1u << aimed);
 }
 
 // Updates the photon's differential, transferred to the hit, for the scattering.
@@ -134,14 +136,13 @@ FN vec4 scattering_random(uint slot, uint depth) {
     return u;
 }
 
-// Writes the ray and the state with which a photon continues.
-FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, bool followed_so_far) {
+// Writes the ray and the state with which a photon continues. flags: of the state.
+FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint flags) {
     vec3 origin = offset_ray_origin(a.surface.position, a.surface.error, a.surface.geometric_normal,
                                     direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, 0u);
-    paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z,
-                                   (a.depth + 1u) | (followed_so_far ? photon_followed : 0u));
+    paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, (a.depth + 1u) | flags);
 }
 
 FN void main() {
@@ -185,7 +186,9 @@ FN void main() {
 
     vec4 u = scattering_random(slot, a.depth);
     Departure out_of = depart(a, m, followed | estimated, u);
-    real survival = survival_probability(a, out_of);
+    bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
+    real survival =
+        survival_probability(a, out_of, stays_followed ? 0u : path.state >> photon_aimed_shift);
     if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
         ledgers[slot].absorbed += units_of(a.flux);
         return;
@@ -199,6 +202,6 @@ FN void main() {
         differentials[slot] = differential_record(d);
     }
     continue_path(slot, a, out_of.direction, flux,
-                  only_followed && (out_of.sampled.lobe & followed) != 0u);
+                  stays_followed ? path.state & ~photon_depth_mask : 0u);
     alive[i] = 1u;
 }
