@@ -5,6 +5,8 @@
 #include "methods/method.hpp"
 #include "methods/next_pass.hpp"
 
+#include <algorithm>
+
 namespace argand {
 
 namespace {
@@ -57,6 +59,19 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable
                              .footprints = abilities.footprints,
                              .final_gather = settings.final_gather,
                              .everything = settings.everything});
+}
+
+const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
+                             MethodTable methods) {
+    RenderSettings by_default = settings;
+    by_default.method = methods.begin()->name;
+    if (plan_render(scene, by_default, methods).needs(Feature::caustics)) {
+        return *methods.begin();
+    }
+    const auto tried_first =
+        std::find_if(methods.begin(), methods.end(),
+                     [](const MethodInfo& method) { return method.trial == TrialOrder::first; });
+    return tried_first == methods.end() ? *methods.begin() : *tried_first;
 }
 
 RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,

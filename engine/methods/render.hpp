@@ -126,6 +126,11 @@ using OnPass = std::function<std::optional<PassPlan>(const PictureSoFar&)>;
 Plan plan_render(const Scene& scene, const RenderSettings& settings,
                  MethodTable methods = builtin_methods());
 
+/// The method for a scene if the user names none: the table's first, `footprints`, where there may
+/// be caustics, else the one that autotuning tries first, `photons` (docs/photon-map.md).
+const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
+                             MethodTable methods = builtin_methods());
+
 /// Renders the scene. With `on_pass` the settings' samples and photons are those of one pass, and
 /// on_pass decides how many passes there are, not the budget. Throws UsageError on an unknown
 /// method, Error if the device cannot do it.

@@ -31,6 +31,22 @@ TEST_F(Commands, HelpOfEachHasAnExample) {
     EXPECT_THAT(argand("--version").out, HasSubstr("argand "));
 }
 
+TEST_F(Commands, TheSceneDecidesOnTheMethodUnlessAnOptionDoes) {
+    const auto method_of = [&](const std::string& options, const std::string& scene) {
+        render("-q -o a.png --json report.json " + options, scene);
+        return nlohmann::json::parse(read_text(file("report.json")))
+            .at("parameters")
+            .at("method")
+            .get<std::string>();
+    };
+    EXPECT_EQ(method_of("", "cornell_area.glb"), "photons");
+    EXPECT_EQ(method_of("", "cornell_glass.glb"), "footprints");
+    EXPECT_EQ(method_of("--smoothing 5", "cornell_area.glb"), "footprints");
+    EXPECT_EQ(method_of("--method path", "cornell_glass.glb"), "path");
+    const Outcome inspected = argand("inspect '" + asset("cornell_area.glb") + "'");
+    EXPECT_THAT(inspected.out, HasSubstr("photons (default)"));
+}
+
 TEST_F(Commands, PictureIsNamedAfterTheScene) {
     const Outcome run = render("");
     EXPECT_THAT(files(), ElementsAre("cornell_glass.png"));

@@ -25,7 +25,7 @@ struct InspectOptions {
 /// The plan of `argand render` without options.
 nlohmann::ordered_json plan_json(const Scene& scene, MethodTable methods) {
     RenderSettings settings;
-    settings.method = methods.begin()->name;
+    settings.method = method_for(scene, settings, methods).name;
     const Plan plan = plan_render(scene, settings, methods);
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
     for (const auto& [feature, by] : plan.required) {

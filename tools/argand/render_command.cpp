@@ -16,6 +16,7 @@
 #include "report.hpp"
 #include "scene/gltf.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -115,6 +116,21 @@ void check(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+/// Picks the method if it is left to Argand and is not autotuned. Options that the user has set and
+/// the method does not have keep the default method.
+void choose_method(RenderOptions& options, const CLI::App& command, const Scene& scene) {
+    if (is_given(command, "--method") || is_autotuned(options, command)) {
+        return;
+    }
+    const MethodInfo& method = method_for(scene, options.settings, options.methods);
+    const std::vector<const Option*> all = options.methods.options();
+    if (std::none_of(all.begin(), all.end(), [&](const Option* option) {
+            return !method.option(option->name) && is_given(command, "--" + option->name);
+        })) {
+        options.settings.method = method.name;
+    }
+}
+
 Rendered render_on(Device& device, const Scene& scene, RenderOptions& options,
                    const CLI::App& command) {
     std::optional<Progress> progress;
@@ -203,6 +219,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
     const Scene scene = load_gltf(options.scene);
     times.load = seconds_since(start);
     options.settings.camera = find_camera(scene, options.camera);
+    choose_method(options, command, scene);
     print_notes(options, scene.notes);
     const Clock::time_point opened = Clock::now();
     std::unique_ptr<Device> device = open_backend(options.backend, options.device, options.quiet);
@@ -277,10 +294,11 @@ void add_render_command(CLI::App& app, MethodTable methods) {
                      "name with .png)")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        ->add_option("--method", settings.method,
-                     fmt::format("{}; see below", fmt::join(methods.names(), ", ")))
-        ->capture_default_str();
+    command->add_option(
+        "--method", settings.method,
+        fmt::format("{}; see below (default: {} where glass, mirrors or gloss may throw "
+                    "caustics, else the one that --target-error tries first)",
+                    fmt::join(methods.names(), ", "), methods.begin()->name));
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command
         ->add_option("--budget", settings.budget,

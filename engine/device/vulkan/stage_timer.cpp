@@ -67,7 +67,10 @@ void StageTimer::collect(const StageQueries& queries) {
           "reading GPU time stamps");
     for (std::size_t pair = 0; pair < queries.stages.size(); ++pair) {
         const std::uint64_t elapsed = (ticks[2 * pair + 1] - ticks[2 * pair]) & mask_;
-        if (queries.stages[pair] < times_.size()) {
+        // lavapipe's clock may run backwards by a few microseconds: stamps come from several
+        // threads.
+        const bool backwards = elapsed > mask_ / 2;
+        if (queries.stages[pair] < times_.size() && !backwards) {
             times_[queries.stages[pair]].seconds +=
                 static_cast<double>(elapsed) * seconds_per_tick_;
         }
