@@ -2,15 +2,19 @@
 
 #include "base/environment.hpp"
 #include "device/device.hpp"
+#include "device/validation.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <ostream>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace argand {
@@ -60,27 +64,76 @@ inline std::vector<DeviceSetting> variant_settings() {
                          Requirements::storage_buffers)}};
 }
 
-/// Opens devices with the API's validation; any validation message fails the test.
+/// Opens a device with the API's validation, unless ARGAND_VALIDATION=0.
+inline std::unique_ptr<Device> open_validated(const DeviceSetting& setting) {
+    const ScopedEnvironment validation("ARGAND_VALIDATION",
+                                       environment("ARGAND_VALIDATION") == "0" ? "0" : "1");
+    const ScopedEnvironment disable("ARGAND_DISABLE", setting.disable);
+    const ScopedEnvironment limit("ARGAND_LIMIT", setting.limit);
+    return open_device();
+}
+
+/// The devices that the tests of a process share, one for each setting. Opening a device and
+/// compiling its kernels takes longer than most tests.
+class SharedDevices : public ::testing::Environment {
+public:
+    Device& get(const DeviceSetting& setting) {
+        std::unique_ptr<Device>& device = devices_[{setting.disable, setting.limit}];
+        if (!device) {
+            device = open_validated(setting);
+        }
+        return *device;
+    }
+
+    /// Closes them before the process ends, because drivers have static data of their own.
+    void TearDown() override {
+        devices_.clear();
+        EXPECT_THAT(all_validation_messages(), testing::SizeIs(known_messages));
+    }
+
+    std::size_t known_messages = 0; ///< those that tests have checked
+
+private:
+    std::map<std::pair<std::string, std::string>, std::unique_ptr<Device>> devices_;
+};
+
+// GoogleTest deletes it.
+inline SharedDevices& shared_devices = *static_cast<SharedDevices*>(
+    ::testing::AddGlobalTestEnvironment(new SharedDevices)); // NOLINT(*-owning-memory)
+
+/// Uses devices with the API's validation on; any validation message fails the test.
 class DeviceTest : public testing::Test {
 protected:
-    Device& open(const DeviceSetting& setting = {}) {
-        const ScopedEnvironment validation("ARGAND_VALIDATION", "1");
-        const ScopedEnvironment disable("ARGAND_DISABLE", setting.disable);
-        const ScopedEnvironment limit("ARGAND_LIMIT", setting.limit);
-        devices_.push_back(open_device());
-        return *devices_.back();
+    /// The device of this setting, which all tests of the process share.
+    Device& open(const DeviceSetting& setting = {}) { return use(shared_devices.get(setting)); }
+
+    /// A device that is closed after the test.
+    Device& open_anew(const DeviceSetting& setting = {}) {
+        own_.push_back(open_validated(setting));
+        return use(*own_.back());
     }
 
     void TearDown() override {
-        for (const std::unique_ptr<Device>& device : devices_) {
+        for (Device* device : used_) {
             device->wait();
-            EXPECT_THAT(device->validation_messages(), testing::IsEmpty());
         }
-        devices_.clear();
+        own_.clear();
+        const std::vector<std::string> messages = all_validation_messages();
+        EXPECT_THAT(std::vector(messages.begin() +
+                                    static_cast<std::ptrdiff_t>(shared_devices.known_messages),
+                                messages.end()),
+                    testing::IsEmpty());
+        shared_devices.known_messages = messages.size();
     }
 
 private:
-    std::vector<std::unique_ptr<Device>> devices_;
+    Device& use(Device& device) {
+        used_.insert(&device);
+        return device;
+    }
+
+    std::set<Device*> used_;
+    std::vector<std::unique_ptr<Device>> own_;
 };
 
 /// A test that runs once for each of variant_settings(); see INSTANTIATE_VARIANTS.

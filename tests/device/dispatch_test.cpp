@@ -19,7 +19,7 @@ protected:
 };
 
 TEST_F(Dispatch, VisitsEachIndexOnce) {
-    Device& device = open();
+    Device& device = open_anew();
     for (const std::uint32_t n :
          {1u, 7u, 8u, 9u, 1000u, 600'000u}) { // the last one needs more than 65,535 groups
         SCOPED_TRACE(n);
@@ -29,13 +29,13 @@ TEST_F(Dispatch, VisitsEachIndexOnce) {
 }
 
 TEST_F(Dispatch, WithoutThreadsDoesNothing) {
-    Device& device = open();
+    Device& device = open_anew();
     EXPECT_EQ(visits(device, 100, [&](const auto& kernel) { dispatch(device, kernel, 0); }),
               Words(100, 0));
 }
 
 TEST_F(Dispatch, SpillsIntoFurtherDimensions) {
-    Device& device = open({"few groups", "", "groups=5"});
+    Device& device = open_anew({"few groups", "", "groups=5"});
     for (const std::uint32_t n :
          {40u, 41u, 199u, 200u, 201u, 1000u}) { // 5, 6, 25, 25, 26 and 125 groups
         SCOPED_TRACE(n);
@@ -46,7 +46,7 @@ TEST_F(Dispatch, SpillsIntoFurtherDimensions) {
 
 TEST_F(Dispatch, IndirectRunsTheCountedThreads) {
     for (const char* limit : {"", "groups=300"}) {
-        Device& device = open({"indirect", "", limit});
+        Device& device = open_anew({"indirect", "", limit});
         constexpr std::uint32_t n = 100'000;
         for (const std::uint32_t count : {0u, 1u, 8u, 9u, 2400u, 2401u, 50'000u, n}) {
             SCOPED_TRACE(testing::Message() << count << " threads, limit " << limit);
@@ -65,7 +65,7 @@ TEST_F(Dispatch, IndirectRunsTheCountedThreads) {
 }
 
 TEST_F(Dispatch, IndirectSpillsIntoFurtherDimensions) {
-    Device& device = open({"few groups", "", "groups=5"});
+    Device& device = open_anew({"few groups", "", "groups=5"});
     constexpr std::uint32_t n = 1000; // 125 groups of 8, the maximum
     for (const std::uint32_t count : {0u, 40u, 41u, 200u, 201u, 399u, 401u, 999u, n}) {
         SCOPED_TRACE(count);
@@ -81,7 +81,7 @@ TEST_F(Dispatch, IndirectSpillsIntoFurtherDimensions) {
 }
 
 TEST_F(Dispatch, IndirectReadsCountsThatKernelsWrote) {
-    Device& device = open();
+    Device& device = open_anew();
     constexpr std::uint32_t n = 5000;
     const Buffer counts = upload(device, "counts", Words{500});
     Words expected(n, 0);
@@ -99,7 +99,7 @@ TEST_F(Dispatch, IndirectReadsCountsThatKernelsWrote) {
 }
 
 TEST_F(Dispatch, IndirectDispatchesMayExceedTheRingOfCounts) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer counts = upload(device, "counts", Words{16});
     EXPECT_EQ(visits(device, 32,
                      [&](const auto& kernel) {
@@ -126,7 +126,7 @@ Words with_neighbours(const Words& values) {
 }
 
 TEST_P(Barriers, DependentDispatchesSeeEachOther) {
-    Device& device = open(GetParam());
+    Device& device = open_anew(GetParam());
     Words expected(3000);
     for (std::uint32_t i = 0; i < expected.size(); ++i) {
         expected[i] = i;
@@ -145,7 +145,7 @@ TEST_P(Barriers, DependentDispatchesSeeEachOther) {
 }
 
 TEST_P(Barriers, TransfersAndDispatchesSeeEachOther) {
-    Device& device = open(GetParam());
+    Device& device = open_anew(GetParam());
     constexpr std::size_t n = 20'000;
     const Buffer a = upload(device, "a", Words(n, 1));
     const Buffer b = upload(device, "b", Words(n, 2));
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, Barriers,
                          [](const auto& setting) { return setting.param.name; });
 
 TEST_F(Dispatch, ALargerGroupThanTheDeviceAllowsIsAnError) {
-    Device& device = open();
+    Device& device = open_anew();
     KernelInfo wide = kernels::mark_threads::info;
     wide.local_size[0] = device.info().limits.invocations + 1;
     const Buffer visits = device.allocate("visits", 64);

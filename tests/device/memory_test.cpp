@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 class Memory : public DeviceTest {};
 
 TEST_F(Memory, ReportsPeaksByName) {
-    Device& device = open();
+    Device& device = open_anew();
     const std::uint64_t before = device.memory().current;
     {
         const Buffer a = device.allocate("photons", 1 << 20);
@@ -35,7 +35,7 @@ TEST_F(Memory, ReportsPeaksByName) {
 }
 
 TEST_F(Memory, CopiesOfABufferShareIt) {
-    Device& device = open();
+    Device& device = open_anew();
     Buffer copy;
     {
         const Buffer buffer = device.allocate("shared", 1000);
@@ -47,7 +47,7 @@ TEST_F(Memory, CopiesOfABufferShareIt) {
 }
 
 TEST_F(Memory, CommandsKeepBuffersAlive) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer to = device.allocate("to", 40'000);
     {
         const Buffer from = upload(device, "from", std::vector<std::uint32_t>(10'000, 77));
@@ -59,7 +59,7 @@ TEST_F(Memory, CommandsKeepBuffersAlive) {
 }
 
 TEST_F(Memory, ScratchIsSharedAndGrows) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer small = device.scratch("scratch", 100);
     EXPECT_EQ(device.scratch("scratch", 60).storage(), small.storage());
     EXPECT_NE(device.scratch("another", 60).storage(), small.storage());
@@ -68,11 +68,11 @@ TEST_F(Memory, ScratchIsSharedAndGrows) {
 }
 
 TEST_F(Memory, ErrorsNameTheBufferThatIsTooLarge) {
-    Device& range = open({"", "", "storage_range=1MiB"});
+    Device& range = open_anew({"", "", "storage_range=1MiB"});
     EXPECT_EQ(range.allocate("as much as goes", 1 << 20).size(), 1u << 20);
     EXPECT_THAT(error_of([&] { range.allocate("photon map", (1 << 20) + 1); }),
                 AllOf(HasSubstr("'photon map'"), HasSubstr("1048577"), HasSubstr("1048576")));
-    Device& memory = open({"", "", "memory=4MiB"});
+    Device& memory = open_anew({"", "", "memory=4MiB"});
     const Buffer first = memory.allocate("first", 3 << 20);
     EXPECT_THAT(error_of([&] { memory.allocate("photon map", 2 << 20); }),
                 AllOf(HasSubstr("'photon map'"), HasSubstr("memory")));

@@ -12,7 +12,7 @@ protected:
 };
 
 TEST_F(Stages, TimesAreNamedInTheOrderOfFirstUseAndAddUp) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer buffer = upload(device, "words", std::vector<std::uint32_t>(1 << 20, 0));
     for (int i = 0; i < 3; ++i) {
         for (const char* name : {"emit", "trace", "emit"}) {
@@ -38,7 +38,7 @@ TEST_F(Stages, TimesAreNamedInTheOrderOfFirstUseAndAddUp) {
 }
 
 TEST_F(Stages, MaySpanSubmissions) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer buffer = upload(device, "words", std::vector<std::uint32_t>(1 << 18, 0));
     {
         const StageScope stage(device, "long");
@@ -54,7 +54,7 @@ TEST_F(Stages, MaySpanSubmissions) {
 }
 
 TEST_F(Stages, MayExceedTheTimeStampsOfASubmission) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer buffer = upload(device, "words", std::vector<std::uint32_t>(64, 0));
     for (int i = 0; i < 1000; ++i) {
         const StageScope stage(device, "short");
@@ -66,7 +66,7 @@ TEST_F(Stages, MayExceedTheTimeStampsOfASubmission) {
 }
 
 TEST_F(Stages, WithoutTimeStampsTimesAreZero) {
-    Device& device = open({"", "timestamps", ""});
+    Device& device = open_anew({"", "timestamps", ""});
     const Buffer buffer = upload(device, "words", std::vector<std::uint32_t>(64, 0));
     {
         const StageScope stage(device, "untimed");

@@ -18,7 +18,7 @@ Bytes counted_bytes(std::size_t n, std::uint8_t first) {
 
 // Up to 65,536 bytes travel inside a command buffer; larger uploads use a staging buffer.
 TEST_F(Transfer, RoundTripsAllSizes) {
-    Device& device = open();
+    Device& device = open_anew();
     for (const std::size_t n : {0, 1, 2, 3, 4, 5, 7, 15, 16, 17, 1023, 65535, 65536, 65537, 65540,
                                 1 << 20, (1 << 24) + 1}) {
         SCOPED_TRACE(n);
@@ -29,7 +29,7 @@ TEST_F(Transfer, RoundTripsAllSizes) {
 }
 
 TEST_F(Transfer, RoundTripsPartsOfABuffer) {
-    Device& device = open();
+    Device& device = open_anew();
     for (const std::size_t n : {40, 200'000}) {
         Bytes expected = counted_bytes(n, 0);
         const Buffer buffer = upload(device, "bytes", expected);
@@ -50,7 +50,7 @@ TEST_F(Transfer, RoundTripsPartsOfABuffer) {
 }
 
 TEST_F(Transfer, LaterUploadsWin) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer buffer = upload(device, "words", Words(100, 1));
     const Words twos(60, 2);
     const Words threes(60, 3);
@@ -62,7 +62,7 @@ TEST_F(Transfer, LaterUploadsWin) {
 }
 
 TEST_F(Transfer, Fill) {
-    Device& device = open();
+    Device& device = open_anew();
     const Buffer buffer = upload(device, "words", Words(1000, 1));
     device.fill(BufferView(buffer, 8, 4), 7);
     device.fill(BufferView(buffer, 3960, 0), 9); // to the end
@@ -77,7 +77,7 @@ TEST_F(Transfer, Fill) {
 }
 
 TEST_F(Transfer, Copy) {
-    Device& device = open();
+    Device& device = open_anew();
     const Bytes bytes = counted_bytes(300'001, 0);
     const Buffer from = upload(device, "from", bytes);
     const Buffer to = device.allocate("to", bytes.size());
