@@ -75,8 +75,8 @@ TEST_P(DirectLight, EmitterThatTouchesTheFloor) {
     settings.seed = 1;
     settings.samples = 1024;
     settings.method = "path";
-    const Image truth = layer(render(scene, settings), "direct");
-    EXPECT_LT(compare(found, truth).rel_mse, 0.01);
+    const RenderResult& truth = render_once("emitter on the floor", scene, settings);
+    EXPECT_LT(compare(found, layer(truth, "direct")).rel_mse, 0.01);
 }
 
 TEST_P(DirectLight, LightsAddUp) {

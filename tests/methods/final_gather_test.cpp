@@ -76,7 +76,7 @@ Scene room_with_half_a_plastic_wall() {
 /// A floor under the sky with two walls, one of this material.
 Scene yard(const Material& material) {
     Scene scene = floor_scene(lambertian(glm::vec3(wall_albedo)), 1);
-    scene.name = "yard";
+    scene.name = material.roughness > 0 ? "yard with gloss" : "yard with a mirror";
     add_quad(scene, {-1, 0, -1}, {2, 0, 0}, {0, 1.5f, 0}, 0);
     add_quad(scene, {-1, 0, 1}, {0, 0, -2}, {0, 1.5f, 0}, add_material(scene, material));
     scene.sky = glm::vec3(0.5f, 0.8f, 1);
@@ -92,7 +92,8 @@ protected:
                         double tolerance = 0.01, std::uint32_t bounces = RenderSettings().bounces) {
         RenderSettings settings = settings_of("path", 16, 768);
         settings.bounces = bounces;
-        const RenderResult expected = render(scene, settings);
+        const RenderResult& expected =
+            render_once(scene.name + ", bounces " + std::to_string(bounces), scene, settings);
         settings = settings_of(method, 16, 256);
         settings.bounces = bounces;
         settings.photons = 50'000;

@@ -36,15 +36,17 @@ RenderSettings small_picture(const std::string& method) {
     return settings;
 }
 
+RenderSettings reference(std::uint32_t samples) {
+    RenderSettings settings = settings_of("path", 32, samples);
+    settings.seed = 1;
+    return settings;
+}
+
 // The sun has 10^8 times the power of the lamp, and must not take its samples.
 TEST_P(LightLearning, SunThatDoesNotComeIn) {
-    RenderSettings settings = small_picture(GetParam());
-    const RenderResult with_sun = render(sunlit_room(), settings);
-    const RenderResult twin = render(closed_room(), settings);
-    settings.method = "path";
-    settings.samples = 512;
-    settings.seed = 1;
-    const RenderResult truth = render(closed_room(), settings);
+    const RenderResult with_sun = render(sunlit_room(), small_picture(GetParam()));
+    const RenderResult twin = render(closed_room(), small_picture(GetParam()));
+    const RenderResult& truth = render_once("closed room", closed_room(), reference(512));
     for (const char* name : {"direct", "indirect"}) {
         SCOPED_TRACE(name);
         const Image& expected = layer(truth, name);
@@ -62,12 +64,8 @@ TEST_P(LightLearning, LampsOfOtherRooms) {
         add_box(row, {x - 2, 0, -2}, {x + 2, 2.5f, 2}, 0, true);
         add_quad(row, {x - 0.3f, 2.4f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 1);
     }
-    RenderSettings settings = small_picture(GetParam());
-    const RenderResult one_of_many = render(row, settings);
-    settings.method = "path";
-    settings.samples = 512;
-    settings.seed = 1;
-    const RenderResult truth = render(closed_room(), settings);
+    const RenderResult one_of_many = render(row, small_picture(GetParam()));
+    const RenderResult& truth = render_once("closed room", closed_room(), reference(512));
     EXPECT_LT(compare(layer(one_of_many, "direct"), layer(truth, "direct")).rel_mse, 0.02);
     EXPECT_LT(compare(layer(one_of_many, "indirect"), layer(truth, "indirect")).rel_mse, 0.2);
     EXPECT_RELATIVE(mean(layer(one_of_many, "indirect")).g, mean(layer(truth, "indirect")).g, 0.06);
@@ -86,14 +84,10 @@ TEST_P(LightLearning, SunThroughAWindow) {
     add_quad(scene, {2, 1.8f, 2}, {-4, 0, 0}, {0, 0.7f, 0}, white);
     scene.lights = {directional_light(glm::normalize(glm::vec3(0, -0.8f, -1)), glm::vec3(100))};
     scene.cameras = {look_at({1.7f, 1.5f, 1.7f}, {-0.6f, 0.7f, -0.7f}, 70)};
-    RenderSettings settings = small_picture(GetParam());
-    const RenderResult found = render(scene, settings);
+    const RenderResult found = render(scene, small_picture(GetParam()));
     EXPECT_TRUE(found.statistics.photons_emitted == 0 || found.statistics.photons_stored > 5000)
         << found.statistics.photons_stored;
-    settings.method = "path";
-    settings.samples = 1024;
-    settings.seed = 1;
-    const RenderResult truth = render(scene, settings);
+    const RenderResult& truth = render_once("room with a window", scene, reference(1024));
     EXPECT_RELATIVE(mean(layer(found, "indirect")).g, mean(layer(truth, "indirect")).g, 0.15);
 }
 

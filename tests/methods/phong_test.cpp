@@ -49,7 +49,7 @@ TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     // The path tracer is noisy where a path must hit the lamp.
     RenderSettings reference = settings_of("path", 16, 4096);
     reference.seed = 7;
-    const RenderResult expected = render(scene, reference);
+    const RenderResult& expected = render_once("Phong surfaces", scene, reference);
     RenderSettings settings = settings_of(GetParam(), 16, has_map(GetParam()) ? 128 : 4096);
     settings.photons = 200'000;
     const RenderResult found = render(scene, settings);

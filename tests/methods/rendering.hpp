@@ -9,6 +9,7 @@
 #include "support/abilities.hpp"
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -75,20 +76,24 @@ inline void expect_same_layers(const RenderResult& found, const RenderResult& ex
     }
 }
 
-/// Renders on a device that each test opens once.
 class RenderTest : public DeviceTest {
 protected:
-    Device& device() {
-        if (!device_) {
-            device_ = &open();
-        }
-        return *device_;
-    }
+    Device& device() { return open(); }
 
     RenderResult render(const Scene& scene, const RenderSettings& settings) {
         RenderResult result = testing::render(device(), scene, settings);
         EXPECT_EQ(result.statistics.non_finite, 0u) << scene.name << ", " << settings.method;
         return result;
+    }
+
+    /// The same, but rendered once in the process for each name, which stands for scene and
+    /// settings. For references.
+    const RenderResult& render_once(const std::string& name, const Scene& scene,
+                                    const RenderSettings& settings) {
+        static std::map<std::string, RenderResult> kept;
+        const auto found = kept.find(name);
+        return found != kept.end() ? found->second
+                                   : kept.emplace(name, render(scene, settings)).first->second;
     }
 
     /// Mean radiance that reaches `from` along a narrow bundle of parallel rays from `to`.
@@ -97,9 +102,6 @@ protected:
         scene.cameras = {parallel_rays(from, to, 1e-4f * glm::distance(from, to))};
         return mean(layer(render(scene, settings), layer_name));
     }
-
-private:
-    Device* device_ = nullptr;
 };
 
 /// Tests that run with every method.
