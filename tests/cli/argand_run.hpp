@@ -21,6 +21,9 @@ struct Outcome {
 /// Runs the command-line tool in a directory of its own.
 class ArgandTest : public ::testing::Test {
 protected:
+    /// Environment of runs for which the device does not matter: the host compiles no kernels.
+    static constexpr const char* on_host = "ARGAND_BACKEND=cpu";
+
     static std::string asset(const std::string& name) {
         return ARGAND_SOURCE_DIR "/assets/" + name;
     }

@@ -191,14 +191,14 @@ TEST_F(BadInput, ErrorsThatCannotBeAimedAt) {
     expect_failure("render '" + asset("ring.glb") +
                        "' --size 8x8 --target-error 0.01 --method path",
                    failure, "leave --method out");
-    expect_failure(scene + "--target-error 1e-9", failure, "allow a larger error");
+    expect_failure(scene + "--target-error 1e-9", failure, "allow a larger error", on_host);
 }
 
 TEST_F(BadInput, PicturesThatCannotBeCompared) {
     const std::string render =
         "render '" + asset("cornell_point.glb") + "' -q --spp 1 --photons 0 ";
-    ASSERT_EQ(argand(render + "--size 4x4 -o a.exr").exit_code, 0);
-    ASSERT_EQ(argand(render + "--size 4x6 -o b.exr").exit_code, 0);
+    ASSERT_EQ(argand(render + "--size 4x4 -o a.exr", on_host).exit_code, 0);
+    ASSERT_EQ(argand(render + "--size 4x6 -o b.exr", on_host).exit_code, 0);
     expect_failure("compare a.exr b.exr", failure, "b.exr");
     expect_failure("compare a.exr missing.exr", failure, "missing.exr");
     expect_failure("compare a.exr a.exr --layer glow", failure, "glow");

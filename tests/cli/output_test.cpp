@@ -27,7 +27,7 @@ TEST_F(Outputs, NothingThatIsReadOrWrittenIsReplaced) {
                    "would replace"); // the picture's name by default
     EXPECT_TRUE(read_text(file("scene.glb")) == read_text(asset("cornell_point.glb")));
 
-    ASSERT_EQ(argand(render + "-q -o a.exr -o b.exr --json report.json").exit_code, 0);
+    ASSERT_EQ(argand(render + "-q -o a.exr -o b.exr --json report.json", on_host).exit_code, 0);
     const std::string before = read_text(file("b.exr"));
     expect_failure("compare a.exr b.exr -o b.exr", usage, "would replace");
     expect_failure("compare a.exr b.exr -o ./a.exr", usage, "would replace");
@@ -43,7 +43,7 @@ TEST_F(Outputs, AFullStandardOutputIsNamed) {
          {"inspect --json " + scene, "inspect " + scene, std::string("devices"),
           std::string("render --help"),
           "render --size 4x4 --spp 1 --photons 0 -o a.png " + scene}) {
-        const Outcome run = argand(arguments + " >/dev/full");
+        const Outcome run = argand(arguments + " >/dev/full", on_host);
         EXPECT_EQ(run.exit_code, failure) << arguments;
         EXPECT_THAT(run.error, ::testing::StartsWith("argand: writing to the standard output: "))
             << arguments;

@@ -6,18 +6,20 @@ namespace {
 
 class PaperBench : public ArgandTest {
 protected:
-    nlohmann::json measure(const std::string& part) const {
+    nlohmann::json measure(const std::string& part,
+                           const std::string& environment = on_host) const {
         const Outcome run =
             argand("bench --paper fd09 --json --size 16 --error-size 8 --photons 2000 --runs 1 "
                    "--reference-samples 16 --part " +
-                   part + " --scene '" + asset("cornell_area.glb") + "'");
+                       part + " --scene '" + asset("cornell_area.glb") + "'",
+                   environment);
         EXPECT_EQ(run.exit_code, 0) << run.error;
         return nlohmann::json::parse(run.out);
     }
 };
 
 TEST_F(PaperBench, LeafSizesOfBothBuilds) {
-    const nlohmann::json rows = measure("table1");
+    const nlohmann::json rows = measure("table1", ""); // on the device under test
     ASSERT_EQ(rows.size(), 3u);
     for (std::size_t build = 0; build < 2; ++build) {
         EXPECT_EQ(rows[build]["scene"], "cornell_area");
