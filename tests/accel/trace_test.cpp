@@ -1,4 +1,5 @@
 #include "device_fixture.hpp"
+#include "one_thread.hpp"
 #include "shared/intersect.h"
 #include "tracing.hpp"
 
@@ -392,18 +393,16 @@ TEST_P(Trace, GetsThroughManyCoincidentTrianglesSlow) {
 
 INSTANTIATE_VARIANTS(Trace);
 
-using TraceAcross = DeviceTest;
+using TraceAcross = OneThreadTest;
 
 TEST_F(TraceAcross, VariantsAndThreadsGiveTheSameBits) {
     const Mesh mesh = random_triangles(5000, 0.1f, 1);
     const std::vector<RayRecord> rays = random_rays(5000, 1.2f, 2);
-    const std::vector<HitRecord> hits = Tracer(open(), mesh).closest(rays);
+    const std::vector<HitRecord> hits = Tracer(open_with_all_threads(), mesh).closest(rays);
     for (const DeviceSetting& setting : variant_settings()) {
-        expect_same(Tracer(open(setting), mesh).closest(rays), hits);
+        expect_same(Tracer(shared_devices.get(setting), mesh).closest(rays), hits);
     }
-    const ScopedEnvironment threads("LP_NUM_THREADS",
-                                    "1"); // of lavapipe; other devices do not read it
-    expect_same(Tracer(open(), mesh).closest(rays), hits);
+    expect_same(Tracer(open_with_one_thread(), mesh).closest(rays), hits);
 }
 
 } // namespace
