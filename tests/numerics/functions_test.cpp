@@ -334,7 +334,10 @@ protected:
 
 TEST_F(NumericsTable, FunctionsStayWithinTheirBounds) { check_all(4'000); }
 
-TEST_F(NumericsTable, SlowFunctionsStayWithinTheirBoundsOverManyInputs) { check_all(40'000); }
+TEST_F(NumericsTable, SlowFunctionsStayWithinTheirBoundsOverManyInputs) {
+    // The document has more.
+    check_all(environment("ARGAND_NUMERICS_RESULTS").empty() ? 15'000 : 40'000);
+}
 
 } // namespace
 } // namespace argand::testing
