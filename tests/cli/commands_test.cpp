@@ -282,8 +282,9 @@ TEST_F(Commands, BackendsDoTheSame) {
 
 TEST_F(Commands, CapturesAreRecordedAndComparedWith) {
     const std::string compare = "compare-backends '" + asset("cornell_area.glb") + "' ";
-    const Outcome recorded = argand(
-        compare + "--a cpu --record a.golden --size 6x6 --spp 1 --photons 200 --revision r1");
+    const Outcome recorded =
+        argand(compare + "--a cpu --record a.golden --size 6x6 --spp 1 --photons 200 --revision r1 "
+                         "--methods footprints,path");
     EXPECT_EQ(recorded.exit_code, 0) << recorded.error;
     const Outcome compared =
         argand(compare + "--a vulkan --b golden --golden a.golden", "ARGAND_VALIDATION=0");
