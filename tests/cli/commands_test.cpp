@@ -242,7 +242,7 @@ TEST_F(Commands, InspectSaysWhatWouldBeDone) {
     EXPECT_THAT(glass.at("left_out").get<std::vector<std::string>>(), ::testing::Contains("ggx"));
     const nlohmann::json point = plan("cornell_point.glb");
     EXPECT_EQ(required_by(point, "refraction"), "");
-    EXPECT_EQ(point.at("features").size(), 5u) << point;
+    EXPECT_EQ(point.at("features").size(), 4u) << point;
     const Outcome text = argand("inspect '" + asset("cornell_glass.glb") + "'");
     EXPECT_THAT(text.out, HasSubstr("method      footprints (default)\nrequires    "));
     EXPECT_THAT(text.out, HasSubstr("  refraction: material 'glass sphere'\n"));
