@@ -52,7 +52,7 @@ glm::vec4 sphere_around(const Bounds& box) {
     return {center, 1.001f * glm::distance(center, box.high)};
 }
 
-/// Points that represent a light inside the scene: its own, or the middle of its triangle.
+/// The point that stands for a light inside the scene: its own, or the middle of its triangle.
 glm::dvec3 middle_of(const LightRecord& light) {
     const glm::dvec3 first(light.x, light.y, light.z);
     if (light.kind != light_triangle) {

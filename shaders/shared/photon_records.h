@@ -28,7 +28,7 @@ CONSTANT uint photon_followed = 0x10000u; // only followed lobes scattered the p
 // From this bit on: the logarithm to base 2 of the density of photons aimed at a caster of caustics
 // over that of even emission, rounded down; 0 after other scatterings.
 CONSTANT uint photon_aimed_shift = 24u;
-CONSTANT uint most_photon_aimed = 30u;
+CONSTANT uint largest_photon_aimed = 30u;
 
 // Where the flux of one photon went, per channel, in fixed point (PhotonBatch::flux_unit) modulo
 // 2^32. `cut` is flux truncated at the bounce limit. emitted = absorbed + escaped + cut, to the

@@ -47,7 +47,7 @@ TEST_F(Commands, TheSceneDecidesOnTheMethodUnlessAnOptionDoes) {
     EXPECT_EQ(method_of("", "cornell_area.glb"), "photons");
     EXPECT_EQ(method_of("", "cornell_glass.glb"), "footprints");
     EXPECT_EQ(method_of("--smoothing 5", "cornell_area.glb"), "footprints");
-    EXPECT_EQ(method_of("--method path", "cornell_glass.glb"), "path");
+    EXPECT_EQ(method_of("--method knn", "cornell_glass.glb"), "knn");
     const Outcome inspected = argand("inspect '" + asset("cornell_area.glb") + "'");
     EXPECT_THAT(inspected.out, HasSubstr("photons (default)"));
 }

@@ -66,14 +66,11 @@ protected:
 
     /// The same for all methods.
     const RenderResult& truth() {
-        static const RenderResult result = [&] {
-            RenderSettings s = settings();
-            s.method = "path";
-            s.samples = 2048;
-            s.seed = 1;
-            return render(block_in_a_room(), s);
-        }();
-        return result;
+        RenderSettings s = settings();
+        s.method = "path";
+        s.samples = 2048;
+        s.seed = 1;
+        return render_once("block", block_in_a_room(), s);
     }
 };
 

@@ -2,7 +2,7 @@
 
 // The logarithm that photon_aimed_shift describes.
 FN uint aimed_by(real concentration) {
-    real most = real(1u << most_photon_aimed);
+    real most = real(1u << largest_photon_aimed);
     return uint(findMSB(uint(clamp(concentration, real(1.0), most))));
 }
 
