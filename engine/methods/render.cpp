@@ -63,15 +63,16 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable
 
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
                              MethodTable methods) {
-    RenderSettings by_default = settings;
-    by_default.method = methods.begin()->name;
-    if (plan_render(scene, by_default, methods).needs(Feature::caustics)) {
-        return *methods.begin();
+    const MethodInfo* first = methods.begin();
+    const MethodInfo* other = std::find_if(first, methods.end(), [](const MethodInfo& info) {
+        return info.trial == TrialOrder::first;
+    });
+    if (other == methods.end()) {
+        return *first;
     }
-    const auto tried_first =
-        std::find_if(methods.begin(), methods.end(),
-                     [](const MethodInfo& method) { return method.trial == TrialOrder::first; });
-    return tried_first == methods.end() ? *methods.begin() : *tried_first;
+    RenderSettings by_other = settings;
+    by_other.method = other->name;
+    return plan_render(scene, by_other, methods).needs(Feature::caustics) ? *first : *other;
 }
 
 RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,
