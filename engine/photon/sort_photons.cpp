@@ -17,7 +17,7 @@ Buffer sort_places(Device& device, PhotonWorkspace& w, const Buffer& boxes, bool
         w.codes = device.allocate("photon codes", bytes_of_codes);
     }
     const Count slots(w.counters, counter_stored_slots, w.capacity);
-    const Buffer bounds = device.scratch("photon map bounds", sizeof(BoxRecord));
+    Buffer bounds = device.scratch("photon map bounds", sizeof(BoxRecord));
     dispatch(device,
              kernels::photon_points{.counters = w.counters, .photons = w.photons, .boxes = boxes},
              slots);
