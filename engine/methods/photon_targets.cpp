@@ -1,5 +1,6 @@
 #include "methods/photon_targets.hpp"
 
+#include "base/disjoint_sets.hpp"
 #include "base/hash_floats.hpp"
 #include "methods/view_extent.hpp"
 #include "scene/material_record.hpp"
@@ -24,28 +25,6 @@ constexpr double most_natural_share = 0.005;
 constexpr double reach = 4;
 // Casters, the nearest ones, of which the natural share is computed.
 constexpr std::size_t most_candidates = 64;
-
-/// Sets of numbers that are joined two by two.
-class DisjointSets {
-public:
-    std::uint32_t add() {
-        parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
-        return parents_.back();
-    }
-
-    std::uint32_t root(std::uint32_t i) {
-        while (parents_[i] != i) {
-            parents_[i] = parents_[parents_[i]];
-            i = parents_[i];
-        }
-        return i;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
-
-private:
-    std::vector<std::uint32_t> parents_;
-};
 
 glm::vec4 sphere_around(const Bounds& box) {
     const glm::vec3 center = 0.5f * (box.low + box.high);
@@ -92,26 +71,20 @@ std::vector<glm::vec4> caustic_casters(const Scene& scene, float follow_roughnes
     for (const Material& material : scene.materials) {
         casts.push_back(followed_lobes(material_record(material), follow_roughness) != 0);
     }
-    DisjointSets sets;
-    std::unordered_map<std::array<float, 3>, std::uint32_t, HashFloats> corners;
-    const auto corner = [&](const glm::vec3& p) {
-        const auto [place, is_new] = corners.try_emplace({p.x, p.y, p.z}, 0);
-        if (is_new) {
-            place->second = sets.add();
-        }
-        return place->second;
-    };
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    // Casting triangles that have a corner at the same place belong to one caster.
+    DisjointSets sets(scene.triangles.size());
+    std::unordered_map<std::array<float, 3>, std::uint32_t, HashFloats> triangle_at;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         if (casts[scene.triangle_material[i]]) {
-            const glm::uvec3& t = scene.triangles[i];
-            const std::uint32_t first = corner(scene.positions[t.x]);
-            sets.join(first, corner(scene.positions[t.y]));
-            sets.join(first, corner(scene.positions[t.z]));
+            for (int k = 0; k < 3; ++k) {
+                const glm::vec3& p = scene.positions[scene.triangles[i][k]];
+                sets.join(triangle_at.try_emplace({p.x, p.y, p.z}, i).first->second, i);
+            }
         }
     }
     std::unordered_map<std::uint32_t, Bounds> boxes;
-    for (const auto& [position, number] : corners) {
-        Bounds& box = boxes[sets.root(number)];
+    for (const auto& [position, triangle] : triangle_at) {
+        Bounds& box = boxes[sets.root(triangle)];
         const glm::vec3 p(position[0], position[1], position[2]);
         box.low = glm::min(box.low, p);
         box.high = glm::max(box.high, p);

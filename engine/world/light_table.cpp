@@ -1,5 +1,6 @@
 #include "world/light_table.hpp"
 
+#include "base/disjoint_sets.hpp"
 #include "base/hash_floats.hpp"
 #include "shared/lights.h"
 
@@ -64,32 +65,11 @@ LightRecord record_of(const Scene& scene, std::size_t triangle, const Material& 
     return record;
 }
 
-/// Sets of lights that grow together (union-find).
-class Sets {
-public:
-    explicit Sets(std::size_t size) : parent_(size) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-    }
-
-    std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) { parent_[root(b)] = root(a); }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
-
 using Position = std::array<float, 3>;
 
 /// Numbers the emitters in the order of their first lights.
 std::vector<std::uint32_t> find_emitters(const std::vector<LightRecord>& lights) {
-    Sets sets(lights.size());
+    DisjointSets sets(lights.size());
     std::unordered_map<Position, std::uint32_t, HashFloats> light_at;
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         const LightRecord& l = lights[i];
