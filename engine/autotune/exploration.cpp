@@ -95,10 +95,8 @@ RenderSettings Exploration::of_method(const std::string& method) const {
 }
 
 std::string Exploration::first_method() const {
-    const auto first =
-        std::find_if(target.methods.begin(), target.methods.end(),
-                     [](const MethodInfo& method) { return method.trial == TrialOrder::first; });
-    return user_set.method || first == target.methods.end() ? base.method : first->name;
+    const MethodInfo* first = target.methods.tried_first();
+    return user_set.method || !first ? base.method : first->name;
 }
 
 bool Exploration::is_worth_trying(const MethodInfo& method) const {

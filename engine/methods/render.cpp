@@ -5,8 +5,6 @@
 #include "methods/method.hpp"
 #include "methods/next_pass.hpp"
 
-#include <algorithm>
-
 namespace argand {
 
 namespace {
@@ -64,10 +62,8 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
                              MethodTable methods) {
     const MethodInfo* first = methods.begin();
-    const MethodInfo* other = std::find_if(first, methods.end(), [](const MethodInfo& info) {
-        return info.trial == TrialOrder::first;
-    });
-    if (other == methods.end()) {
+    const MethodInfo* other = methods.tried_first();
+    if (!other) {
         return *first;
     }
     RenderSettings by_other = settings;

@@ -48,6 +48,12 @@ const MethodInfo* MethodTable::unbiased() const {
     return found == end() ? nullptr : found;
 }
 
+const MethodInfo* MethodTable::tried_first() const {
+    const MethodInfo* found = std::find_if(
+        begin(), end(), [](const MethodInfo& method) { return method.trial == TrialOrder::first; });
+    return found == end() ? nullptr : found;
+}
+
 std::vector<std::string> MethodTable::names() const {
     std::vector<std::string> names;
     for (const MethodInfo& method : *this) {

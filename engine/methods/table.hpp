@@ -27,6 +27,8 @@ public:
     std::vector<std::string> names() const;
     /// The first unbiased method, which makes references. Null if there is none.
     const MethodInfo* unbiased() const;
+    /// The method that autotuning tries first. Null if there is none.
+    const MethodInfo* tried_first() const;
 
     /// Every option that some method lists, once, in the order in which the methods list them.
     std::vector<const Option*> options() const;
