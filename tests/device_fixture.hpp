@@ -88,7 +88,7 @@ public:
     /// Closes them before the process ends, because drivers have static data of their own.
     void TearDown() override {
         devices_.clear();
-        EXPECT_THAT(all_validation_messages(), testing::SizeIs(known_messages));
+        EXPECT_THAT(all_validation_messages(), ::testing::SizeIs(known_messages));
     }
 
     std::size_t known_messages = 0; ///< those that tests have checked
@@ -102,7 +102,7 @@ inline SharedDevices& shared_devices = *static_cast<SharedDevices*>(
     ::testing::AddGlobalTestEnvironment(new SharedDevices)); // NOLINT(*-owning-memory)
 
 /// Uses devices with the API's validation on; any validation message fails the test.
-class DeviceTest : public testing::Test {
+class DeviceTest : public ::testing::Test {
 protected:
     /// The device of this setting, which all tests of the process share.
     Device& open(const DeviceSetting& setting = {}) { return use(shared_devices.get(setting)); }
@@ -122,7 +122,7 @@ protected:
         EXPECT_THAT(std::vector(messages.begin() +
                                     static_cast<std::ptrdiff_t>(shared_devices.known_messages),
                                 messages.end()),
-                    testing::IsEmpty());
+                    ::testing::IsEmpty());
         shared_devices.known_messages = messages.size();
     }
 

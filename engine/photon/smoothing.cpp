@@ -14,7 +14,7 @@ namespace {
 // Enough for a median within a few per cent.
 constexpr std::size_t points_looked_at = 96;
 // Rank, among the footprints looked at, of the distance that is measured.
-constexpr double enough_rank = 16;
+constexpr double measured_rank = 16;
 // Two rounds over more would exceed the iterations of an invocation on lavapipe.
 constexpr double most_looked_at = 30'000;
 
@@ -33,8 +33,8 @@ double median_smoothing(Device& device, const SortedPhotons& sorted,
         some.push_back(points[i]);
     }
     const double rank = std::clamp(on_point, 1.0, double(sorted.others));
-    const double stride =
-        std::max({std::floor(rank / enough_rank), std::ceil(sorted.others / most_looked_at), 1.0});
+    const double stride = std::max(
+        {std::floor(rank / measured_rank), std::ceil(sorted.others / most_looked_at), 1.0});
     const auto looked_at = static_cast<std::uint32_t>(std::ceil(sorted.others / stride));
     const Buffer distances = device.scratch("learnt distances", some.size() * sizeof(float));
     dispatch(

@@ -13,6 +13,10 @@
 
 namespace argand::testing {
 
+// Exit codes.
+inline constexpr int failure = 1;
+inline constexpr int usage = 2;
+
 struct Outcome {
     int exit_code = -1; ///< -1: ended by a signal
     std::string out, error;

@@ -6,9 +6,6 @@
 namespace argand::testing {
 namespace {
 
-constexpr int failure = 1;
-constexpr int usage = 2;
-
 using Outputs = ArgandTest;
 
 TEST_F(Outputs, NothingThatIsReadOrWrittenIsReplaced) {

@@ -15,7 +15,7 @@
 namespace argand::testing {
 namespace {
 
-constexpr float albedo = 0.5f;
+constexpr float floor_albedo = 0.5f;
 constexpr std::uint32_t ks[] = {1, 2, 3, 150, 499, 500};
 
 /// The bits of a photon's squared distance, and its index in the map.
@@ -134,8 +134,9 @@ protected:
                    const std::vector<Query>& queries, std::uint32_t k, float radius,
                    std::uint32_t budget = gather_budget, bool careful = true,
                    std::uint64_t area_samples = 0) {
-        const DeviceScene scene = upload_scene(on, floor_scene(lambertian(glm::vec3(albedo)), 1),
-                                               make_plan({}, {.everything = true}));
+        const DeviceScene scene =
+            upload_scene(on, floor_scene(lambertian(glm::vec3(floor_albedo)), 1),
+                         make_plan({}, {.everything = true}));
         PhotonWorkspace workspace = make_photon_workspace(on, photons.size() + area_samples);
         const PhotonMap map = build_photon_map(on, scene, workspace, store(on, workspace, photons),
                                                {.area_samples = area_samples});
@@ -188,7 +189,7 @@ protected:
             glm::dvec3 without_kernel(0);
             for (const Neighbour& neighbour : expected) {
                 const PhotonRecord& p = answers.photons[neighbour.index];
-                const glm::dvec3 term = 2 / (double(pi) * r2) * albedo / double(pi) *
+                const glm::dvec3 term = 2 / (double(pi) * r2) * floor_albedo / double(pi) *
                                         glm::dvec3(p.flux_r, p.flux_g, p.flux_b);
                 (photon_is_caustic(p.normal) ? caustic : indirect) +=
                     term * (1 - bits_float(neighbour.bits) / r2);
@@ -344,7 +345,7 @@ TEST_F(GatherNearest, EvenlySpreadPhotonsGiveTheirDensity) {
              gather(device(), photons, queries, k, 1, gather_budget, true, area_samples).of) {
             sum += answer.sums.indirect.g;
         }
-        return sum / static_cast<double>(queries.size()) / (albedo / double(pi));
+        return sum / static_cast<double>(queries.size()) / (floor_albedo / double(pi));
     };
     std::vector<Query> inside = floor_queries(4000);
     std::vector<Query> at_edge;

@@ -6,10 +6,6 @@
 namespace argand {
 namespace {
 
-constexpr std::uint32_t untouched = 0xabadcafe;
-
-using Elements = std::vector<std::uint32_t>;
-
 struct Kept {
     Elements values;
     std::uint32_t number = 0;

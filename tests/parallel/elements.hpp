@@ -6,6 +6,11 @@
 
 namespace argand {
 
+using Elements = std::vector<std::uint32_t>;
+
+/// What buffers hold before a test writes to them.
+inline constexpr std::uint32_t untouched = 0xabadcafe;
+
 /// Sizes at which divisions into fours, lanes, tiles and parts have their edges: 0, 1, around
 /// powers of two, primes.
 inline std::vector<std::uint32_t> sizes() {
@@ -21,10 +26,9 @@ inline constexpr std::uint32_t large_size = 10'000'000;
 inline constexpr std::uint32_t size_beyond_the_groups = 2'200'003;
 
 /// Numbers below `below` (0: any 32 bits), the same for the same arguments.
-inline std::vector<std::uint32_t> random_elements(std::size_t n, std::uint32_t below = 0,
-                                                  std::uint32_t seed = 1) {
+inline Elements random_elements(std::size_t n, std::uint32_t below = 0, std::uint32_t seed = 1) {
     std::mt19937 random(seed);
-    std::vector<std::uint32_t> elements(n);
+    Elements elements(n);
     for (std::uint32_t& element : elements) {
         element = static_cast<std::uint32_t>(random());
         element = below > 0 ? element % below : element;

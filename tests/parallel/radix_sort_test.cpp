@@ -9,7 +9,6 @@
 namespace argand {
 namespace {
 
-using Elements = std::vector<std::uint32_t>;
 using Keys64 = std::vector<std::uint64_t>;
 
 struct Distribution {

@@ -11,8 +11,6 @@
 namespace argand {
 namespace {
 
-using Elements = std::vector<std::uint32_t>;
-
 class Reduce : public VariantTest {};
 
 void expect_reductions(Device& device, const Elements& in, std::size_t n, const Count& count) {

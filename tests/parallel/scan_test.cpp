@@ -8,10 +8,6 @@
 namespace argand {
 namespace {
 
-constexpr std::uint32_t untouched = 0xabadcafe;
-
-using Elements = std::vector<std::uint32_t>;
-
 Elements expected_scan(const Elements& in, std::size_t count, bool inclusive) {
     Elements out(in.size(), untouched);
     const auto end = in.begin() + static_cast<std::ptrdiff_t>(count);

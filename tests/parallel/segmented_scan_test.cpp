@@ -7,10 +7,6 @@
 namespace argand {
 namespace {
 
-constexpr std::uint32_t untouched = 0xabadcafe;
-
-using Elements = std::vector<std::uint32_t>;
-
 Elements expected_scan(const Elements& in, const Elements& heads, std::size_t count) {
     Elements out(in.size(), untouched);
     std::uint32_t sum = 0;

@@ -9,7 +9,7 @@
 namespace argand::testing {
 namespace {
 
-constexpr float albedo = 0.5f;
+constexpr float floor_albedo = 0.5f;
 constexpr float flatness = 0.4f;
 
 struct Splat {
@@ -46,8 +46,9 @@ FootprintScale plain_scale() {
 
 Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<Query>& queries,
             const GatherSettings& settings = {}) {
-    const DeviceScene scene = upload_scene(device, floor_scene(lambertian(glm::vec3(albedo)), 1),
-                                           make_plan({}, {.everything = true}));
+    const DeviceScene scene =
+        upload_scene(device, floor_scene(lambertian(glm::vec3(floor_albedo)), 1),
+                     make_plan({}, {.everything = true}));
     PhotonWorkspace workspace = make_photon_workspace(device, splats.size(), true);
     std::vector<PhotonRecord> photons;
     std::vector<glm::uvec4> offsets;
@@ -122,7 +123,7 @@ void expect_exact_sums(const Sums& gathered, const std::vector<Query>& queries,
                 continue;
             }
             const glm::dvec3 scattered =
-                glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * double(albedo) / double(pi);
+                glm::dvec3(p.flux_r, p.flux_g, p.flux_b) * double(floor_albedo) / double(pi);
             const bool caustic = photon_is_caustic(p.normal);
             (caustic ? sum.caustic : sum.indirect) += scattered * weight.value;
             const bool jumps = weight.uncertain && uniform_kernel;
@@ -317,11 +318,11 @@ TEST_F(GatherFootprints, EdgesOfSurfacesLoseNothing) {
     }
     const std::vector<Query> queries{{{0, 0, 0}}, {{1, 0, 0.1f}}, {{-0.9f, 0, 0.1f}}, {{1, 0, 1}}};
     for (const Gathered& sum : gather(device(), splats, queries, {.area_samples = 40'000}).sums) {
-        EXPECT_RELATIVE(sum.indirect.g, albedo / double(pi), 0.03);
+        EXPECT_RELATIVE(sum.indirect.g, floor_albedo / double(pi), 0.03);
     }
     const std::vector<Gathered> plain = gather(device(), splats, queries).sums;
-    EXPECT_RELATIVE(plain[1].indirect.g, 0.5 * albedo / double(pi), 0.03);
-    EXPECT_RELATIVE(plain[3].indirect.g, 0.25 * albedo / double(pi), 0.03);
+    EXPECT_RELATIVE(plain[1].indirect.g, 0.5 * floor_albedo / double(pi), 0.03);
+    EXPECT_RELATIVE(plain[3].indirect.g, 0.25 * floor_albedo / double(pi), 0.03);
 }
 
 // Reads through texels or storage buffers, with or without subgroups, give the same photons in the

@@ -41,12 +41,12 @@ TEST(Reference, KeepsItsTimeLimit) {
 /// relMSE of the true image, divided by the least error, against pairs with noise of this deviation
 /// in the first `noisy_rows` rows.
 std::vector<double> true_errors_over_least(int noisy_rows) {
-    constexpr int side = 32, pairs = 50;
-    const Image truth = noisy(side, side, 0, 0, 0);
+    constexpr int width = 32, pairs = 50;
+    const Image truth = noisy(width, width, 0, 0, 0);
     const auto half = [&](std::uint32_t seed) {
-        Image image = noisy(side, side, 0, 0.1, seed);
-        std::copy(truth.pixels.begin() + noisy_rows * side, truth.pixels.end(),
-                  image.pixels.begin() + noisy_rows * side);
+        Image image = noisy(width, width, 0, 0.1, seed);
+        std::copy(truth.pixels.begin() + noisy_rows * width, truth.pixels.end(),
+                  image.pixels.begin() + noisy_rows * width);
         return image;
     };
     std::vector<double> ratios;

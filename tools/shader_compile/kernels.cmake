@@ -11,6 +11,7 @@
 #
 # Sets the global property ARGAND_TWINS to the sources of all twins, and adds the target TARGET_twins, which writes the
 # generated ones.
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/share_units.cmake)
 function(argand_add_kernels target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" TWINS "")
     set(directory ${CMAKE_BINARY_DIR}/generated/kernels)
@@ -63,14 +64,8 @@ function(argand_add_kernels target)
         list(APPEND all_twin_files ${twin_files})
     endforeach()
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/generated>)
-    # Most of the time that one binding takes to compile goes to the headers, so ten of them share a translation unit.
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    set(count 0)
-    foreach(binding IN LISTS bindings)
-        math(EXPR group "${count} / 10")
-        set_source_files_properties(${binding} PROPERTIES UNITY_GROUP kernels_${group})
-        math(EXPR count "${count} + 1")
-    endforeach()
+    # Most of the time that one binding takes to compile goes to the headers.
+    argand_share_units(${target} kernels 10 ${bindings})
     # All headers that are written from kernels, which tools/lint needs and nothing else builds by name.
     add_custom_target(${target}_generated DEPENDS ${generated})
     if(NOT TARGET argand_generated)
