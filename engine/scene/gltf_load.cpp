@@ -1,5 +1,6 @@
 #include "scene/framing.hpp"
 #include "scene/gltf.hpp"
+#include "scene/gltf_animation.hpp"
 #include "scene/gltf_camera.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_file.hpp"
@@ -12,8 +13,8 @@
 namespace argand {
 namespace {
 
-/// Adds a sky and a camera where the file has no light or no camera.
-void add_missing_objects(Scene& scene) {
+/// Adds a sky and a camera where the file has no light or no camera. framed: what the camera sees.
+void add_missing_objects(Scene& scene, const Bounds& framed) {
     const bool emissive =
         std::any_of(scene.triangle_material.begin(), scene.triangle_material.end(),
                     [&](std::uint32_t material) { return emits(scene.materials[material]); });
@@ -22,23 +23,23 @@ void add_missing_objects(Scene& scene) {
         add_note(scene, "there is no light: a uniform white sky of radiance 1 is added");
     }
     if (scene.cameras.empty()) {
-        scene.cameras.push_back(frame_bounds(bounds(scene)));
+        scene.cameras.push_back(frame_bounds(framed));
         add_note(scene, "there is no camera: one that sees the whole scene is added");
     }
 }
 
 } // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds) {
     Scene scene;
     const GltfSource source = read_gltf_file(path, scene.notes);
     scene.name = one_line(path.filename().string());
     add_extensions(source, scene);
-    scene.animations = source.model.animations.size();
-    if (scene.animations > 0) {
-        add_note(scene, "animations are not supported yet: nodes stay in their rest pose");
+    const std::vector<NodeKeys> keys = read_animations(source, scene);
+    if (seconds && scene.animations.empty()) {
+        add_note(scene, "there is no animation: the scene is the same at any time");
     }
-    const std::vector<GltfNode> nodes = flatten_nodes(source);
+    const std::vector<GltfNode> nodes = flatten_nodes(source, keys, seconds);
     add_materials(source, scene);
     add_lights(source, nodes, scene);
     add_cameras(source, nodes, scene);
@@ -47,7 +48,9 @@ Scene load_gltf(const std::filesystem::path& path) {
         source.fail(
             "there is nothing to render: it shows no triangle that has an area and can be seen");
     }
-    add_missing_objects(scene);
+    // A camera that is added sees the scene at rest, so that it stands still while objects move.
+    const bool moves = seconds && scene.cameras.empty() && !scene.animations.empty();
+    add_missing_objects(scene, bounds(moves ? load_gltf(path) : scene));
     return scene;
 }
 

@@ -16,37 +16,68 @@ void check_length(const GltfSource& source, int index, const char* what,
     }
 }
 
-glm::dmat4 local_transform(const GltfSource& source, int index) {
+/// A node's transform relative to its parent, as the file states it at rest.
+struct LocalTransform {
+    std::optional<glm::dmat4> matrix; ///< instead of the others
+    std::optional<glm::dquat> rotation;
+    std::vector<double> translation, scale; ///< three numbers, or none
+};
+
+LocalTransform rest_transform(const GltfSource& source, int index) {
     const tinygltf::Node& node = source.model.nodes[std::size_t(index)];
     check_length(source, index, "matrix", node.matrix, 16);
     check_length(source, index, "translation", node.translation, 3);
     check_length(source, index, "rotation", node.rotation, 4);
     check_length(source, index, "scale", node.scale, 3);
-    glm::dmat4 transform(1);
+    LocalTransform local{
+        .matrix = {}, .rotation = {}, .translation = node.translation, .scale = node.scale};
     if (!node.matrix.empty()) {
+        local.matrix = glm::dmat4(1);
         for (int i = 0; i < 16; ++i) {
-            transform[i / 4][i % 4] =
+            (*local.matrix)[i / 4][i % 4] =
                 node.matrix[std::size_t(i)]; // column-major, in glTF as in GLM
         }
-        return transform;
     }
     if (!node.rotation.empty()) {
         const std::vector<double>& r = node.rotation;
         const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-        if (!(length > 0) || !std::isfinite(length)) {
+        if (node.matrix.empty() && (!(length > 0) || !std::isfinite(length))) {
             source.fail("{} has a rotation that is not a unit quaternion",
                         label("node", index, node.name));
         }
-        transform =
-            glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
+        local.rotation = glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
     }
-    if (!node.scale.empty()) {
+    return local;
+}
+
+void pose(LocalTransform& local, const NodeKeys& keys, double seconds) {
+    if (keys.translation) {
+        local.translation = value_at(*keys.translation, seconds);
+    }
+    if (keys.rotation) {
+        local.rotation = rotation_at(*keys.rotation, seconds);
+    }
+    if (keys.scale) {
+        local.scale = value_at(*keys.scale, seconds);
+    }
+}
+
+glm::dmat4 to_matrix(const LocalTransform& local) {
+    if (local.matrix) {
+        return *local.matrix;
+    }
+    glm::dmat4 transform(1);
+    if (local.rotation) {
+        transform = glm::mat4_cast(*local.rotation);
+    }
+    if (!local.scale.empty()) {
         for (int axis = 0; axis < 3; ++axis) {
-            transform[axis] *= node.scale[std::size_t(axis)];
+            transform[axis] *= local.scale[std::size_t(axis)];
         }
     }
-    if (!node.translation.empty()) {
-        transform[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
+    if (!local.translation.empty()) {
+        transform[3] =
+            glm::dvec4(local.translation[0], local.translation[1], local.translation[2], 1);
     }
     return transform;
 }
@@ -79,7 +110,8 @@ std::vector<int> root_nodes(const GltfSource& source) {
 
 } // namespace
 
-std::vector<GltfNode> flatten_nodes(const GltfSource& source) {
+std::vector<GltfNode> flatten_nodes(const GltfSource& source, const std::vector<NodeKeys>& keys,
+                                    std::optional<double> seconds) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<GltfNode> flat;
     std::vector<bool> seen(nodes.size(), false);
@@ -101,7 +133,11 @@ std::vector<GltfNode> flatten_nodes(const GltfSource& source) {
                         label("node", next.index, nodes[std::size_t(next.index)].name));
         }
         seen[std::size_t(next.index)] = true;
-        flat.push_back({next.index, next.to_world * local_transform(source, next.index)});
+        LocalTransform local = rest_transform(source, next.index);
+        if (seconds) {
+            pose(local, keys[std::size_t(next.index)], *seconds);
+        }
+        flat.push_back({next.index, next.to_world * to_matrix(local)});
         push(nodes[std::size_t(next.index)].children, flat.back().to_world);
     }
     return flat;

@@ -59,13 +59,20 @@ struct Camera {
     float aspect = 0;                  ///< width / height as the file states it; 0: not stated
 };
 
+/// An animation of the file.
+struct Animation {
+    std::string name;
+    double seconds = 0;             ///< time of its last key
+    std::vector<std::string> moves; ///< "rotation of node 2 "wheel""
+};
+
 struct Bounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()};
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
 };
 
-/// Immutable description of a file's contents on the host: triangles in world space, materials,
-/// lights, cameras.
+/// Immutable description of a file's contents at one moment on the host: triangles in world space,
+/// materials, lights, cameras.
 struct Scene {
     std::string name;                  ///< file name without directory
     std::vector<glm::vec3> positions;  ///< vertices, world space
@@ -76,7 +83,7 @@ struct Scene {
     std::vector<Light> lights;
     std::optional<glm::vec3> sky; ///< uniform radiance from all directions [cd/m²]
     std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none
-    std::size_t animations = 0;
+    std::vector<Animation> animations;
     std::vector<std::string> extensions_used; ///< as the file lists them
     std::vector<std::string>
         notes; ///< unsupported features and added objects, one line each, for the user

@@ -4,6 +4,7 @@
 #include "scene/light_power.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <numbers>
 
@@ -193,6 +194,13 @@ std::string camera_line(const json& camera) {
                               full_text(camera["forward"]));
 }
 
+std::string animation_line(const json& animation) {
+    const auto moves = animation["moves"].get<std::vector<std::string>>();
+    return fmt::format("{}: {:.4g} s, moves {}", quoted_name(animation),
+                       animation["seconds"].get<double>(),
+                       moves.empty() ? "nothing" : fmt::format("{}", fmt::join(moves, ", ")));
+}
+
 template <class Line>
 void append_list(std::string& text, const char* title, const json& list, Line line) {
     fmt::format_to(std::back_inserter(text), "{:<12}{}\n", title, list.size());
@@ -229,6 +237,11 @@ json summary_json(const Scene& scene) {
     json cameras = json::array();
     std::transform(scene.cameras.begin(), scene.cameras.end(), std::back_inserter(cameras),
                    camera_json);
+    json animations = json::array();
+    for (const Animation& animation : scene.animations) {
+        animations.push_back(
+            {{"name", animation.name}, {"seconds", animation.seconds}, {"moves", animation.moves}});
+    }
     json extensions = json::array();
     for (const std::string& name : scene.extensions_used) {
         extensions.push_back({{"name", name}, {"understood", supports_extension(name)}});
@@ -243,7 +256,7 @@ json summary_json(const Scene& scene) {
             {"emissive", emissive_json(scene)},
             {"sky", scene.sky ? numbers(*scene.sky) : json(nullptr)},
             {"cameras", cameras},
-            {"animations", scene.animations},
+            {"animations", animations},
             {"extensions", extensions},
             {"notes", scene.notes}};
 }
@@ -269,7 +282,7 @@ std::string summary_text(const Scene& scene) {
                     ? "none"
                     : fmt::format("uniform, radiance {}", short_text(summary["sky"])));
     append_list(text, "cameras", summary["cameras"], camera_line);
-    line("animations", fmt::format("{}", scene.animations));
+    append_list(text, "animations", summary["animations"], animation_line);
     append_list(text, "extensions", summary["extensions"], [](const json& extension) {
         return extension["name"].get<std::string>() +
                (extension["understood"].get<bool>() ? "" : " (not supported)");

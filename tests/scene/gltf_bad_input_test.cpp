@@ -165,9 +165,11 @@ TEST(GltfBadInput, WrongJsonTypesEverywhere) {
         {"indices", {{"bufferView", 2}, {"componentType", ushort_type}}},
         {"values", {{"bufferView", 0}}}};
     builder.root["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
+    const int times = builder.add_accessor(builder.add_view(std::vector<float>{0, 1, 2, 3}),
+                                           float_type, "SCALAR", 4);
     builder.root["animations"] = {
         {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}},
-         {"samplers", {{{"input", 0}, {"output", 0}}}}}};
+         {"samplers", {{{"input", times}, {"output", 0}}}}}};
     builder.root["skins"] = {{{"joints", {0}}}};
     builder.root["buffers"] = {{{"byteLength", builder.binary.size()}}};
     EXPECT_EQ(builder.problem(), "");

@@ -4,6 +4,7 @@
 #include "methods/method_info.hpp"
 #include "scene/gltf.hpp"
 #include "scene/summary.hpp"
+#include "scene_options.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,9 +17,8 @@ namespace argand {
 
 namespace {
 
-struct InspectOptions {
+struct InspectOptions : SceneOptions {
     MethodTable methods;
-    std::string scene;
     bool json = false;
 };
 
@@ -65,7 +65,7 @@ std::string plan_text(const nlohmann::ordered_json& plan) {
 }
 
 void inspect(const InspectOptions& options) {
-    const Scene scene = load_gltf(options.scene);
+    const Scene scene = load_gltf(options.scene, options.seconds);
     nlohmann::ordered_json summary = summary_json(scene);
     const nlohmann::ordered_json plan = plan_json(scene, options.methods);
     if (options.json) {
@@ -82,8 +82,8 @@ void add_inspect_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand(
         "inspect",
         "Describe a scene: its contents, what Argand ignores, and what a render would require");
-    auto options = std::make_shared<InspectOptions>(InspectOptions{.methods = methods});
-    command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
+    auto options = std::make_shared<InspectOptions>(InspectOptions{SceneOptions(), methods});
+    add_scene_options(*command, *options);
     command->add_flag("--json", options->json, "Print JSON");
     command->footer("Example:\n  argand inspect assets/cornell_glass.glb");
     command->callback([options] { inspect(*options); });

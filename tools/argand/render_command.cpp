@@ -15,6 +15,7 @@
 #include "picture_size.hpp"
 #include "report.hpp"
 #include "scene/gltf.hpp"
+#include "scene_options.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -24,9 +25,8 @@ namespace argand {
 
 namespace {
 
-struct RenderOptions {
+struct RenderOptions : SceneOptions {
     MethodTable methods;
-    std::string scene;
     std::vector<std::string> outputs;
     std::string size = "512x512";
     std::string camera;
@@ -216,7 +216,7 @@ void render_file(RenderOptions& options, const CLI::App& command) {
 
     ReportTimes times;
     const Clock::time_point start = Clock::now();
-    const Scene scene = load_gltf(options.scene);
+    const Scene scene = load_gltf(options.scene, options.seconds);
     times.load = seconds_since(start);
     options.settings.camera = find_camera(scene, options.camera);
     choose_method(options, command, scene);
@@ -284,10 +284,10 @@ void render_file(RenderOptions& options, const CLI::App& command) {
 
 void add_render_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to PNG and OpenEXR");
-    auto options = std::make_shared<RenderOptions>(RenderOptions{.methods = methods});
+    auto options = std::make_shared<RenderOptions>(RenderOptions{SceneOptions(), methods});
     RenderSettings& settings = options->settings;
     settings.method = methods.begin()->name;
-    command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
+    add_scene_options(*command, *options);
     command
         ->add_option("-o,--output", options->outputs,
                      "Picture to write, .png or .exr; may be given several times (default: SCENE's "

@@ -1,0 +1,172 @@
+#include "scene/gltf_animation.hpp"
+
+#include "scene/gltf_accessor.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace argand {
+namespace {
+
+constexpr std::size_t most_keys = std::size_t(1) << 24;
+
+Interpolation interpolation_of(const GltfSource& source, const std::string& name,
+                               const std::string& what) {
+    if (name == "LINEAR" || name.empty()) {
+        return Interpolation::linear;
+    }
+    if (name == "STEP") {
+        return Interpolation::step;
+    }
+    if (name == "CUBICSPLINE") {
+        return Interpolation::cubic_spline;
+    }
+    source.fail("{} has the interpolation \"{}\", which glTF does not know", what,
+                one_line(name, 40));
+}
+
+std::vector<double> read_times(const GltfSource& source, int accessor, const std::string& what) {
+    const GltfAccessor input = open_accessor(source, accessor, "the times of " + what);
+    if (input.components != 1 || input.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+        source.fail("the times of {} are not floating-point numbers", what);
+    }
+    if (input.count == 0 || input.count > most_keys) {
+        source.fail("{} has {} keys; it must have 1 to {}", what, input.count, most_keys);
+    }
+    std::vector<double> times(input.count);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        times[i] = read_component(input, i, 0);
+        if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
+            source.fail("the times of {} do not rise: key {} is at {} s", what, i, times[i]);
+        }
+    }
+    return times;
+}
+
+KeyFrames read_keys(const GltfSource& source, const tinygltf::AnimationSampler& sampler,
+                    std::size_t width, const std::string& what) {
+    KeyFrames keys;
+    keys.width = width;
+    keys.interpolation = interpolation_of(source, sampler.interpolation, what);
+    keys.times = read_times(source, sampler.input, what);
+    const GltfAccessor output = open_accessor(source, sampler.output, "the values of " + what);
+    const std::size_t expected =
+        keys.times.size() * (keys.interpolation == Interpolation::cubic_spline ? 3 : 1);
+    if (std::size_t(output.components) != width || output.count != expected) {
+        source.fail("{} has {} values of {} numbers, but its {} keys need {} of {}", what,
+                    output.count, output.components, keys.times.size(), expected, width);
+    }
+    if (output.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
+        (output.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT && !output.normalized)) {
+        source.fail("the values of {} are neither floating-point nor normalised numbers", what);
+    }
+    keys.values.reserve(expected * width);
+    for (std::size_t i = 0; i < expected; ++i) {
+        for (std::size_t k = 0; k < width; ++k) {
+            keys.values.push_back(read_component(output, i, static_cast<int>(k)));
+            if (!std::isfinite(keys.values.back())) {
+                source.fail("value {} of {} is not finite", i, what);
+            }
+        }
+    }
+    return keys;
+}
+
+/// Throws Error unless the value of every key is a rotation.
+void check_rotations(const GltfSource& source, const KeyFrames& keys, const std::string& what) {
+    for (const double time : keys.times) {
+        const std::vector<double> r = value_at(keys, time);
+        if (!(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3] > 0)) {
+            source.fail("the rotation of {} at {} s is not a unit quaternion", what, time);
+        }
+    }
+}
+
+/// The member of `keys` to which a channel's path refers, or null.
+std::optional<KeyFrames>* property_of(NodeKeys& keys, const std::string& path) {
+    if (path == "translation") {
+        return &keys.translation;
+    }
+    if (path == "rotation") {
+        return &keys.rotation;
+    }
+    return path == "scale" ? &keys.scale : nullptr;
+}
+
+/// Reads a channel's keys. Returns null, with a note, if it moves nothing that Argand knows.
+std::optional<KeyFrames>* target_of(const GltfSource& source,
+                                    const tinygltf::AnimationChannel& channel,
+                                    std::vector<NodeKeys>& nodes, const std::string& what,
+                                    Scene& scene) {
+    if (channel.target_path == "weights") {
+        add_note(scene, "animations of morph targets are not supported yet");
+        return nullptr;
+    }
+    if (channel.target_path == "pointer") {
+        add_note(scene, "animations by KHR_animation_pointer are not supported yet");
+        return nullptr;
+    }
+    if (channel.target_node < 0) {
+        return nullptr; // an extension's target: glTF 2.0, section 5.4.1
+    }
+    if (std::size_t(channel.target_node) >= nodes.size()) {
+        source.fail("{} moves node {}, which does not exist", what, channel.target_node);
+    }
+    std::optional<KeyFrames>* target =
+        property_of(nodes[std::size_t(channel.target_node)], channel.target_path);
+    if (!target) {
+        source.fail("{} moves \"{}\", which glTF does not know", what,
+                    one_line(channel.target_path, 40));
+    }
+    if (!source.model.nodes[std::size_t(channel.target_node)].matrix.empty()) {
+        source.fail("{} moves node {}, whose transform is a matrix", what, channel.target_node);
+    }
+    return target;
+}
+
+Animation read_animation(const GltfSource& source, const tinygltf::Animation& from,
+                         const std::string& what, std::vector<NodeKeys>& nodes, Scene& scene) {
+    Animation animation;
+    animation.name = one_line(from.name);
+    for (const tinygltf::AnimationChannel& channel : from.channels) {
+        if (channel.sampler < 0 || std::size_t(channel.sampler) >= from.samplers.size()) {
+            source.fail("{} refers to sampler {}, which does not exist", what, channel.sampler);
+        }
+        std::optional<KeyFrames>* target = target_of(source, channel, nodes, what, scene);
+        if (!target) {
+            continue;
+        }
+        const std::string sampler = fmt::format("sampler {} of {}", channel.sampler, what);
+        const std::size_t width = channel.target_path == "rotation" ? 4 : 3;
+        KeyFrames keys =
+            read_keys(source, from.samplers[std::size_t(channel.sampler)], width, sampler);
+        if (width == 4) {
+            check_rotations(source, keys, sampler);
+        }
+        animation.seconds = std::max(animation.seconds, keys.times.back());
+        animation.moves.push_back(
+            fmt::format("{} of {}", channel.target_path,
+                        label("node", channel.target_node,
+                              source.model.nodes[std::size_t(channel.target_node)].name)));
+        if (*target) {
+            add_note(scene, fmt::format("several animations move the {}; the first one counts",
+                                        animation.moves.back()));
+        } else {
+            *target = std::move(keys);
+        }
+    }
+    return animation;
+}
+
+} // namespace
+
+std::vector<NodeKeys> read_animations(const GltfSource& source, Scene& scene) {
+    std::vector<NodeKeys> nodes(source.model.nodes.size());
+    for (std::size_t i = 0; i < source.model.animations.size(); ++i) {
+        const tinygltf::Animation& from = source.model.animations[i];
+        const std::string what = label("animation", static_cast<int>(i), from.name);
+        scene.animations.push_back(read_animation(source, from, what, nodes, scene));
+    }
+    return nodes;
+}
+
+} // namespace argand

@@ -1,0 +1,206 @@
+// Animations of nodes: values between keys against closed formulas, and posed scenes.
+#include "gltf_builder.hpp"
+#include "scene/key_frames.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+namespace argand {
+namespace {
+
+using namespace testing_gltf;
+using ::testing::HasSubstr;
+
+constexpr double quarter = std::numbers::pi / 2;
+
+TEST(KeyFrames, OneKeyIsConstant) {
+    for (const Interpolation how : {Interpolation::step, Interpolation::linear}) {
+        const KeyFrames keys{.times = {3}, .values = {7, 8}, .width = 2, .interpolation = how};
+        for (const double time : {-1e9, 0.0, 3.0, 1e9}) {
+            EXPECT_EQ(value_at(keys, time), (std::vector<double>{7, 8}));
+        }
+    }
+    const KeyFrames spline{
+        .times = {3}, .values = {1, 7, 1}, .interpolation = Interpolation::cubic_spline};
+    EXPECT_EQ(value_at(spline, 4)[0], 7);
+}
+
+TEST(KeyFrames, StepsAndLinesGoThroughTheirKeys) {
+    KeyFrames keys{
+        .times = {1, 2, 4}, .values = {10, 20, 60}, .interpolation = Interpolation::step};
+    EXPECT_EQ(value_at(keys, 0.5)[0], 10);
+    EXPECT_EQ(value_at(keys, 1.999)[0], 10);
+    EXPECT_EQ(value_at(keys, 2)[0], 20);
+    EXPECT_EQ(value_at(keys, 9)[0], 60);
+    keys.interpolation = Interpolation::linear;
+    EXPECT_EQ(value_at(keys, 0.5)[0], 10);
+    EXPECT_DOUBLE_EQ(value_at(keys, 1.25)[0], 12.5);
+    EXPECT_EQ(value_at(keys, 2)[0], 20);
+    EXPECT_DOUBLE_EQ(value_at(keys, 3.5)[0], 50);
+    EXPECT_EQ(value_at(keys, 4)[0], 60);
+}
+
+TEST(KeyFrames, SplinesReproduceCubicPolynomials) {
+    const auto f = [](double t) { return 2 * t * t * t - 3 * t * t + 5 * t - 1; };
+    const auto slope = [](double t) { return 6 * t * t - 6 * t + 5; };
+    KeyFrames keys{.times = {-1, 0.5, 4}, .interpolation = Interpolation::cubic_spline};
+    for (const double t : keys.times) {
+        keys.values.insert(keys.values.end(), {slope(t), f(t), slope(t)});
+    }
+    for (double t = -1; t <= 4; t += 0.125) {
+        EXPECT_NEAR(value_at(keys, t)[0], f(t), 1e-12 * (1 + std::abs(f(t)))) << t;
+    }
+}
+
+TEST(KeyFrames, RotationsTurnEvenlyTheShorterWay) {
+    // From 0 to 90 degrees about z; the second key is the same rotation with the other sign, and
+    // not of unit length.
+    const double s = std::sin(quarter / 2);
+    const double c = std::cos(quarter / 2);
+    const KeyFrames keys{.times = {0, 2}, .values = {0, 0, 0, 1, 0, 0, -3 * s, -3 * c}, .width = 4};
+    for (double t = 0; t <= 2; t += 0.25) {
+        const glm::dvec3 turned = rotation_at(keys, t) * glm::dvec3(1, 0, 0);
+        EXPECT_NEAR(turned.x, std::cos(quarter * t / 2), 1e-14) << t;
+        EXPECT_NEAR(turned.y, std::sin(quarter * t / 2), 1e-14) << t;
+    }
+    KeyFrames spline{.times = {0},
+                     .values = {0, 0, 0, 0, 0, 0, 5, 5, 0, 0, 0, 0},
+                     .width = 4,
+                     .interpolation = Interpolation::cubic_spline};
+    EXPECT_NEAR(glm::length(rotation_at(spline, 0)), 1, 1e-15);
+}
+
+/// A file with a triangle under a moving node, which tests may change.
+struct Animated {
+    GltfBuilder builder;
+
+    int add_floats(const std::vector<float>& numbers, const char* type, std::size_t count) {
+        return builder.add_accessor(builder.add_view(numbers), float_type, type, count);
+    }
+
+    /// Moves a node by keys of three numbers.
+    void animate(int node, const std::string& path, const std::vector<float>& times,
+                 const std::vector<glm::vec3>& values) {
+        const int input = add_floats(times, "SCALAR", times.size());
+        const int output = builder.add_vectors(values);
+        builder.root["animations"].push_back(
+            {{"name", path},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}},
+             {"samplers", {{{"input", input}, {"output", output}}}}});
+    }
+
+    Scene load(std::optional<double> seconds) const {
+        const TempDirectory directory;
+        return load_gltf(directory.write("scene.glb", builder.glb()), seconds);
+    }
+};
+
+Animated moving_triangle() {
+    Animated file;
+    const int node = file.builder.add_triangles(right_triangle(), {{"translation", {9, 9, 9}}});
+    file.animate(node, "translation", {1, 3}, {{0, 0, 0}, {4, 0, 2}});
+    return file;
+}
+
+TEST(Animation, MovesNodesAtATime) {
+    const Animated file = moving_triangle();
+    const auto corner = [&](std::optional<double> seconds) {
+        return corners_of(file.load(seconds), 0)[0];
+    };
+    EXPECT_EQ(corner({}), glm::vec3(9, 9, 9)); // at rest
+    EXPECT_EQ(corner(0), glm::vec3(0, 0, 0));
+    EXPECT_EQ(corner(1.5), glm::vec3(1, 0, 0.5f));
+    EXPECT_EQ(corner(100), glm::vec3(4, 0, 2));
+}
+
+TEST(Animation, MovesChildrenLightsAndCameras) {
+    Animated file = moving_triangle();
+    file.builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    file.builder.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    json& nodes = file.builder.root["nodes"];
+    nodes.push_back({{"translation", {0, 1, 0}},
+                     {"camera", 0},
+                     {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    nodes[0]["children"] = {1};
+    const Scene scene = file.load(2.0);
+    EXPECT_EQ(scene.lights[0].position, glm::vec3(2, 1, 1));
+    EXPECT_EQ(scene.cameras[0].position, glm::vec3(2, 1, 1));
+}
+
+TEST(Animation, ACameraThatIsAddedStandsStill) {
+    const Animated file = moving_triangle();
+    EXPECT_EQ(file.load(3.0).cameras[0].position, file.load({}).cameras[0].position);
+}
+
+TEST(Animation, TheFirstOneThatMovesAPropertyCounts) {
+    Animated file = moving_triangle();
+    file.animate(0, "translation", {0}, {{7, 7, 7}});
+    file.animate(0, "scale", {0}, {{2, 2, 2}});
+    const Scene scene = file.load(1.0);
+    EXPECT_EQ(corners_of(scene, 0)[1], glm::vec3(2, 0, 0));
+    EXPECT_EQ(scene.animations.size(), 3u);
+    EXPECT_EQ(scene.animations[0].seconds, 3);
+    EXPECT_EQ(scene.animations[0].moves, std::vector<std::string>{"translation of node 0"});
+    EXPECT_THAT(scene.notes, ::testing::Contains(HasSubstr("several animations move")));
+}
+
+TEST(Animation, AStillSceneIsTheSameAtAnyTime) {
+    Animated file;
+    file.builder.add_triangles(right_triangle());
+    EXPECT_EQ(file.load(5.0).positions, file.load({}).positions);
+    EXPECT_THAT(file.load(5.0).notes, ::testing::Contains(HasSubstr("there is no animation")));
+}
+
+TEST(Animation, MalformedOnesAreErrors) {
+    const auto problem = [](const auto& change) {
+        Animated file = moving_triangle();
+        change(file);
+        return file.builder.problem();
+    };
+    const auto times = [&](const std::vector<float>& keys) {
+        return problem([&](Animated& file) {
+            file.builder.root["animations"].clear();
+            file.animate(0, "scale", keys, std::vector<glm::vec3>(keys.size(), glm::vec3(1)));
+        });
+    };
+    EXPECT_EQ(times({0, 1}), "");
+    EXPECT_THAT(times({1, 1}), HasSubstr("the times of sampler 0 of animation 0 \"scale\" do not"));
+    EXPECT_THAT(times({2, 1}), HasSubstr("do not rise: key 1 is at 1 s"));
+    EXPECT_THAT(times({0, std::numeric_limits<float>::quiet_NaN()}), HasSubstr("do not rise"));
+    const auto with = [&](const char* pointer, const json& value) {
+        return problem([&](Animated& file) {
+            file.builder.root["animations"][0][json::json_pointer(pointer)] = value;
+        });
+    };
+    EXPECT_THAT(with("/channels/0/target/node", 5),
+                HasSubstr("moves node 5, which does not exist"));
+    EXPECT_THAT(with("/channels/0/target/path", "colour"), HasSubstr("moves \"colour\""));
+    EXPECT_THAT(with("/channels/0/sampler", 3), HasSubstr("sampler 3, which does not exist"));
+    EXPECT_THAT(with("/samplers/0/interpolation", "WAVY"), HasSubstr("interpolation \"WAVY\""));
+    EXPECT_THAT(with("/samplers/0/interpolation", "CUBICSPLINE"), HasSubstr("need 6 of 3"));
+    EXPECT_THAT(with("/samplers/0/input", 77), HasSubstr("accessor 77, which does not exist"));
+    EXPECT_THAT(problem([](Animated& file) {
+                    file.animate(0, "scale", {0}, {{1, std::nanf(""), 1}});
+                }),
+                HasSubstr("value 0 of sampler 0 of animation 1 \"scale\" is not finite"));
+    EXPECT_THAT(problem([](Animated& file) {
+                    json& animation = file.builder.root["animations"][0];
+                    animation["samplers"][0]["output"] =
+                        file.add_floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2);
+                    animation["channels"][0]["target"]["path"] = "rotation";
+                }),
+                HasSubstr("at 3 s is not a unit quaternion"));
+    EXPECT_THAT(problem([](Animated& file) {
+                    file.builder.root["nodes"][0] = {
+                        {"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}};
+                }),
+                HasSubstr("whose transform is a matrix"));
+}
+
+} // namespace
+} // namespace argand

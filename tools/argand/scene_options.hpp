@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace argand {
+
+/// The scene that a command reads, and the moment of its animations.
+struct SceneOptions {
+    std::string scene;
+    std::optional<double> seconds; ///< none: nodes as they rest
+};
+
+/// Adds the scene's file and --at.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+} // namespace argand
