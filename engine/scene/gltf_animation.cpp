@@ -7,7 +7,7 @@
 namespace argand {
 namespace {
 
-constexpr std::size_t most_keys = std::size_t(1) << 24;
+constexpr std::size_t most_keys = std::size_t(1) << 22; // of all animations of a file
 
 Interpolation interpolation_of(const GltfSource& source, const std::string& name,
                                const std::string& what) {
@@ -24,14 +24,20 @@ Interpolation interpolation_of(const GltfSource& source, const std::string& name
                 one_line(name, 40));
 }
 
-std::vector<double> read_times(const GltfSource& source, int accessor, const std::string& what) {
+/// Takes the keys from those that the file may still have.
+std::vector<double> read_times(const GltfSource& source, int accessor, const std::string& what,
+                               std::size_t& keys_left) {
     const GltfAccessor input = open_accessor(source, accessor, "the times of " + what);
     if (input.components != 1 || input.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) {
         source.fail("the times of {} are not floating-point numbers", what);
     }
-    if (input.count == 0 || input.count > most_keys) {
-        source.fail("{} has {} keys; it must have 1 to {}", what, input.count, most_keys);
+    if (input.count == 0) {
+        source.fail("{} has no keys", what);
     }
+    if (input.count > keys_left) {
+        source.fail("its animations have more than {} keys", most_keys);
+    }
+    keys_left -= input.count;
     std::vector<double> times(input.count);
     for (std::size_t i = 0; i < times.size(); ++i) {
         times[i] = read_component(input, i, 0);
@@ -43,11 +49,11 @@ std::vector<double> read_times(const GltfSource& source, int accessor, const std
 }
 
 KeyFrames read_keys(const GltfSource& source, const tinygltf::AnimationSampler& sampler,
-                    std::size_t width, const std::string& what) {
+                    std::size_t width, const std::string& what, std::size_t& keys_left) {
     KeyFrames keys;
     keys.width = width;
     keys.interpolation = interpolation_of(source, sampler.interpolation, what);
-    keys.times = read_times(source, sampler.input, what);
+    keys.times = read_times(source, sampler.input, what, keys_left);
     const GltfAccessor output = open_accessor(source, sampler.output, "the values of " + what);
     const std::size_t expected =
         keys.times.size() * (keys.interpolation == Interpolation::cubic_spline ? 3 : 1);
@@ -106,7 +112,7 @@ std::optional<KeyFrames>* target_of(const GltfSource& source,
         return nullptr;
     }
     if (channel.target_node < 0) {
-        return nullptr; // an extension's target: glTF 2.0, section 5.4.1
+        return nullptr; // to be ignored: glTF 2.0, section 5.4.1
     }
     if (std::size_t(channel.target_node) >= nodes.size()) {
         source.fail("{} moves node {}, which does not exist", what, channel.target_node);
@@ -124,7 +130,8 @@ std::optional<KeyFrames>* target_of(const GltfSource& source,
 }
 
 Animation read_animation(const GltfSource& source, const tinygltf::Animation& from,
-                         const std::string& what, std::vector<NodeKeys>& nodes, Scene& scene) {
+                         const std::string& what, std::vector<NodeKeys>& nodes,
+                         std::size_t& keys_left, Scene& scene) {
     Animation animation;
     animation.name = one_line(from.name);
     for (const tinygltf::AnimationChannel& channel : from.channels) {
@@ -135,10 +142,14 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
         if (!target) {
             continue;
         }
+        if (*target) {
+            add_note(scene, "several animations move one property of a node; the first one counts");
+            continue;
+        }
         const std::string sampler = fmt::format("sampler {} of {}", channel.sampler, what);
         const std::size_t width = channel.target_path == "rotation" ? 4 : 3;
-        KeyFrames keys =
-            read_keys(source, from.samplers[std::size_t(channel.sampler)], width, sampler);
+        KeyFrames keys = read_keys(source, from.samplers[std::size_t(channel.sampler)], width,
+                                   sampler, keys_left);
         if (width == 4) {
             check_rotations(source, keys, sampler);
         }
@@ -147,12 +158,7 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
             fmt::format("{} of {}", channel.target_path,
                         label("node", channel.target_node,
                               source.model.nodes[std::size_t(channel.target_node)].name)));
-        if (*target) {
-            add_note(scene, fmt::format("several animations move the {}; the first one counts",
-                                        animation.moves.back()));
-        } else {
-            *target = std::move(keys);
-        }
+        *target = std::move(keys);
     }
     return animation;
 }
@@ -161,10 +167,11 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
 
 std::vector<NodeKeys> read_animations(const GltfSource& source, Scene& scene) {
     std::vector<NodeKeys> nodes(source.model.nodes.size());
+    std::size_t keys_left = most_keys;
     for (std::size_t i = 0; i < source.model.animations.size(); ++i) {
         const tinygltf::Animation& from = source.model.animations[i];
         const std::string what = label("animation", static_cast<int>(i), from.name);
-        scene.animations.push_back(read_animation(source, from, what, nodes, scene));
+        scene.animations.push_back(read_animation(source, from, what, nodes, keys_left, scene));
     }
     return nodes;
 }

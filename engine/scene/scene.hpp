@@ -84,6 +84,7 @@ struct Scene {
     std::optional<glm::vec3> sky; ///< uniform radiance from all directions [cd/m²]
     std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none
     std::vector<Animation> animations;
+    std::optional<double> seconds;            ///< moment of the animations; none: at rest
     std::vector<std::string> extensions_used; ///< as the file lists them
     std::vector<std::string>
         notes; ///< unsupported features and added objects, one line each, for the user

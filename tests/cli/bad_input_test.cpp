@@ -106,6 +106,7 @@ TEST_F(BadInput, NumbersOutOfRange) {
               {"0", "-1", "nan", "-nan", "inf", "-inf", "1e-40", "1e999", "wide"}},
              {"--follow-roughness", "from 0 to 1", {"nan", "inf", "-0.1", "1.1", "rough"}},
              {"--seed", "from 0 to 4294967295", {"-1", "4294967296", "nan", "0.5"}},
+             {"--at", "from -1000000000 to 1000000000", {"nan", "inf", "later", "1e30"}},
              {"--exposure",
               "from -100 to 100",
               {"nan", "inf", "-inf", "1e30", "101", "much", "1x"}}}) {

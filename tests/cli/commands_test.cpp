@@ -79,7 +79,7 @@ TEST_F(Commands, SeveralOutputsHoldTheSamePictureAndItsLayers) {
 
 TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
     render_on_device("-q -o a.png --json report.json --bounces 3 --seed 7 --exposure 0.5 "
-                     "--radius 0.25 --camera 0");
+                     "--radius 0.25 --camera 0 --at 1.5");
     const nlohmann::json report = nlohmann::json::parse(read_text(file("report.json")));
     const nlohmann::json& p = report.at("parameters");
     EXPECT_EQ(p.at("method"), "footprints");
@@ -90,6 +90,7 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
     EXPECT_EQ(p.at("bounces"), 3);
     EXPECT_EQ(p.at("radius"), 0.25);
     EXPECT_EQ(p.at("seed"), 7);
+    EXPECT_EQ(p.at("at"), 1.5);
     EXPECT_EQ(p.at("exposure"), 0.5);
     EXPECT_TRUE(p.contains("camera"));
     EXPECT_TRUE(p.contains("follow_roughness"));

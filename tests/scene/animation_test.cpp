@@ -48,7 +48,9 @@ TEST(KeyFrames, SplinesReproduceCubicPolynomials) {
     const auto slope = [](double t) { return 6 * t * t - 6 * t + 5; };
     KeyFrames keys{.times = {-1, 0.5, 4}, .interpolation = Interpolation::cubic_spline};
     for (const double t : keys.times) {
-        keys.values.insert(keys.values.end(), {slope(t), f(t), slope(t)});
+        // The tangents before the first key and after the last one do not count.
+        keys.values.insert(keys.values.end(),
+                           {t == -1 ? 99 : slope(t), f(t), t == 4 ? 99 : slope(t)});
     }
     for (double t = -1; t <= 4; t += 0.125) {
         EXPECT_NEAR(value_at(keys, t)[0], f(t), 1e-12 * (1 + std::abs(f(t)))) << t;
@@ -71,6 +73,26 @@ TEST(KeyFrames, RotationsTurnEvenlyTheShorterWay) {
                      .width = 4,
                      .interpolation = Interpolation::cubic_spline};
     EXPECT_NEAR(glm::length(rotation_at(spline, 0)), 1, 1e-15);
+}
+
+TEST(KeyFrames, SplinesTellIncomingFromOutgoingTangents) {
+    // A corner at 1 s: it arrives with slope 0 and leaves with slope 8.
+    const KeyFrames keys{.times = {0, 1, 2},
+                         .values = {0, 0, 0, 0, 1, 8, 0, 1, 0},
+                         .interpolation = Interpolation::cubic_spline};
+    EXPECT_DOUBLE_EQ(value_at(keys, 0.5)[0], 0.5);
+    EXPECT_DOUBLE_EQ(value_at(keys, 1.5)[0], 2); // 1 + 8/8
+}
+
+TEST(KeyFrames, SplinesOfRotationsAreNormalised) {
+    const KeyFrames keys{.times = {0, 1},
+                         .values = {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0,  //
+                                    0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, // half a turn about z
+                         .width = 4,
+                         .interpolation = Interpolation::cubic_spline};
+    const glm::dquat half = rotation_at(keys, 0.5);
+    EXPECT_NEAR(half.z, std::sqrt(0.5), 1e-15);
+    EXPECT_NEAR(half.w, std::sqrt(0.5), 1e-15);
 }
 
 /// A file with a triangle under a moving node, which tests may change.
@@ -135,6 +157,38 @@ TEST(Animation, MovesChildrenLightsAndCameras) {
 TEST(Animation, ACameraThatIsAddedStandsStill) {
     const Animated file = moving_triangle();
     EXPECT_EQ(file.load(3.0).cameras[0].position, file.load({}).cameras[0].position);
+}
+
+TEST(Animation, ThatStartsFromNothingCanBeSeen) {
+    Animated file;
+    const int node = file.builder.add_triangles(right_triangle(), {{"scale", {0, 0, 0}}});
+    file.animate(node, "scale", {0, 1}, {{0, 0, 0}, {1, 1, 1}});
+    EXPECT_EQ(file.load(1.0).triangles.size(), 1u);
+    EXPECT_THROW(file.load({}), Error);
+}
+
+TEST(Animation, ReadsNormalisedIntegersAndSteps) {
+    Animated file = moving_triangle();
+    json& animation = file.builder.root["animations"][0];
+    const int bytes = file.builder.add_accessor(
+        file.builder.add_view(std::vector<std::int8_t>{0, 0, 127, 0, 0, 0, -128, 0}), byte_type,
+        "VEC4", 2);
+    file.builder.root["accessors"][static_cast<std::size_t>(bytes)]["normalized"] = true;
+    animation["samplers"][0]["output"] = bytes;
+    animation["samplers"][0]["interpolation"] = "STEP";
+    animation["channels"][0]["target"]["path"] = "rotation";
+    for (const double time : {0.0, 2.0, 9.0}) { // half a turn about z, either way
+        expect_near(corners_of(file.load(time), 0)[1], {8, 9, 9}, 1e-6);
+    }
+    file.builder.root["accessors"][static_cast<std::size_t>(bytes)].erase("normalized");
+    EXPECT_THAT(file.builder.problem(), HasSubstr("neither floating-point nor normalised"));
+}
+
+TEST(Animation, ThatMovesWhatIsNotSupportedIsNoted) {
+    Animated file = moving_triangle();
+    file.builder.root["animations"][0]["channels"][0]["target"]["path"] = "weights";
+    EXPECT_EQ(corners_of(file.load(2.0), 0)[0], glm::vec3(9, 9, 9));
+    EXPECT_THAT(file.load(2.0).notes, ::testing::Contains(HasSubstr("morph targets")));
 }
 
 TEST(Animation, TheFirstOneThatMovesAPropertyCounts) {

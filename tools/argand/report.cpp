@@ -78,6 +78,7 @@ Json parameters_json(const RenderReport& render) {
         {"everything", settings.everything},
         {"seed", settings.seed},
         {"camera", render.scene.cameras[settings.camera].name},
+        {"at", render.scene.seconds ? Json(*render.scene.seconds) : Json()},
         {"exposure", render.exposure}};
     if (statistics.footprint_scale) {
         parameters.update(footprints_json(settings.footprints, *statistics.footprint_scale));

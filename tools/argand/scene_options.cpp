@@ -8,8 +8,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("scene", options.scene, "glTF 2.0 file (.gltf, .glb)")->required();
     command
         .add_option("--at", options.seconds,
-                    "Second of the scene's animations (default: the scene at rest). All animations "
-                    "run at once, and stand still after their last key")
+                    "Time in the scene's animations, in seconds (default: the scene at rest). All "
+                    "animations run at once; each stands still before its first key and after its "
+                    "last one")
         ->check(number_between(-1e9, 1e9));
 }
 
