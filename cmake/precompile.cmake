@@ -1,6 +1,6 @@
 # argand_precompile(target header...): compiles these headers once for the target, before its sources. The headers come
-# from outside the tree and hardly ever change. Sources still include what they use, which tools/lint
-# checks for the engine: clang-tidy reads them without precompiled headers. With ARGAND_PCH off the function does nothing.
+# from outside the tree and hardly ever change. Sources still include what they use, which tools/lint checks for
+# the engine: clang-tidy reads them without precompiled headers. With ARGAND_PCH off the function does nothing.
 function(argand_precompile target)
     if(NOT ARGAND_PCH)
         return()
