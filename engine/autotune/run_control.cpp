@@ -19,6 +19,9 @@ constexpr double tolerance = 1.5;
 // Without a time budget a witness may take this many times as long as all else, and at least these
 // seconds.
 constexpr double most_of_witness = 2, seconds_of_witness = 2;
+// A render is overdue once it has taken so many times the promised time, and at least these
+// seconds.
+constexpr double most_of_promise = 2, least_overdue = 2;
 
 } // namespace
 
@@ -54,6 +57,10 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
     }
     if (target_.error && measured_) {
         question();
+        if (outcome_ == RunOutcome::unfinished && may_switch_ && !measured_->testimony &&
+            is_overdue()) {
+            sound_out_witness();
+        }
         if (outcome_ == RunOutcome::unfinished && witness_is_faster(done)) {
             outcome_ = RunOutcome::slow;
         }
@@ -133,11 +140,13 @@ void RunControl::measure() {
     }
     measured_ = {.passes = passes, .noise = halves_.noise(guess)};
     const bool has_witness = witness_ && witness_->images() && target_.error;
-    if (has_witness && measured_->noise <= *target_.error) {
+    if (has_witness) {
         const Image seen = darkened_by(witness_->images()->whole, guess);
-        const double bias = std::sqrt(bias_share(model_.law, passes, model_.initial_passes));
-        measured_->testimony = witness_->testimony(means, bias, seen);
         variance_of_witness_ = witness_->variance_per_pass(seen);
+        if (measured_->noise <= *target_.error) {
+            const double bias = std::sqrt(bias_share(model_.law, passes, model_.initial_passes));
+            measured_->testimony = witness_->testimony(means, bias, seen);
+        }
     }
     measured_->bias = expected_bias(guess);
     is_doubtful_ = false;
@@ -209,16 +218,37 @@ double RunControl::seconds_of_witness_left() const {
                     default_time_limit - elapsed);
 }
 
-/// Whether the witness has measured so much bias that its own method reaches the target error
-/// sooner. done: passes so far, without the pilot's.
+/// Seconds of the render so far, without those of its witness.
+double RunControl::own_seconds() const {
+    return seconds_since(start_) - (witness_ ? witness_->seconds() : 0);
+}
+
+/// Whether the render takes so much longer than promised that its error model is not to be
+/// believed. A pilot that rare bright photons have missed promises too much.
+bool RunControl::is_overdue() const {
+    return own_seconds() > std::max(most_of_promise * candidate_.seconds, least_overdue);
+}
+
+/// Renders enough of an unbiased witness to know how long its method would take.
+void RunControl::sound_out_witness() {
+    if (witness_ && witness_->is_unbiased() && witness_->passes_missing() > 0 &&
+        ask_witness(witness_->passes_missing())) {
+        measure();
+    }
+}
+
+/// Whether the method of the witness reaches the target error sooner: because the witness has
+/// measured much bias, or because the render is overdue. done: passes so far, without the pilot's.
 bool RunControl::witness_is_faster(std::uint64_t done) const {
-    if (!may_switch_ || !measured_->testimony || !witness_->is_unbiased()) {
+    if (!may_switch_ || !witness_ || !witness_->is_unbiased() || !(variance_of_witness_ > 0) ||
+        !(measured_->testimony || is_overdue())) {
         return false;
     }
-    const double elapsed = seconds_since(start_) - witness_->seconds(),
-                 each =
-                     done > 0 ? elapsed / static_cast<double>(done) : candidate_.seconds_per_pass,
-                 more = (passes_to_target() - measured_->passes) * each,
+    const double each = done > 0 ? own_seconds() / static_cast<double>(done)
+                                 : candidate_.seconds_per_pass,
+                 modelled = (passes_to_target() - measured_->passes) * each,
+                 // Nothing better is known of an overdue render than that it takes as long again.
+        more = is_overdue() ? std::max(modelled, own_seconds()) : modelled,
                  left = target_.seconds ? seconds_ - seconds_since(start_) : default_time_limit,
                  other = of_witness().seconds;
     return other < more && other <= left;

@@ -27,7 +27,7 @@ enum class RunOutcome : std::uint8_t {
     unfinished,  ///< the target error was not reached
     reached,     ///< by noise and bias, and a witness confirms it if the method has bias
     unconfirmed, ///< by noise and bias, but no witness could confirm it in time
-    slow         ///< the witness measured more bias than expected: its method gets there sooner
+    slow         ///< more bias than expected, or overdue: the witness's method gets there sooner
 };
 
 /// Controls the final render: measures its error, and decides after each pass whether to render
@@ -50,7 +50,8 @@ public:
     /// The last measurement. Nothing before both halves have a pass.
     const std::optional<MeasuredError>& measured() const { return measured_; }
     RunOutcome outcome() const { return outcome_; }
-    /// The candidate that reaches the target error with the witness's method. Requires a testimony.
+    /// The candidate that reaches the target error with the witness's method. Requires a
+    /// measurement with pictures of the witness.
     Candidate of_witness() const;
 
 private:
@@ -65,6 +66,9 @@ private:
     void question();
     bool ask_witness(double passes);
     double seconds_of_witness_left() const;
+    double own_seconds() const;
+    bool is_overdue() const;
+    void sound_out_witness();
     bool witness_is_faster(std::uint64_t done) const;
     double passes_to_target() const;
     bool takes_too_long(double times) const;

@@ -24,6 +24,8 @@ public:
     double direct_deviation = 0; // noise of the layer `direct`, which has no bias
     double path_deviation = 1, map_deviation = 0.2, map_bias = 0.05;
     double path_seconds = 0.002, map_seconds = 0.004;
+    // Maps are this much noisier after their first passes, as if those had missed rare photons.
+    double hidden_noise = 1;
     std::uint64_t interrupted_after = 1'000'000;
     std::uint64_t most_passes = 1'000'000; // of one render, as if random numbers ran out
 
@@ -47,8 +49,8 @@ public:
                 }
                 streams.insert(plan->stream);
                 const double bias = is_path ? 0 : map_bias * std::pow(plan->expected, -1 / 6.0);
-                const double deviation =
-                    (is_path ? path_deviation : map_deviation) / std::sqrt(work);
+                const double map_noise = map_deviation * (done < pilot_passes ? 1 : hidden_noise);
+                const double deviation = (is_path ? path_deviation : map_noise) / std::sqrt(work);
                 const Image pass = noisy(settings.width, settings.height, bias, deviation, ++seed_);
                 ++done;
                 const Image lamps = noisy(settings.width, settings.height, -true_radiance,
@@ -424,6 +426,29 @@ TEST(Autotune, RendersWithTheWitnessIfThatIsFaster) {
     EXPECT_EQ(tuned.candidates.front().settings.method, "path");
     EXPECT_GT(tuned.candidates[1].error, 0.02);
     EXPECT_LT(true_error(tuned.result.layers[0].image), 1.5 * 0.02);
+}
+
+TEST(Autotune, OverdueRenderGoesOnWithTheWitnessIfThatIsFaster) {
+    FakePasses fake;
+    fake.hidden_noise = 20;
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.002, .seconds = {}});
+    EXPECT_TRUE(tuned.reached());
+    EXPECT_EQ(tuned.settings.method, "path");
+    ASSERT_GE(tuned.candidates.size(), 2u);
+    EXPECT_NE(tuned.candidates[1].settings.method, "path");
+    EXPECT_GT(tuned.candidates[1].error, 0.002);
+    EXPECT_LT(true_error(tuned.result.layers[0].image), 1.5 * 0.002);
+}
+
+TEST(Autotune, OverdueRenderGoesOnIfTheWitnessIsNoFaster) {
+    FakePasses fake;
+    fake.hidden_noise = 20;
+    fake.path_deviation = 20;
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.002, .seconds = 4});
+    EXPECT_EQ(tuned.outcome, RunOutcome::unfinished);
+    EXPECT_NE(tuned.settings.method, "path");
+    // A pilot, and the passes that the witness lacked.
+    EXPECT_EQ(std::count(fake.methods.begin(), fake.methods.end(), "path"), 2);
 }
 
 TEST(Autotune, SaysWhatNoWitnessCouldConfirm) {
