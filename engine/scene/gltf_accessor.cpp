@@ -36,8 +36,10 @@ int component_count(int type) {
         return 3;
     case TINYGLTF_TYPE_VEC4:
         return 4;
+    case TINYGLTF_TYPE_MAT4:
+        return 16; // of floating-point numbers only, whose columns need no padding
     default:
-        return 0; // vertex attributes are never matrices
+        return 0; // glTF's other matrices are not used
     }
 }
 

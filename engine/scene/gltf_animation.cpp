@@ -1,6 +1,7 @@
 #include "scene/gltf_animation.hpp"
 
 #include "scene/gltf_accessor.hpp"
+#include "scene/gltf_morph.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -48,27 +49,35 @@ std::vector<double> read_times(const GltfSource& source, int accessor, const std
     return times;
 }
 
+/// What a channel moves.
+struct Target {
+    std::optional<KeyFrames>* keys = nullptr; ///< null: nothing
+    int components = 0;                       ///< of an element of the output accessor
+    std::size_t elements = 1;                 ///< of a value
+};
+
 KeyFrames read_keys(const GltfSource& source, const tinygltf::AnimationSampler& sampler,
-                    std::size_t width, const std::string& what, std::size_t& keys_left) {
+                    const Target& target, const std::string& what, std::size_t& keys_left) {
     KeyFrames keys;
-    keys.width = width;
+    keys.width = std::size_t(target.components) * target.elements;
     keys.interpolation = interpolation_of(source, sampler.interpolation, what);
     keys.times = read_times(source, sampler.input, what, keys_left);
     const GltfAccessor output = open_accessor(source, sampler.output, "the values of " + what);
-    const std::size_t expected =
-        keys.times.size() * (keys.interpolation == Interpolation::cubic_spline ? 3 : 1);
-    if (std::size_t(output.components) != width || output.count != expected) {
+    const std::size_t expected = keys.times.size() * target.elements *
+                                 (keys.interpolation == Interpolation::cubic_spline ? 3 : 1);
+    if (output.components != target.components || output.count != expected) {
         source.fail("{} has {} values of {} numbers, but its {} keys need {} of {}", what,
-                    output.count, output.components, keys.times.size(), expected, width);
+                    output.count, output.components, keys.times.size(), expected,
+                    target.components);
     }
     if (output.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
         (output.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT && !output.normalized)) {
         source.fail("the values of {} are neither floating-point nor normalised numbers", what);
     }
-    keys.values.reserve(expected * width);
+    keys.values.reserve(expected * std::size_t(target.components));
     for (std::size_t i = 0; i < expected; ++i) {
-        for (std::size_t k = 0; k < width; ++k) {
-            keys.values.push_back(read_component(output, i, static_cast<int>(k)));
+        for (int k = 0; k < target.components; ++k) {
+            keys.values.push_back(read_component(output, i, k));
             if (!std::isfinite(keys.values.back())) {
                 source.fail("value {} of {} is not finite", i, what);
             }
@@ -87,44 +96,47 @@ void check_rotations(const GltfSource& source, const KeyFrames& keys, const std:
     }
 }
 
-/// The member of `keys` to which a channel's path refers, or null.
-std::optional<KeyFrames>* property_of(NodeKeys& keys, const std::string& path) {
+/// The member of `keys` to which a channel's path refers. targets: morph targets of the node's
+/// mesh.
+Target property_of(NodeKeys& keys, const std::string& path, std::size_t targets) {
     if (path == "translation") {
-        return &keys.translation;
+        return {&keys.translation, 3};
     }
     if (path == "rotation") {
-        return &keys.rotation;
+        return {&keys.rotation, 4};
     }
-    return path == "scale" ? &keys.scale : nullptr;
+    if (path == "weights") {
+        return {&keys.weights, 1, targets};
+    }
+    return path == "scale" ? Target{&keys.scale, 3} : Target{};
 }
 
-/// Reads a channel's keys. Returns null, with a note, if it moves nothing that Argand knows.
-std::optional<KeyFrames>* target_of(const GltfSource& source,
-                                    const tinygltf::AnimationChannel& channel,
-                                    std::vector<NodeKeys>& nodes, const std::string& what,
-                                    Scene& scene) {
-    if (channel.target_path == "weights") {
-        add_note(scene, "animations of morph targets are not supported yet");
-        return nullptr;
-    }
+/// Finds what a channel moves: nothing, with a note, if it is unknown to Argand.
+Target target_of(const GltfSource& source, const tinygltf::AnimationChannel& channel,
+                 std::vector<NodeKeys>& nodes, const std::string& what, Scene& scene) {
     if (channel.target_path == "pointer") {
         add_note(scene, "animations by KHR_animation_pointer are not supported yet");
-        return nullptr;
+        return {};
     }
     if (channel.target_node < 0) {
-        return nullptr; // to be ignored: glTF 2.0, section 5.4.1
+        return {}; // to be ignored: glTF 2.0, section 5.4.1
     }
-    if (std::size_t(channel.target_node) >= nodes.size()) {
-        source.fail("{} moves node {}, which does not exist", what, channel.target_node);
+    const auto index = std::size_t(channel.target_node);
+    if (index >= nodes.size()) {
+        source.fail("{} moves node {}, which does not exist", what, index);
     }
-    std::optional<KeyFrames>* target =
-        property_of(nodes[std::size_t(channel.target_node)], channel.target_path);
-    if (!target) {
+    const std::size_t targets = morph_target_count(source, channel.target_node);
+    const Target target = property_of(nodes[index], channel.target_path, targets);
+    if (!target.keys) {
         source.fail("{} moves \"{}\", which glTF does not know", what,
                     one_line(channel.target_path, 40));
     }
-    if (!source.model.nodes[std::size_t(channel.target_node)].matrix.empty()) {
-        source.fail("{} moves node {}, whose transform is a matrix", what, channel.target_node);
+    const bool moves_weights = target.keys == &nodes[index].weights;
+    if (moves_weights && targets == 0) {
+        source.fail("{} moves the morph targets of node {}, which has none", what, index);
+    }
+    if (!moves_weights && !source.model.nodes[index].matrix.empty()) {
+        source.fail("{} moves node {}, whose transform is a matrix", what, index);
     }
     return target;
 }
@@ -138,19 +150,18 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
         if (channel.sampler < 0 || std::size_t(channel.sampler) >= from.samplers.size()) {
             source.fail("{} refers to sampler {}, which does not exist", what, channel.sampler);
         }
-        std::optional<KeyFrames>* target = target_of(source, channel, nodes, what, scene);
-        if (!target) {
+        const Target target = target_of(source, channel, nodes, what, scene);
+        if (!target.keys) {
             continue;
         }
-        if (*target) {
+        if (*target.keys) {
             add_note(scene, "several animations move one property of a node; the first one counts");
             continue;
         }
         const std::string sampler = fmt::format("sampler {} of {}", channel.sampler, what);
-        const std::size_t width = channel.target_path == "rotation" ? 4 : 3;
-        KeyFrames keys = read_keys(source, from.samplers[std::size_t(channel.sampler)], width,
+        KeyFrames keys = read_keys(source, from.samplers[std::size_t(channel.sampler)], target,
                                    sampler, keys_left);
-        if (width == 4) {
+        if (channel.target_path == "rotation") {
             check_rotations(source, keys, sampler);
         }
         animation.seconds = std::max(animation.seconds, keys.times.back());
@@ -158,7 +169,7 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
             fmt::format("{} of {}", channel.target_path,
                         label("node", channel.target_node,
                               source.model.nodes[std::size_t(channel.target_node)].name)));
-        *target = std::move(keys);
+        *target.keys = std::move(keys);
     }
     return animation;
 }

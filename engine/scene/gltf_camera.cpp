@@ -1,6 +1,6 @@
 #include "scene/gltf_camera.hpp"
 
-#include "scene/direction.hpp"
+#include "scene/placement.hpp"
 #include <cmath>
 #include <numbers>
 
@@ -8,23 +8,6 @@ namespace argand {
 namespace {
 
 bool is_positive(double value) { return value > 0 && std::isfinite(static_cast<float>(value)); }
-
-/// Places a camera; glTF's cameras look along −Z with +Y up. Returns false if the transform leaves
-/// the camera no direction.
-bool place(const GltfSource& source, const glm::dmat4& to_world, Camera& camera,
-           const std::string& what) {
-    camera.position = position_of(source, to_world, what);
-    const glm::dvec3 forward = unit_or_zero(-glm::dvec3(to_world[2]));
-    const glm::dvec3 right =
-        unit_or_zero(glm::cross(forward, unit_or_zero(glm::dvec3(to_world[1]))));
-    if (forward == glm::dvec3(0) || right == glm::dvec3(0)) {
-        return false;
-    }
-    camera.forward = glm::vec3(forward);
-    camera.right = glm::vec3(right);
-    camera.up = glm::vec3(glm::cross(right, forward));
-    return true;
-}
 
 Camera read_camera(const GltfSource& source, const tinygltf::Camera& from,
                    const std::string& what) {
@@ -57,7 +40,8 @@ Camera read_camera(const GltfSource& source, const tinygltf::Camera& from,
 } // namespace
 
 void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
-    for (const GltfNode& node : nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const GltfNode& node = nodes[i];
         const tinygltf::Node& carrier = source.model.nodes[std::size_t(node.index)];
         if (carrier.camera < 0) {
             continue;
@@ -70,7 +54,14 @@ void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes, S
         const std::string what = label("camera", carrier.camera, from.name);
         Camera camera = read_camera(source, from, what);
         camera.name = one_line(from.name.empty() ? carrier.name : from.name);
-        if (place(source, node.to_world, camera, what)) {
+        const Camera in_object_space = camera;
+        const bool has_direction = place(node.to_world, camera);
+        check_position(source, camera.position, what);
+        if (node.moves) {
+            scene.motion.cameras.push_back(
+                {static_cast<std::uint32_t>(i), scene.cameras.size(), in_object_space});
+        }
+        if (has_direction || node.moves) {
             scene.cameras.push_back(camera);
         } else {
             add_note(

@@ -1,7 +1,7 @@
 #include "scene/gltf_light.hpp"
 
-#include "scene/direction.hpp"
 #include "scene/gltf_value.hpp"
+#include "scene/placement.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,19 +49,6 @@ void read_cone(const GltfSource& source, const json* spot, Light& light, const s
     light.inner_cone_angle = std::min(static_cast<float>(inner_used), light.outer_cone_angle);
 }
 
-/// Places a light as its node does. Returns false if the transform leaves the light no direction.
-bool place(const GltfSource& source, const glm::dmat4& to_world, Light& light,
-           const std::string& what) {
-    light.position = position_of(source, to_world, what);
-    const glm::dvec3 direction =
-        unit_or_zero(-glm::dvec3(to_world[2])); // glTF's lights shine along −Z
-    if (light.kind != LightKind::point && direction == glm::dvec3(0)) {
-        return false;
-    }
-    light.direction = glm::vec3(direction);
-    return true;
-}
-
 Light read_light(const GltfSource& source, const json* object, const std::string& what,
                  Scene& scene) {
     Light light;
@@ -90,7 +77,8 @@ Light read_light(const GltfSource& source, const json* object, const std::string
 
 void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
     const json* lights = find_member(find_extension(&source.root, extension_name), "lights");
-    for (const GltfNode& node : nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const GltfNode& node = nodes[i];
         const json* reference =
             find_extension(find_element(source, "nodes", std::size_t(node.index)), extension_name);
         if (!reference) {
@@ -111,7 +99,17 @@ void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         const std::string what = label("light", static_cast<int>(index), own_name);
         Light light = read_light(source, object, what, scene);
         light.name = one_line(own_name.empty() ? carrier.name : own_name);
-        if (place(source, node.to_world, light, what)) {
+        const Light in_object_space = light;
+        const bool has_direction = place(node.to_world, light);
+        if (!has_direction) {
+            light.intensity = glm::vec3(0); // until it moves
+        }
+        check_position(source, light.position, what);
+        if (node.moves) {
+            scene.motion.lights.push_back(
+                {static_cast<std::uint32_t>(i), scene.lights.size(), in_object_space});
+        }
+        if (has_direction || node.moves) {
             scene.lights.push_back(light);
         } else {
             add_note(

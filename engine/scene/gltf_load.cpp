@@ -8,19 +8,12 @@
 #include "scene/gltf_material.hpp"
 #include "scene/gltf_mesh.hpp"
 #include "scene/gltf_node.hpp"
+#include "scene/pose.hpp"
 #include <algorithm>
+#include <utility>
 
 namespace argand {
 namespace {
-
-/// Bounds of the scene at rest, or of `posed` if nothing can be seen at rest.
-Bounds bounds_at_rest(const GltfSource& source, const std::vector<NodeKeys>& keys,
-                      const Scene& posed) {
-    Scene rest;
-    rest.materials = posed.materials;
-    add_meshes(source, flatten_nodes(source, keys, {}), rest);
-    return bounds(rest.triangles.empty() ? posed : rest);
-}
 
 /// Adds a sky where the file has no light.
 void add_missing_light(Scene& scene) {
@@ -33,6 +26,23 @@ void add_missing_light(Scene& scene) {
     }
 }
 
+bool has_area(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        if (area(scene, i) > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Keeps nodes and skins only if something moves.
+void forget_what_rests(Scene& scene) {
+    const Motion& motion = scene.motion;
+    if (motion.meshes.empty() && motion.lights.empty() && motion.cameras.empty()) {
+        scene.motion = {};
+    }
+}
+
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds) {
@@ -41,27 +51,33 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     scene.name = one_line(path.filename().string());
     scene.seconds = seconds;
     add_extensions(source, scene);
-    const std::vector<NodeKeys> keys = read_animations(source, scene);
+    std::vector<NodeKeys> keys = read_animations(source, scene);
     if (seconds && scene.animations.empty()) {
         add_note(scene, "there is no animation: the scene is the same at any time");
     }
-    const std::vector<GltfNode> nodes = flatten_nodes(source, keys, seconds);
+    const std::vector<GltfNode> nodes = read_nodes(source, std::move(keys), scene);
     add_materials(source, scene);
     add_lights(source, nodes, scene);
     add_cameras(source, nodes, scene);
     add_meshes(source, nodes, scene);
-    if (scene.triangles.empty()) {
-        source.fail(
-            "there is nothing to render: it shows no triangle that has an area and can be seen");
-    }
     add_missing_light(scene);
+    forget_what_rests(scene);
+    const Bounds at_rest = bounds(scene);
+    if (seconds) {
+        move_to(*seconds, scene);
+    }
+    if (!has_area(scene)) {
+        source.fail(
+            "there is nothing to render: it shows no triangle that has an area and can be seen{}",
+            seconds ? fmt::format(" at {} s", *seconds) : "");
+    }
     // A camera that is added sees the scene at rest, so that it stands still while objects move.
     if (scene.cameras.empty()) {
         scene.cameras.push_back(
-            frame_bounds(seconds ? bounds_at_rest(source, keys, scene) : bounds(scene)));
-        add_note(scene, seconds
-                            ? "there is no camera: one that sees the whole scene at rest is added"
-                            : "there is no camera: one that sees the whole scene is added");
+            frame_bounds(at_rest.low == at_rest.high ? bounds(scene) : at_rest));
+        add_note(scene, scene.motion.meshes.empty()
+                            ? "there is no camera: one that sees the whole scene is added"
+                            : "there is no camera: one that sees the whole scene at rest is added");
     }
     return scene;
 }

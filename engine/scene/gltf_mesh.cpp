@@ -1,10 +1,14 @@
 #include "scene/gltf_mesh.hpp"
 
 #include "scene/direction.hpp"
-#include "scene/gltf_accessor.hpp"
+#include "scene/gltf_morph.hpp"
+#include "scene/gltf_skin.hpp"
+#include "scene/gltf_surface.hpp"
+#include "scene/placement.hpp"
+#include "scene/pose.hpp"
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -12,145 +16,11 @@ namespace {
 constexpr std::size_t most_triangles = std::size_t(1) << 27; // 134 million, about 10 GB on the host
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// The opened accessors of a primitive.
-struct Surface {
-    GltfAccessor positions;
-    GltfAccessor normals;
-    GltfAccessor indices;
-    bool has_normals = false;
-    bool has_indices = false;
-    int mode = TINYGLTF_MODE_TRIANGLES;
-    std::size_t corner_count = 0; ///< indices, or vertices if there are no indices
-};
-
-struct Transform {
-    glm::dmat4 point;
-    glm::dmat3 normal;
-    bool mirrors; ///< flips the orientation of triangles
-};
-
-std::size_t triangle_count(int mode, std::size_t corners) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
-        return corners / 3;
-    }
-    return corners < 3 ? 0 : corners - 2;
-}
-
-/// Corners of triangle `i` as positions in the index list: glTF 2.0, section 3.7.2.1.
-glm::uvec3 triangle_corners(int mode, std::uint32_t i) {
-    switch (mode) {
-    case TINYGLTF_MODE_TRIANGLE_STRIP:
-        return {i, i + 1 + i % 2, i + 2 - i % 2};
-    case TINYGLTF_MODE_TRIANGLE_FAN:
-        return {i + 1, i + 2, 0};
-    default:
-        return {3 * i, 3 * i + 1, 3 * i + 2};
-    }
-}
-
-Transform make_transform(const glm::dmat4& to_world) {
-    // Normals are transformed by the matrix of cofactors, which is the inverse transpose up to a
-    // factor and exists for singular matrices too. The matrix is first scaled to about 1 so that
-    // products neither overflow nor vanish.
-    glm::dmat3 m(to_world);
-    double largest = 0;
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            largest = std::max(largest, std::abs(m[column][row]));
-        }
-    }
-    if (largest > 0 && std::isfinite(largest)) {
-        m = glm::dmat3(m[0] / largest, m[1] / largest, m[2] / largest);
-    }
-    const bool mirrors = glm::dot(m[0], glm::cross(m[1], m[2])) < 0;
-    const double sign = mirrors ? -1 : 1;
-    const glm::dmat3 cofactors(sign * glm::cross(m[1], m[2]), sign * glm::cross(m[2], m[0]),
-                               sign * glm::cross(m[0], m[1]));
-    return {to_world, cofactors, mirrors};
-}
-
-bool fits_float(const glm::dvec3& v) {
-    constexpr double largest = std::numeric_limits<float>::max();
-    return std::abs(v.x) <= largest && std::abs(v.y) <= largest &&
-           std::abs(v.z) <= largest; // false for NaN
-}
-
 bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return glm::cross(b - a, c - a) != glm::dvec3(0);
 }
 
-int attribute(const tinygltf::Primitive& primitive, const char* name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? -1 : found->second;
-}
-
-bool is_attribute_type(const GltfAccessor& accessor) {
-    return accessor.components == 3 &&
-           accessor.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
-
-/// Opens the primitive's accessors. Returns false if it has no surface (points, lines, no
-/// positions, no corners).
-bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive,
-                  const std::string& name, Surface& surface, Scene& scene) {
-    surface.mode = primitive.mode;
-    if (surface.mode < TINYGLTF_MODE_POINTS || surface.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-        source.fail("{} has a primitive of mode {}, which glTF does not know", name, surface.mode);
-    }
-    if (surface.mode < TINYGLTF_MODE_TRIANGLES) {
-        add_note(scene, "points and lines are not rendered");
-        return false;
-    }
-    if (attribute(primitive, "POSITION") < 0) {
-        add_note(scene,
-                 fmt::format("{} has a primitive without positions; it is not rendered", name));
-        return false;
-    }
-    surface.positions =
-        open_accessor(source, attribute(primitive, "POSITION"), "the positions of " + name);
-    if (!is_attribute_type(surface.positions)) {
-        source.fail(
-            "the positions of {} are not three-component vectors of a type that glTF allows", name);
-    }
-    surface.has_normals = attribute(primitive, "NORMAL") >= 0;
-    if (surface.has_normals) {
-        surface.normals =
-            open_accessor(source, attribute(primitive, "NORMAL"), "the normals of " + name);
-        if (!is_attribute_type(surface.normals)) {
-            source.fail(
-                "the normals of {} are not three-component vectors of a type that glTF allows",
-                name);
-        }
-        if (surface.normals.count != surface.positions.count) {
-            source.fail("{} has {} positions but {} normals", name, surface.positions.count,
-                        surface.normals.count);
-        }
-    }
-    surface.corner_count = surface.positions.count;
-    surface.has_indices = primitive.indices >= 0;
-    if (surface.has_indices) {
-        surface.indices = open_accessor(source, primitive.indices, "the indices of " + name);
-        const int type = surface.indices.component_type;
-        if (surface.indices.components != 1 || (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-                                                type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-                                                type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
-            source.fail("the indices of {} are not unsigned integers", name);
-        }
-        surface.corner_count = surface.indices.count;
-    }
-    if (surface.mode == TINYGLTF_MODE_TRIANGLES && surface.corner_count % 3 != 0) {
-        add_note(scene,
-                 fmt::format(
-                     "{} has {} corners, which is no multiple of three; the last ones are ignored",
-                     name, surface.corner_count));
-    }
-    return triangle_count(surface.mode, surface.corner_count) > 0;
-}
-
 void note_ignored_features(const tinygltf::Primitive& primitive, Scene& scene) {
-    if (!primitive.targets.empty()) {
-        add_note(scene, "morph targets are not supported yet: meshes keep their base shape");
-    }
     for (const auto& [name, accessor] : primitive.attributes) {
         if (name.starts_with("COLOR_")) {
             add_note(scene, "vertex colours are not supported yet and are ignored");
@@ -207,106 +77,192 @@ void check_triangle_count(const GltfSource& source, const std::vector<GltfNode>&
     }
 }
 
-/// A vertex of the current primitive, in world space.
+/// A vertex of the current primitive.
 struct StagedVertex {
-    glm::vec3 position;
-    glm::vec3 normal;
+    std::size_t in_file;           ///< index in the primitive's accessors
+    glm::vec3 position, normal;    ///< in world space, or of a moving mesh in object space
     std::uint32_t in_scene = none; ///< index in the scene, once a triangle uses the vertex
 };
 
 /// Adds meshes; holds the state that outlives a primitive.
-struct MeshAdder {
-    const GltfSource& source;
-    Scene& scene;
-    std::vector<StagedVertex> staged;
-    std::vector<std::uint32_t>
-        staged_as; ///< For each vertex of the primitive its index in `staged`, or `none`.
-    std::size_t without_area = 0;
-    std::size_t invisible = 0; ///< primitives whose alpha is 0 or below their cutoff
+class MeshAdder {
+public:
+    MeshAdder(const GltfSource& source, Scene& scene) : source_(source), scene_(scene) {}
 
-    StagedVertex read_vertex(const Surface& surface, const Transform& transform, std::size_t vertex,
-                             const std::string& name) const {
+    /// Adds a primitive whose vertices stay where they are. Leaves out triangles without area.
+    void add(const Surface& surface, const VertexTransform& transform, std::uint32_t material,
+             const std::string& name) {
+        const auto read = [&](std::size_t vertex) {
+            return read_world(surface, transform, vertex, name);
+        };
+        for_each_triangle(surface, transform.mirrors, name, read, [&](const glm::uvec3& corners) {
+            if (!has_area(staged_[corners.x].position, staged_[corners.y].position,
+                          staged_[corners.z].position)) {
+                ++without_area_;
+                return;
+            }
+            glm::uvec3 triangle(0);
+            for (int k = 0; k < 3; ++k) {
+                triangle[k] = add_vertex(staged_[corners[k]]);
+            }
+            scene_.triangles.push_back(triangle);
+            scene_.triangle_material.push_back(material);
+        });
+    }
+
+    /// Adds a primitive with all its triangles: one without area now may have some later. Fills in
+    /// what `mesh` lacks, and returns the index of each vertex in the primitive's accessors. The
+    /// vertices wait to be placed.
+    std::vector<std::size_t> add_moving(const Surface& surface, std::uint32_t material,
+                                        MovingMesh& mesh) {
+        mesh.first_vertex = scene_.positions.size();
+        mesh.first_triangle = scene_.triangles.size();
+        std::vector<std::size_t> vertices;
+        const auto read = [&](std::size_t vertex) {
+            return read_object(surface, vertex, mesh.name);
+        };
+        for_each_triangle(surface, false, mesh.name, read, [&](const glm::uvec3& corners) {
+            glm::uvec3 triangle(0);
+            for (int k = 0; k < 3; ++k) {
+                StagedVertex& vertex = staged_[corners[k]];
+                if (vertex.in_scene == none) {
+                    mesh.positions.push_back(vertex.position);
+                    mesh.normals.push_back(vertex.normal);
+                    vertices.push_back(vertex.in_file);
+                }
+                triangle[k] = add_vertex(vertex);
+            }
+            scene_.triangles.push_back(triangle);
+            scene_.triangle_material.push_back(material);
+        });
+        mesh.triangles = scene_.triangles.size() - mesh.first_triangle;
+        return vertices;
+    }
+
+    void count_invisible() { ++invisible_; }
+
+    /// Adds notes about what was left out.
+    void add_notes() const {
+        if (invisible_ > 0) {
+            scene_.notes.push_back(
+                fmt::format("{} primitive{} left out because alpha makes {} invisible", invisible_,
+                            invisible_ == 1 ? " is" : "s are", invisible_ == 1 ? "it" : "them"));
+        }
+        if (without_area_ > 0) {
+            scene_.notes.push_back(fmt::format("{} triangle{} without area {} left out",
+                                               without_area_, without_area_ == 1 ? "" : "s",
+                                               without_area_ == 1 ? "is" : "are"));
+        }
+    }
+
+private:
+    glm::dvec3 read_normal(const Surface& surface, std::size_t vertex,
+                           const std::string& name) const {
+        if (!surface.has_normals) {
+            return glm::dvec3(0);
+        }
+        const glm::dvec3 normal = read_vec3(surface.normals, vertex);
+        if (!is_finite(normal)) {
+            source_.fail("vertex {} of {} has a normal that is not finite", vertex, name);
+        }
+        return normal;
+    }
+
+    StagedVertex read_world(const Surface& surface, const VertexTransform& transform,
+                            std::size_t vertex, const std::string& name) const {
         const glm::dvec3 local = read_vec3(surface.positions, vertex);
         const glm::dvec3 position(transform.point * glm::dvec4(local, 1));
         if (!fits_float(position)) {
-            source.fail("vertex {} of {} has a position that is not finite{}", vertex, name,
-                        is_finite(local) ? " in world space" : "");
+            source_.fail("vertex {} of {} has a position that is not finite{}", vertex, name,
+                         is_finite(local) ? " in world space" : "");
         }
-        glm::vec3 normal(0);
-        if (surface.has_normals) {
-            const glm::dvec3 local_normal = read_vec3(surface.normals, vertex);
-            if (!is_finite(local_normal)) {
-                source.fail("vertex {} of {} has a normal that is not finite", vertex, name);
-            }
-            normal = glm::vec3(unit_or_zero(transform.normal * local_normal));
-        }
-        return {glm::vec3(position), normal, none};
+        const glm::dvec3 normal = transform.normal * read_normal(surface, vertex, name);
+        return {vertex, glm::vec3(position), glm::vec3(unit_or_zero(normal))};
     }
 
-    std::uint32_t stage_corner(const Surface& surface, const Transform& transform,
-                               std::uint32_t corner, const std::string& name) {
+    StagedVertex read_object(const Surface& surface, std::size_t vertex,
+                             const std::string& name) const {
+        const glm::dvec3 position = read_vec3(surface.positions, vertex);
+        if (!fits_float(position)) {
+            source_.fail("vertex {} of {} has a position that is not finite", vertex, name);
+        }
+        return {vertex, glm::vec3(position), glm::vec3(read_normal(surface, vertex, name))};
+    }
+
+    template <class Read>
+    std::uint32_t stage_corner(const Surface& surface, std::uint32_t corner,
+                               const std::string& name, const Read& read) {
         const std::size_t vertex =
             surface.has_indices ? read_index(surface.indices, corner) : corner;
         if (vertex >= surface.positions.count) {
-            source.fail("{} has index {}, but only {} vertices", name, vertex,
-                        surface.positions.count);
+            source_.fail("{} has index {}, but only {} vertices", name, vertex,
+                         surface.positions.count);
         }
-        if (staged_as[vertex] == none) {
-            staged.push_back(read_vertex(surface, transform, vertex, name));
-            staged_as[vertex] = static_cast<std::uint32_t>(staged.size() - 1);
+        if (staged_as_[vertex] == none) {
+            staged_.push_back(read(vertex));
+            staged_as_[vertex] = static_cast<std::uint32_t>(staged_.size() - 1);
         }
-        return staged_as[vertex];
+        return staged_as_[vertex];
+    }
+
+    /// Calls `take` for each triangle with its corners' indices in `staged_`.
+    template <class Read, class Take>
+    void for_each_triangle(const Surface& surface, bool mirrors, const std::string& name,
+                           const Read& read, const Take& take) {
+        const std::size_t triangles = triangle_count(surface.mode, surface.corner_count);
+        if (staged_as_.size() < surface.positions.count) {
+            staged_as_.resize(surface.positions.count, none);
+        }
+        for (std::uint32_t i = 0; i < triangles; ++i) {
+            glm::uvec3 corners = triangle_corners(surface.mode, i);
+            if (mirrors) {
+                std::swap(corners.y, corners.z);
+            }
+            for (int k = 0; k < 3; ++k) {
+                corners[k] = stage_corner(surface, corners[k], name, read);
+            }
+            take(corners);
+        }
+        // Reset only the entries in use: many primitives may share one long vertex buffer.
+        for (std::size_t corner = 0; corner < surface.corner_count; ++corner) {
+            staged_as_[surface.has_indices ? read_index(surface.indices, corner) : corner] = none;
+        }
+        staged_.clear();
     }
 
     std::uint32_t add_vertex(StagedVertex& vertex) const {
         if (vertex.in_scene == none) {
-            vertex.in_scene = static_cast<std::uint32_t>(scene.positions.size());
-            scene.positions.push_back(vertex.position);
-            scene.normals.push_back(vertex.normal);
+            vertex.in_scene = static_cast<std::uint32_t>(scene_.positions.size());
+            scene_.positions.push_back(vertex.position);
+            scene_.normals.push_back(vertex.normal);
         }
         return vertex.in_scene;
     }
 
-    void add(const Surface& surface, const Transform& transform, std::uint32_t material,
-             const std::string& name) {
-        const std::size_t triangles = triangle_count(surface.mode, surface.corner_count);
-        if (staged_as.size() < surface.positions.count) {
-            staged_as.resize(surface.positions.count, none);
-        }
-        for (std::uint32_t i = 0; i < triangles; ++i) {
-            glm::uvec3 corners = triangle_corners(surface.mode, i);
-            if (transform.mirrors) {
-                std::swap(corners.y, corners.z);
-            }
-            for (int k = 0; k < 3; ++k) {
-                corners[k] = stage_corner(surface, transform, corners[k], name);
-            }
-            if (has_area(staged[corners.x].position, staged[corners.y].position,
-                         staged[corners.z].position)) {
-                glm::uvec3 triangle(0);
-                for (int k = 0; k < 3; ++k) {
-                    triangle[k] = add_vertex(staged[corners[k]]);
-                }
-                scene.triangles.push_back(triangle);
-                scene.triangle_material.push_back(material);
-            } else {
-                ++without_area;
-            }
-        }
-        // Reset only the entries in use: many primitives may share one long vertex buffer.
-        for (std::size_t corner = 0; corner < surface.corner_count; ++corner) {
-            staged_as[surface.has_indices ? read_index(surface.indices, corner) : corner] = none;
-        }
-        staged.clear();
-    }
+    const GltfSource& source_;
+    Scene& scene_;
+    std::vector<StagedVertex> staged_;
+    /// For each vertex of the primitive its index in `staged_`, or `none`.
+    std::vector<std::uint32_t> staged_as_;
+    std::size_t without_area_ = 0;
+    std::size_t invisible_ = 0; ///< primitives whose alpha is 0 or below their cutoff
 };
+
+/// The morph targets of a node's mesh have an effect, now or later.
+bool is_morphed(const MotionNode& node) {
+    return node.keys.weights.has_value() ||
+           std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; });
+}
 
 } // namespace
 
 void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
     check_triangle_count(source, nodes);
-    MeshAdder adder{source, scene, {}, {}, 0, 0};
-    for (const GltfNode& node : nodes) {
+    MeshAdder adder(source, scene);
+    Skins skins(source, nodes);
+    const Pose rest = pose_at(scene.motion, {});
+    for (std::size_t number = 0; number < nodes.size(); ++number) {
+        const GltfNode& node = nodes[number];
         const tinygltf::Node& shown = source.model.nodes[std::size_t(node.index)];
         if (shown.mesh < 0) {
             continue;
@@ -315,37 +271,42 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
             source.fail("{} refers to mesh {}, which does not exist",
                         label("node", node.index, shown.name), shown.mesh);
         }
-        if (shown.skin >= 0) {
-            add_note(
-                scene,
-                "skins are not supported yet: meshes keep the pose in which they were modelled");
-        }
         const tinygltf::Mesh& mesh = source.model.meshes[std::size_t(shown.mesh)];
         const std::string name = label("mesh", shown.mesh, mesh.name);
-        const Transform transform = make_transform(node.to_world);
+        const VertexTransform transform = vertex_transform(node.to_world);
+        const MotionNode& motion = scene.motion.nodes[number];
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             Surface surface;
-            if (open_surface(source, primitive, name, surface, scene)) {
-                note_ignored_features(primitive, scene);
-                const std::uint32_t material = material_of(source, primitive, name, scene);
-                if (scene.materials[material].coverage > 0) {
-                    adder.add(surface, transform, material, name);
-                } else {
-                    ++adder.invisible;
-                }
+            if (!open_surface(source, primitive, name, surface, scene)) {
+                continue;
+            }
+            note_ignored_features(primitive, scene);
+            const std::uint32_t material = material_of(source, primitive, name, scene);
+            if (!(scene.materials[material].coverage > 0)) {
+                adder.count_invisible();
+                continue;
+            }
+            if (shown.skin < 0 && !node.moves && !is_morphed(motion)) {
+                adder.add(surface, transform, material, name);
+                continue;
+            }
+            MovingMesh moving{.name = name, .node = static_cast<std::uint32_t>(number)};
+            const std::vector<std::size_t> vertices = adder.add_moving(surface, material, moving);
+            bool moves = node.moves || motion.keys.weights.has_value();
+            if (shown.skin >= 0) {
+                moving.skin = skins.number_of(shown.skin, scene);
+                moving.joint_weights =
+                    skins.weights_of(shown.skin, primitive, vertices, name, scene);
+                moves = motion.keys.weights.has_value() || skins.moves(shown.skin);
+            }
+            moving.targets = read_morph_targets(source, primitive, surface, vertices, name);
+            place(moving, rest, scene);
+            if (moves) {
+                scene.motion.meshes.push_back(std::move(moving));
             }
         }
     }
-    if (adder.invisible > 0) {
-        scene.notes.push_back(fmt::format(
-            "{} primitive{} left out because alpha makes {} invisible", adder.invisible,
-            adder.invisible == 1 ? " is" : "s are", adder.invisible == 1 ? "it" : "them"));
-    }
-    if (adder.without_area > 0) {
-        scene.notes.push_back(fmt::format("{} triangle{} without area {} left out",
-                                          adder.without_area, adder.without_area == 1 ? "" : "s",
-                                          adder.without_area == 1 ? "is" : "are"));
-    }
+    adder.add_notes();
 }
 
 } // namespace argand

@@ -1,8 +1,10 @@
 #include "scene/gltf_node.hpp"
 
 #include "scene/direction.hpp"
+#include "scene/gltf_morph.hpp"
+#include "scene/pose.hpp"
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -16,12 +18,9 @@ void check_length(const GltfSource& source, int index, const char* what,
     }
 }
 
-/// A node's transform relative to its parent, as the file states it at rest.
-struct LocalTransform {
-    std::optional<glm::dmat4> matrix; ///< instead of the others
-    std::optional<glm::dquat> rotation;
-    std::vector<double> translation, scale; ///< three numbers, or none
-};
+glm::dvec3 vector_or(const std::vector<double>& numbers, const glm::dvec3& otherwise) {
+    return numbers.empty() ? otherwise : glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
 
 LocalTransform rest_transform(const GltfSource& source, int index) {
     const tinygltf::Node& node = source.model.nodes[std::size_t(index)];
@@ -29,8 +28,9 @@ LocalTransform rest_transform(const GltfSource& source, int index) {
     check_length(source, index, "translation", node.translation, 3);
     check_length(source, index, "rotation", node.rotation, 4);
     check_length(source, index, "scale", node.scale, 3);
-    LocalTransform local{
-        .matrix = {}, .rotation = {}, .translation = node.translation, .scale = node.scale};
+    LocalTransform local{.matrix = {},
+                         .translation = vector_or(node.translation, glm::dvec3(0)),
+                         .scale = vector_or(node.scale, glm::dvec3(1))};
     if (!node.matrix.empty()) {
         local.matrix = glm::dmat4(1);
         for (int i = 0; i < 16; ++i) {
@@ -48,38 +48,6 @@ LocalTransform rest_transform(const GltfSource& source, int index) {
         local.rotation = glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
     }
     return local;
-}
-
-void pose(LocalTransform& local, const NodeKeys& keys, double seconds) {
-    if (keys.translation) {
-        local.translation = value_at(*keys.translation, seconds);
-    }
-    if (keys.rotation) {
-        local.rotation = rotation_at(*keys.rotation, seconds);
-    }
-    if (keys.scale) {
-        local.scale = value_at(*keys.scale, seconds);
-    }
-}
-
-glm::dmat4 to_matrix(const LocalTransform& local) {
-    if (local.matrix) {
-        return *local.matrix;
-    }
-    glm::dmat4 transform(1);
-    if (local.rotation) {
-        transform = glm::mat4_cast(*local.rotation);
-    }
-    if (!local.scale.empty()) {
-        for (int axis = 0; axis < 3; ++axis) {
-            transform[axis] *= local.scale[std::size_t(axis)];
-        }
-    }
-    if (!local.translation.empty()) {
-        transform[3] =
-            glm::dvec4(local.translation[0], local.translation[1], local.translation[2], 1);
-    }
-    return transform;
 }
 
 std::vector<int> root_nodes(const GltfSource& source) {
@@ -110,46 +78,52 @@ std::vector<int> root_nodes(const GltfSource& source) {
 
 } // namespace
 
-std::vector<GltfNode> flatten_nodes(const GltfSource& source, const std::vector<NodeKeys>& keys,
-                                    std::optional<double> seconds) {
+std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys> keys,
+                                 Scene& scene) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<GltfNode> flat;
     std::vector<bool> seen(nodes.size(), false);
-    std::vector<GltfNode> waiting; // an explicit stack, because files may nest arbitrarily deep
-    const auto push = [&](const std::vector<int>& indices, const glm::dmat4& parent) {
+    struct Waiting {
+        int index, parent;
+    };
+    std::vector<Waiting> waiting; // an explicit stack, because files may nest arbitrarily deep
+    const auto push = [&](const std::vector<int>& indices, int parent) {
         for (auto i = indices.rbegin(); i != indices.rend(); ++i) {
             waiting.push_back({*i, parent});
         }
     };
-    push(root_nodes(source), glm::dmat4(1));
+    push(root_nodes(source), -1);
     while (!waiting.empty()) {
-        const GltfNode next = waiting.back();
+        const auto [index, parent] = waiting.back();
         waiting.pop_back();
-        if (next.index < 0 || std::size_t(next.index) >= nodes.size()) {
-            source.fail("its scene refers to node {}, which does not exist", next.index);
+        if (index < 0 || std::size_t(index) >= nodes.size()) {
+            source.fail("its scene refers to node {}, which does not exist", index);
         }
-        if (seen[std::size_t(next.index)]) {
+        if (seen[std::size_t(index)]) {
             source.fail("{} is reached twice: it has two parents, or is its own ancestor",
-                        label("node", next.index, nodes[std::size_t(next.index)].name));
+                        label("node", index, nodes[std::size_t(index)].name));
         }
-        seen[std::size_t(next.index)] = true;
-        LocalTransform local = rest_transform(source, next.index);
-        if (seconds) {
-            pose(local, keys[std::size_t(next.index)], *seconds);
-        }
-        flat.push_back({next.index, next.to_world * to_matrix(local)});
-        push(nodes[std::size_t(next.index)].children, flat.back().to_world);
+        seen[std::size_t(index)] = true;
+        push(nodes[std::size_t(index)].children, static_cast<int>(flat.size()));
+        flat.push_back({index, glm::dmat4(1), false});
+        scene.motion.nodes.push_back({.parent = parent,
+                                      .rest = rest_transform(source, index),
+                                      .weights = rest_weights(source, index),
+                                      .keys = std::move(keys[std::size_t(index)])});
+    }
+    const Pose rest = pose_at(scene.motion, {});
+    const std::vector<bool> moves = moving_nodes(scene.motion);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        flat[i].to_world = rest.world_from_node[i];
+        flat[i].moves = moves[i];
     }
     return flat;
 }
 
-glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world,
-                      const std::string& what) {
-    const glm::vec3 position{glm::dvec3(to_world[3])};
+void check_position(const GltfSource& source, const glm::vec3& position, const std::string& what) {
     if (!is_finite(position)) {
         source.fail("{} has a position that is not finite", what);
     }
-    return position;
 }
 
 } // namespace argand

@@ -5,21 +5,20 @@
 
 namespace argand {
 
-/// A node of the loaded scene with its transform to world space.
+/// A node of the loaded scene.
 struct GltfNode {
-    int index;
-    glm::dmat4 to_world;
+    int index;           ///< in the file
+    glm::dmat4 to_world; ///< at rest
+    bool moves;          ///< the transform changes with time
 };
 
 /// All nodes of the loaded scene (the default one, else the first, else all root nodes), parents
-/// before children, in the file's order. With `seconds` they are posed as the keys of each node say
-/// for that time, else as they rest. Throws Error if a node does not exist or is reached twice
-/// (a cycle or two parents).
-std::vector<GltfNode> flatten_nodes(const GltfSource& source, const std::vector<NodeKeys>& keys,
-                                    std::optional<double> seconds);
+/// before children, in the file's order. Adds them to the scene's motion in the same order. Throws
+/// Error if a node does not exist or is reached twice (a cycle or two parents).
+std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys> keys,
+                                 Scene& scene);
 
-/// Position that a node's transform gives to the object `what`. Throws Error if it is not finite.
-glm::vec3 position_of(const GltfSource& source, const glm::dmat4& to_world,
-                      const std::string& what);
+/// Throws Error if the position that a node gives to the object `what` is not finite.
+void check_position(const GltfSource& source, const glm::vec3& position, const std::string& what);
 
 } // namespace argand

@@ -1,5 +1,9 @@
 #pragma once
 
+#include "scene/camera.hpp"
+#include "scene/light.hpp"
+#include "scene/motion.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -33,32 +37,6 @@ struct Material {
     std::optional<Phong> phong; ///< if present, replaces metal, dielectric and transmission
 };
 
-enum class LightKind : std::uint32_t { point, spot, directional };
-
-/// KHR_lights_punctual in world space.
-struct Light {
-    std::string name;
-    LightKind kind = LightKind::point;
-    glm::vec3 position{0};         ///< point, spot
-    glm::vec3 direction{0, 0, -1}; ///< unit, direction in which light travels: spot, directional
-    glm::vec3 intensity{1};        ///< colour × intensity: [cd] point and spot, [lux] directional
-    float inner_cone_angle = 0;    ///< [rad] spot
-    float outer_cone_angle = 0.7853982f; ///< [rad] spot
-};
-
-enum class CameraKind : std::uint32_t { perspective, orthographic };
-
-/// A camera in world space; right, up and forward are orthonormal.
-struct Camera {
-    std::string name;
-    CameraKind kind = CameraKind::perspective;
-    glm::vec3 position{0};
-    glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-    float vertical_angle = 0.7853982f; ///< [rad], perspective: full vertical angle of view
-    float vertical_extent = 1;         ///< orthographic: half the visible height (glTF ymag)
-    float aspect = 0;                  ///< width / height as the file states it; 0: not stated
-};
-
 /// An animation of the file.
 struct Animation {
     std::string name;
@@ -71,8 +49,8 @@ struct Bounds {
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
 };
 
-/// Immutable description of a file's contents at one moment on the host: triangles in world space,
-/// materials, lights, cameras.
+/// A file's contents on the host at one moment: triangles in world space, materials, lights,
+/// cameras. move_to() changes the moment.
 struct Scene {
     std::string name;                  ///< file name without directory
     std::vector<glm::vec3> positions;  ///< vertices, world space
@@ -85,6 +63,7 @@ struct Scene {
     std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none
     std::vector<Animation> animations;
     std::optional<double> seconds;            ///< moment of the animations; none: at rest
+    Motion motion;                            ///< what is elsewhere at other moments
     std::vector<std::string> extensions_used; ///< as the file lists them
     std::vector<std::string>
         notes; ///< unsupported features and added objects, one line each, for the user

@@ -195,10 +195,31 @@ std::string camera_line(const json& camera) {
 }
 
 std::string animation_line(const json& animation) {
-    const auto moves = animation["moves"].get<std::vector<std::string>>();
-    return fmt::format("{}: {:.4g} s, moves {}", quoted_name(animation),
-                       animation["seconds"].get<double>(),
-                       moves.empty() ? "nothing" : fmt::format("{}", fmt::join(moves, ", ")));
+    constexpr std::size_t most_listed = 8;
+    auto moves = animation["moves"].get<std::vector<std::string>>();
+    const std::size_t count = moves.size();
+    moves.resize(std::min(count, most_listed));
+    return fmt::format(
+        "{}: {:.4g} s, moves {}{}", quoted_name(animation), animation["seconds"].get<double>(),
+        moves.empty() ? "nothing" : fmt::format("{}", fmt::join(moves, ", ")),
+        count > most_listed ? fmt::format(", and {} more", count - most_listed) : "");
+}
+
+json motion_json(const Motion& motion) {
+    std::size_t vertices = 0;
+    for (const MovingMesh& mesh : motion.meshes) {
+        vertices += mesh.positions.size();
+    }
+    return {{"vertices", vertices},
+            {"skins", motion.skins.size()},
+            {"lights", motion.lights.size()},
+            {"cameras", motion.cameras.size()}};
+}
+
+std::string motion_line(const json& motion) {
+    return fmt::format("{} vertices, {} skins, {} lights, {} cameras",
+                       motion["vertices"].get<std::size_t>(), motion["skins"].get<std::size_t>(),
+                       motion["lights"].get<std::size_t>(), motion["cameras"].get<std::size_t>());
 }
 
 template <class Line>
@@ -257,6 +278,7 @@ json summary_json(const Scene& scene) {
             {"sky", scene.sky ? numbers(*scene.sky) : json(nullptr)},
             {"cameras", cameras},
             {"animations", animations},
+            {"moving", motion_json(scene.motion)},
             {"extensions", extensions},
             {"notes", scene.notes}};
 }
@@ -283,6 +305,9 @@ std::string summary_text(const Scene& scene) {
                     : fmt::format("uniform, radiance {}", short_text(summary["sky"])));
     append_list(text, "cameras", summary["cameras"], camera_line);
     append_list(text, "animations", summary["animations"], animation_line);
+    if (!scene.animations.empty()) {
+        line("moving", motion_line(summary["moving"]));
+    }
     append_list(text, "extensions", summary["extensions"], [](const json& extension) {
         return extension["name"].get<std::string>() +
                (extension["understood"].get<bool>() ? "" : " (not supported)");

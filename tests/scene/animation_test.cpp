@@ -1,6 +1,7 @@
 // Animations of nodes: values between keys against closed formulas, and posed scenes.
-#include "gltf_builder.hpp"
+#include "animated.hpp"
 #include "scene/key_frames.hpp"
+#include "scene/pose.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -95,31 +96,6 @@ TEST(KeyFrames, SplinesOfRotationsAreNormalised) {
     EXPECT_NEAR(half.w, std::sqrt(0.5), 1e-15);
 }
 
-/// A file with a triangle under a moving node, which tests may change.
-struct Animated {
-    GltfBuilder builder;
-
-    int add_floats(const std::vector<float>& numbers, const char* type, std::size_t count) {
-        return builder.add_accessor(builder.add_view(numbers), float_type, type, count);
-    }
-
-    /// Moves a node by keys of three numbers.
-    void animate(int node, const std::string& path, const std::vector<float>& times,
-                 const std::vector<glm::vec3>& values) {
-        const int input = add_floats(times, "SCALAR", times.size());
-        const int output = builder.add_vectors(values);
-        builder.root["animations"].push_back(
-            {{"name", path},
-             {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}},
-             {"samplers", {{{"input", input}, {"output", output}}}}});
-    }
-
-    Scene load(std::optional<double> seconds) const {
-        const TempDirectory directory;
-        return load_gltf(directory.write("scene.glb", builder.glb()), seconds);
-    }
-};
-
 Animated moving_triangle() {
     Animated file;
     const int node = file.builder.add_triangles(right_triangle(), {{"translation", {9, 9, 9}}});
@@ -186,9 +162,56 @@ TEST(Animation, ReadsNormalisedIntegersAndSteps) {
 
 TEST(Animation, ThatMovesWhatIsNotSupportedIsNoted) {
     Animated file = moving_triangle();
-    file.builder.root["animations"][0]["channels"][0]["target"]["path"] = "weights";
+    file.builder.root["animations"][0]["channels"][0]["target"]["path"] = "pointer";
     EXPECT_EQ(corners_of(file.load(2.0), 0)[0], glm::vec3(9, 9, 9));
-    EXPECT_THAT(file.load(2.0).notes, ::testing::Contains(HasSubstr("morph targets")));
+    EXPECT_THAT(file.load(2.0).notes, ::testing::Contains(HasSubstr("KHR_animation_pointer")));
+}
+
+TEST(Animation, TurnsTrianglesWhereANodeMirrors) {
+    Animated file;
+    const int node = file.builder.add_triangles(right_triangle());
+    file.animate(node, "scale", {0, 2}, {{1, 1, 1}, {-1, 1, 1}});
+    for (const double time : {0.0, 0.5, 1.5, 2.0, 0.5}) {
+        EXPECT_GT(winding_normal(file.load(time), 0).z, 0) << time;
+    }
+    // Back and forth in one scene.
+    Scene scene = file.load({});
+    for (const double time : {2.0, 1.5, 0.0, 1.0, 0.5, 2.0}) {
+        move_to(time, scene);
+        EXPECT_EQ(winding_normal(scene, 0).z > 0, time != 1) << time;
+    }
+}
+
+TEST(Animation, AMomentDoesNotDependOnThoseBefore) {
+    Animated file = moving_triangle();
+    file.animate(0, "scale", {0, 2}, {{1, 2, 3}, {-3, -2, -1}});
+    file.builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 5}}};
+    file.builder.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    Scene scene = file.load({});
+    for (const double time : {3.0, 0.25, 1.5, 0.0}) { // at 1.5 s the light has no direction
+        move_to(time, scene);
+        const Scene fresh = file.load(time);
+        EXPECT_EQ(scene.positions, fresh.positions);
+        EXPECT_EQ(scene.triangles, fresh.triangles);
+        EXPECT_EQ(scene.lights[0].direction, fresh.lights[0].direction);
+        EXPECT_EQ(scene.lights[0].intensity, fresh.lights[0].intensity);
+        EXPECT_EQ(scene.lights[0].intensity.r > 0, time != 1.5);
+    }
+}
+
+TEST(Animation, WhatRestsIsNotKeptForMotion) {
+    Animated file;
+    file.builder.add_triangles(right_triangle());
+    EXPECT_TRUE(file.load({}).motion.nodes.empty());
+    const int still = file.builder.add_triangles(right_triangle());
+    const int moving = file.builder.add_triangles(right_triangle());
+    file.animate(moving, "translation", {0, 1}, {{0, 0, 0}, {1, 1, 1}});
+    const Scene scene = file.load({});
+    ASSERT_EQ(scene.motion.meshes.size(), 1u);
+    EXPECT_EQ(scene.motion.meshes[0].node, static_cast<std::uint32_t>(moving));
+    EXPECT_EQ(scene.motion.meshes[0].first_triangle, static_cast<std::size_t>(still) + 1);
 }
 
 TEST(Animation, TheFirstOneThatMovesAPropertyCounts) {

@@ -133,7 +133,7 @@ TEST(GltfBadInput, WrongTypes) {
                 HasSubstr("positions of mesh 0 are not three-component"));
     EXPECT_THAT(problem_with("/accessors/1/type", "SCALAR"),
                 HasSubstr("normals of mesh 0 are not three-component"));
-    EXPECT_THAT(problem_with("/accessors/0/type", "MAT4"), HasSubstr("does not allow there"));
+    EXPECT_THAT(problem_with("/accessors/0/type", "MAT3"), HasSubstr("does not allow there"));
     EXPECT_THAT(problem_with("/accessors/0/type", "VEC9"), HasSubstr("Unsupported `type`"));
     EXPECT_THAT(problem_with("/accessors/0/componentType", uint_type),
                 HasSubstr("not three-component vectors of a type"));

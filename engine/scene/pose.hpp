@@ -1,0 +1,32 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace argand {
+
+/// The nodes of a scene at one moment, in the order of Motion::nodes.
+struct Pose {
+    std::vector<glm::dmat4> world_from_node;
+    std::vector<std::vector<double>> morph_weights;
+};
+
+/// The pose at a time in seconds, finite; none: at rest. Before the first key of a property and
+/// after its last one, that key's value counts.
+Pose pose_at(const Motion& motion, std::optional<double> seconds);
+
+/// Whether each node's transform to world space changes with time.
+std::vector<bool> moving_nodes(const Motion& motion);
+
+/// Places the vertices of one moving mesh in the scene, in double precision, and turns its
+/// triangles where the node mirrors. Throws Error if a position is not finite.
+void place(MovingMesh& mesh, const Pose& pose, Scene& scene);
+
+/// Moves the scene's meshes, lights and cameras to a moment. Nothing else changes. A light that its
+/// node leaves no direction is dark, a camera looks along −Z. Throws Error if a position is not
+/// finite.
+void move_to(double seconds, Scene& scene);
+
+} // namespace argand
