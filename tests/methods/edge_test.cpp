@@ -146,6 +146,25 @@ TEST_P(Edge, CoincidentTrianglesWithoutEnd) {
     EXPECT_RELATIVE(radiance(scene, few, {0.3f, 4, 0.1f}, {0, 0, 0}).g, 0.5 / pi * 2, 1e-3);
 }
 
+// Moving objects may shrink to nothing.
+TEST_P(Edge, TrianglesWithoutAreaAreNotSeen) {
+    const Scene scene = room_scene();
+    Scene with = scene;
+    const auto first = static_cast<std::uint32_t>(with.positions.size());
+    const glm::vec3 point = scene.positions[0], line = scene.positions[scene.triangles[0].y];
+    with.positions.insert(with.positions.end(), {point, point, line});
+    with.normals.insert(with.normals.end(), 3, glm::vec3(0));
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        with.triangles.emplace_back(first, first + 1, i % 2 == 0 ? first : first + 2);
+        with.triangle_material.push_back(
+            i % static_cast<std::uint32_t>(scene.materials.size())); // the lamp's as well
+    }
+    const RenderResult result = render(with, settings());
+    expect_sum_of_layers(result);
+    const Image &image = layer(result, ""), expected = layer(render(scene, settings()), "");
+    EXPECT_LT(rel_mse(image, expected, expected), 1e-4);
+}
+
 TEST_P(Edge, InterruptKeepsWhatIsFinished) {
     const Scene scene = box_scene(emitter(glm::vec3(1)));
     RenderSettings long_one = settings(64, 4096);
