@@ -116,6 +116,7 @@ Json render_report(const RenderReport& render) {
                    {"wall_seconds",
                     {{"load", render.times.load},
                      {"open_device", render.times.open},
+                     {"update", render.times.update},
                      {"render", render.times.render},
                      {"write", render.times.write}}},
                    {"stages", stages},

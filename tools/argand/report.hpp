@@ -10,7 +10,7 @@ namespace argand {
 
 /// Wall-clock seconds of the parts of `argand render`.
 struct ReportTimes {
-    double load = 0, open = 0, render = 0, write = 0;
+    double load = 0, open = 0, update = 0, render = 0, write = 0;
 };
 
 /// A finished render.

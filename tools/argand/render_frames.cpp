@@ -1,0 +1,115 @@
+#include "render_frames.hpp"
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "frames.hpp"
+#include "method_options.hpp"
+#include "scene/pose.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace argand {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<std::string>& patterns, std::uint64_t frame) {
+    std::vector<std::string> names;
+    names.reserve(patterns.size());
+    for (const std::string& pattern : patterns) {
+        names.push_back(frame_name(pattern, frame));
+    }
+    return names;
+}
+
+bool all_exist(const std::vector<std::string>& files) {
+    return std::all_of(files.begin(), files.end(),
+                       [](const std::string& file) { return std::filesystem::exists(file); });
+}
+
+/// A file to which each frame adds a line.
+class FrameReports {
+public:
+    FrameReports(const std::string& path, bool continues) : path_(path) {
+        if (!path.empty()) {
+            out_.open(path, continues ? std::ios::app : std::ios::trunc);
+            check();
+        }
+    }
+
+    void add(const nlohmann::ordered_json& report) {
+        if (!path_.empty()) {
+            out_ << report.dump() << std::endl;
+            check();
+        }
+    }
+
+private:
+    void check() const {
+        if (!out_) {
+            fail("writing '{}': the disk is full, or it cannot be written to; no more frames are "
+                 "rendered",
+                 path_);
+        }
+    }
+
+    std::string path_;
+    std::ofstream out_;
+};
+
+} // namespace
+
+void check_frames(const RenderOptions& options, const CLI::App& command) {
+    if (options.frames.empty()) {
+        for (const char* option : {"--fps", "--seed-per-frame", "--continue"}) {
+            if (is_given(command, option)) {
+                throw UsageError(
+                    fmt::format("reading {}: it needs --frames A:B, the frames to render", option));
+            }
+        }
+        return;
+    }
+    parse_frame_range(options.frames);
+    if (options.seconds) {
+        throw UsageError("reading --at: with --frames, frame k is at k / --fps seconds; leave one "
+                         "of the two out");
+    }
+    for (const std::string& output : options.outputs) {
+        check_frame_pattern(output);
+    }
+}
+
+void render_frames(const RenderOptions& options, const CLI::App& command) {
+    const FrameRange range = parse_frame_range(options.frames);
+    RenderJob job = open_job(options, command);
+    FrameReports reports(options.report, options.continues);
+    for (std::uint64_t frame = range.first; frame < range.end; ++frame) {
+        const std::vector<std::string> outputs = names_of(options.outputs, frame);
+        if (options.continues && all_exist(outputs)) {
+            continue;
+        }
+        const Clock::time_point start = Clock::now();
+        job.device->reset_stage_times();
+        move_to(static_cast<double>(frame) / options.frames_per_second, job.scene);
+        job.times.update = seconds_since(start);
+        if (options.seed_per_frame) {
+            job.settings.seed = options.settings.seed + static_cast<std::uint32_t>(frame);
+        }
+        const Rendered rendered =
+            render_picture(job, fmt::format("frame {} of {}", frame, options.frames));
+        if (rendered.result.statistics.interrupted) {
+            fail("rendering '{}': interrupted in frame {}, which is not written; --continue goes "
+                 "on there",
+                 options.scene, frame);
+        }
+        write_picture(job, rendered, outputs);
+        nlohmann::ordered_json report{{"frame", frame}};
+        report.update(report_on(job, rendered, outputs));
+        reports.add(report);
+        tell_of(job, rendered, outputs, seconds_since(start));
+        job.times.load = job.times.open = 0; // they are the first frame's
+    }
+}
+
+} // namespace argand

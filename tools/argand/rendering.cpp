@@ -1,0 +1,223 @@
+#include "rendering.hpp"
+
+#include "backend_options.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/interrupt.hpp"
+#include "base/progress.hpp"
+#include "image/files.hpp"
+#include "method_options.hpp"
+#include "picture_size.hpp"
+#include "scene/gltf.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace argand {
+
+namespace {
+
+std::size_t find_camera(const Scene& scene, const std::string& choice) {
+    if (choice.empty()) {
+        return 0;
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (scene.cameras[i].name == choice) {
+            return i;
+        }
+    }
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
+    if (error == std::errc() && end == choice.data() + choice.size() &&
+        index < scene.cameras.size()) {
+        return index;
+    }
+    fail("choosing camera '{}' of '{}': there is none of that name or index; `argand inspect` "
+         "lists its {} cameras",
+         choice, scene.name, scene.cameras.size());
+}
+
+/// Picks the method if it is left to Argand and is not autotuned. Options that the user has set and
+/// the method does not have keep the default method.
+void choose_method(RenderSettings& settings, const RenderOptions& options, const CLI::App& command,
+                   const Scene& scene) {
+    if (is_given(command, "--method") || is_autotuned(options, command)) {
+        return;
+    }
+    const MethodInfo& method = method_for(scene, options.settings, options.methods);
+    const std::vector<const Option*> all = options.methods.options();
+    if (std::none_of(all.begin(), all.end(), [&](const Option* option) {
+            return !method.option(option->name) && is_given(command, "--" + option->name);
+        })) {
+        settings.method = method.name;
+    }
+}
+
+Rendered render_on(Device& device, const RenderJob& job, const std::string& work) {
+    const RenderOptions& options = job.options;
+    std::optional<Progress> progress;
+    const OnProgress on_progress = [&](double done) {
+        progress->update(done);
+        return !interrupted();
+    };
+    if (!is_autotuned(options, job.command)) {
+        progress.emplace(work, options.quiet);
+        return {.result =
+                    render(device, job.scene, job.settings, on_progress, nullptr, options.methods),
+                .settings = job.settings,
+                .tuned = {},
+                .notes = {}};
+    }
+    // How long pilots take shows only as they run.
+    progress.emplace("trying methods", options.quiet);
+    bool picked_one = false;
+    const Target target{.error = options.target_error,
+                        .seconds = options.settings.budget,
+                        .methods = options.methods};
+    const UserSet user_set{.method = is_given(job.command, "--method"),
+                           .samples = is_given(job.command, "--spp"),
+                           .photons = is_given(job.command, "--photons")};
+    const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
+        return render(
+            device, job.scene, settings,
+            [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass,
+            options.methods);
+    };
+    AutotunedRender tuned = autotune(
+        passes, job.scene, job.settings, user_set, target, [&](const AutotunedRender& picked) {
+            progress.reset();
+            if (!options.quiet) {
+                fmt::print(stderr, "argand: picked {}\n", describe_pick(picked));
+            }
+            progress.emplace(work, options.quiet);
+            picked_one = true;
+        });
+    Rendered rendered{
+        .result = std::move(tuned.result), .settings = tuned.settings, .tuned = {}, .notes = {}};
+    rendered.settings.budget = target.seconds;
+    rendered.tuned = std::move(tuned);
+    return rendered;
+}
+
+/// Notes for the user on a render that took this time.
+std::vector<std::string> notes_on(const Rendered& rendered, MethodTable methods, double seconds) {
+    constexpr double clearly_more = 1.2;
+    const RenderSettings& settings = rendered.settings;
+    const std::uint64_t passes = rendered.result.statistics.passes;
+    std::vector<std::string> notes;
+    if (rendered.tuned) {
+        notes.push_back(describe_outcome(*rendered.tuned));
+    }
+    if (settings.budget && seconds > clearly_more * *settings.budget) {
+        notes.push_back(fmt::format(
+            "rendering took {:.3g} s in {} pass{}, not the {:.3g} s of "
+            "--budget; passes are shorter "
+            "with a lower --spp{}",
+            seconds, passes, passes == 1 ? "" : "es", *settings.budget,
+            methods.at(settings.method).option("photons") ? " or fewer --photons" : ""));
+    }
+    return notes;
+}
+
+/// Tells the user, unless to be quiet.
+void print_notes(const RenderOptions& options, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        if (!options.quiet) {
+            fmt::print(stderr, "argand: note: {}\n", note);
+        }
+    }
+}
+
+} // namespace
+
+bool is_autotuned(const RenderOptions& options, const CLI::App& command) {
+    return options.target_error || (options.settings.budget && !is_given(command, "--method"));
+}
+
+RenderJob open_job(const RenderOptions& options, const CLI::App& command) {
+    RenderJob job{.options = options,
+                  .command = command,
+                  .settings = options.settings,
+                  .scene = {},
+                  .device = nullptr,
+                  .times = {}};
+    const PictureSize size = parse_picture_size(options.size);
+    job.settings.width = size.width;
+    job.settings.height = size.height;
+    const Clock::time_point start = Clock::now();
+    job.scene = load_gltf(options.scene, options.seconds);
+    job.times.load = seconds_since(start);
+    job.settings.camera = find_camera(job.scene, options.camera);
+    choose_method(job.settings, options, command, job.scene);
+    print_notes(options, job.scene.notes);
+    const Clock::time_point opened = Clock::now();
+    job.device = open_backend(options.backend, options.device, options.quiet);
+    job.times.open = seconds_since(opened);
+    return job;
+}
+
+Rendered render_picture(RenderJob& job, const std::string& work) {
+    const RenderOptions& options = job.options;
+    Clock::time_point start = Clock::now();
+    Rendered rendered;
+    try {
+        rendered = render_on(*job.device, job, work);
+    } catch (const DeviceFault& fault) {
+        job.device = open_after_fault(options.backend, options.device, fault);
+        start = Clock::now();
+        rendered = render_on(*job.device, job, work);
+    }
+    job.times.render = seconds_since(start);
+    rendered.notes = notes_on(rendered, options.methods, job.times.render);
+    return rendered;
+}
+
+void write_picture(RenderJob& job, const Rendered& rendered,
+                   const std::vector<std::string>& outputs) {
+    const Clock::time_point start = Clock::now();
+    for (const std::string& output : outputs) {
+        write_image(output, rendered.result.layers, job.options.exposure);
+    }
+    job.times.write = seconds_since(start);
+}
+
+nlohmann::ordered_json report_on(const RenderJob& job, const Rendered& rendered,
+                                 const std::vector<std::string>& outputs) {
+    nlohmann::ordered_json report =
+        render_report({.device = *job.device,
+                       .scene = job.scene,
+                       .method = job.options.methods.at(rendered.settings.method),
+                       .settings = rendered.settings,
+                       .exposure = job.options.exposure,
+                       .outputs = outputs,
+                       .statistics = rendered.result.statistics,
+                       .times = job.times});
+    for (const std::string& note : rendered.notes) {
+        report["notes"].push_back(note);
+    }
+    if (rendered.tuned) {
+        report["aim"] = autotune_report(*rendered.tuned, job.options.methods);
+    }
+    return report;
+}
+
+void tell_of(const RenderJob& job, const Rendered& rendered,
+             const std::vector<std::string>& outputs, double seconds) {
+    const RenderStatistics& statistics = rendered.result.statistics;
+    if (statistics.non_finite > 0) {
+        fmt::print(
+            stderr,
+            "argand: note: {} samples were not finite and are left out; please report the scene\n",
+            statistics.non_finite);
+    }
+    print_notes(job.options, rendered.notes);
+    if (!job.options.quiet) {
+        fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(outputs, ", "),
+                   rendered.settings.method, rendered.settings.width, rendered.settings.height,
+                   job.device->info().name, seconds,
+                   statistics.interrupted ? " (interrupted: the passes so far)" : "");
+    }
+}
+
+} // namespace argand

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "autotune/autotune.hpp"
+#include "report.hpp"
+#include "scene_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace argand {
+
+/// What the user asked `argand render` for.
+struct RenderOptions : SceneOptions {
+    MethodTable methods;
+    std::vector<std::string> outputs;
+    std::string size = "512x512";
+    std::string camera;
+    std::string backend = "auto";
+    std::string device;
+    std::string report;
+    float exposure = 0;
+    bool quiet = false;
+    std::optional<double> target_error;
+    std::string frames; ///< "A:B"; empty: one picture
+    double frames_per_second = 24;
+    bool seed_per_frame = false, continues = false;
+    RenderSettings settings;
+
+    const MethodInfo& method() const { return methods.at(settings.method); }
+};
+
+/// Whether Argand is to choose the method or the numbers of photons and samples.
+bool is_autotuned(const RenderOptions& options, const CLI::App& command);
+
+/// What all pictures of a command share.
+struct RenderJob {
+    const RenderOptions& options;
+    const CLI::App& command;
+    RenderSettings settings; ///< those of the options, but for what the scene decides
+    Scene scene;
+    std::unique_ptr<Device> device;
+    ReportTimes times; ///< of the last picture
+};
+
+/// Loads the scene, chooses what the scene decides, and opens the device. Prints the scene's notes.
+RenderJob open_job(const RenderOptions& options, const CLI::App& command);
+
+/// A rendered picture.
+struct Rendered {
+    RenderResult result;
+    RenderSettings settings;              ///< with what autotuning chose
+    std::optional<AutotunedRender> tuned; ///< how it chose, if it did
+    std::vector<std::string> notes;       ///< for the user
+};
+
+/// Renders the scene as it is. work: shown while it runs.
+Rendered render_picture(RenderJob& job, const std::string& work);
+
+/// Writes the picture to each output.
+void write_picture(RenderJob& job, const Rendered& rendered,
+                   const std::vector<std::string>& outputs);
+
+/// The report of a picture that is written.
+nlohmann::ordered_json report_on(const RenderJob& job, const Rendered& rendered,
+                                 const std::vector<std::string>& outputs);
+
+/// Tells the user of a picture that is written, and what is to be noted, unless to be quiet.
+void tell_of(const RenderJob& job, const Rendered& rendered,
+             const std::vector<std::string>& outputs, double seconds);
+
+} // namespace argand
