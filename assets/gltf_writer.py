@@ -201,6 +201,7 @@ class Scene:
     def __init__(self):
         self.nodes, self.meshes, self.materials, self.lights, self.cameras = [], [], [], [], []
         self.accessors, self.views, self.data = [], [], b""
+        self.samplers, self.channels = [], []
 
     def add(self, name, mesh, material):
         self.materials.append({"name": name, **material})
@@ -215,15 +216,16 @@ class Scene:
                                                           "material": len(self.materials) - 1}]})
         self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
 
-    def _accessor(self, rows, component, kind, code, target):
+    def _accessor(self, rows, component, kind, code, target=None):
         self.data += b"\0" * (-len(self.data) % 4)
         packed = b"".join(struct.pack("<%d%s" % (len(row), code), *row) for row in rows)
         accessor = {"bufferView": len(self.views), "componentType": component, "count": len(rows), "type": kind}
         if code == "f":
-            stored = list(struct.iter_unpack("<3f", packed))
+            stored = list(struct.iter_unpack("<%df" % len(rows[0]), packed))
             accessor["min"] = [min(column) for column in zip(*stored)]
             accessor["max"] = [max(column) for column in zip(*stored)]
-        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed), "target": target})
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed)}
+        self.views.append({**view, "target": target} if target else view)
         self.data += packed
         self.accessors.append(accessor)
         return len(self.accessors) - 1
@@ -251,6 +253,15 @@ class Scene:
         self.lights.append(light)
         self.nodes.append(node)
 
+    def animate(self, node, path, keys):
+        """Moves a node, by name, along straight lines between keys: pairs of a time in seconds and a value."""
+        times = self._accessor([(rounded(time),) for time, _ in keys], 5126, "SCALAR", "f")
+        values = self._accessor([tuple(rounded(x) for x in value) for _, value in keys], 5126,
+                                "VEC%d" % len(keys[0][1]), "f")
+        names = [n["name"] for n in self.nodes]
+        self.channels.append({"sampler": len(self.samplers), "target": {"node": names.index(node), "path": path}})
+        self.samplers.append({"input": times, "output": values})
+
     def document(self):
         extensions = {name for material in self.materials for name in material.get("extensions", {})}
         document = {"asset": {"version": "2.0", "generator": "Argand make_scenes.py"}}
@@ -264,6 +275,8 @@ class Scene:
                            ("cameras", self.cameras), ("accessors", self.accessors), ("bufferViews", self.views)):
             if value:
                 document[key] = value
+        if self.channels:
+            document["animations"] = [{"samplers": self.samplers, "channels": self.channels}]
         document["buffers"] = [{"byteLength": len(self.data)}]
         return document
 

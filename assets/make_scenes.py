@@ -344,9 +344,21 @@ def shuffled_walls():
     return scene
 
 
+def moving_light():
+    """A point light that circles above a glass sphere once in two seconds."""
+    scene = cornell()
+    scene.add("tall box", tall_box(), lambertian(WHITE))
+    scene.add("glass sphere", resting_sphere(0.4, 0.35, 0.3), glass(0.8))
+    circle = [(0.55 * math.cos(math.pi * k / 16), 1.6, 0.15 + 0.55 * math.sin(math.pi * k / 16)) for k in range(33)]
+    scene.light("point", 2, circle[0])
+    scene.animate("point", "translation", [(k / 16, place) for k, place in enumerate(circle)])
+    return scene
+
+
 BINARY = (cornell_point, cornell_area, cornell_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
           inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
-          glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls)
+          glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls,
+          moving_light)
 READABLE = (plane_point, closed_box)
 
 

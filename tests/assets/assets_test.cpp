@@ -50,6 +50,7 @@ const std::vector<Expected> scenes = {
     {"dark_room.glb", 26, 3, 1, 0},
     {"gloss_only.glb", 26, 3, 1, 0},
     {"shuffled_walls.glb", 4122, 11, 1, 0},
+    {"moving_light.glb", 2902, 7, 0, 1},
 };
 
 std::set<std::string> scene_files(const fs::path& where) {
