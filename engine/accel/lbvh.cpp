@@ -54,11 +54,11 @@ void fit(Device& device, const Lbvh& bvh, const Leaves& leaves) {
 
 } // namespace
 
-Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays) {
+Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, const LbvhUse& use) {
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
     Lbvh bvh{.order = device.allocate("lbvh order", bound * sizeof(std::uint32_t)),
              .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
-    if (for_rays) {
+    if (use.rays) {
         bvh.costs = device.allocate("lbvh costs", bound * sizeof(ForestCost));
         bvh.parents = device.allocate("lbvh parents", bound * sizeof(std::uint32_t));
     }
@@ -81,8 +81,18 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool fo
              count);
     radix_sort_pairs(device, codes, bvh.order, count, code_bits);
     const Buffer distances = code_distances(device, codes, count, false);
+    if (use.refit) {
+        bvh.distances = device.allocate("lbvh distances", bound * sizeof(std::uint32_t));
+        device.copy({distances, 0, bvh.distances.size()}, bvh.distances);
+    }
     fit(device, bvh, {boxes, distances, count, false});
     return bvh;
+}
+
+void refit_lbvh(Device& device, const Lbvh& bvh, const Buffer& boxes, const Count& count) {
+    if (count.bound > 0) {
+        fit(device, bvh, {boxes, bvh.distances, count, false});
+    }
 }
 
 Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool codes64) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/lbvh.hpp"
 #include "device/count.hpp"
 #include "device/device.hpp"
 
@@ -10,13 +11,26 @@ struct TriangleBvh {
     Buffer nodes;     ///< RayNode per inner node
     Buffer triangles; ///< RayTriangle, in the order of the leaves
     std::uint32_t triangle_count = 0;
+    Lbvh binary; ///< the tree from which `nodes` follow; empty unless the triangles move
 };
 
 /// Builds the structure on the device; records only. positions: vec4 (xyz) per vertex; triangles:
-/// uvec4 (three vertices, material) per triangle. Without triangles rays hit nothing. Throws Error
-/// for more than max_ray_nodes triangles.
+/// uvec4 (three vertices, material) per triangle. moves: refit_triangle_bvh() is to be called.
+/// Without triangles rays hit nothing. Throws Error for more than max_ray_nodes triangles.
 TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Buffer& triangles,
-                               std::uint32_t count);
+                               std::uint32_t count, bool moves = false);
+
+/// Fits the structure to the same triangles at other positions, or with their vertices in another
+/// order. Rays then hit the same as with a structure that is built anew; but the farther triangles
+/// have moved from their neighbours, the more nodes they visit: see traversal_cost(). Requires a
+/// structure built for triangles that move. Records only.
+void refit_triangle_bvh(Device& device, const TriangleBvh& bvh, const Buffer& positions,
+                        const Buffer& triangles);
+
+/// Expected cost of a ray that meets the box of all triangles, in nodes visited, by the surface
+/// area heuristic; 0 for fewer than two triangles. Requires a structure built for triangles that
+/// move. Waits for the device.
+double traversal_cost(Device& device, const TriangleBvh& bvh);
 
 /// Working memory of traversal. A ray that uses up its steps in one dispatch is suspended, and the
 /// next dispatch of the same call resumes it. `unfinished` counts rays that are not done then

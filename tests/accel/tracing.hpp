@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace argand {
 
@@ -24,6 +25,7 @@ struct Tracer {
         : device(on), bvh(build_triangle_bvh(on, upload(on, "positions", mesh.positions),
                                              upload(on, "triangles", mesh.triangles),
                                              static_cast<std::uint32_t>(mesh.triangles.size()))) {}
+    Tracer(Device& on, TriangleBvh built) : device(on), bvh(std::move(built)) {}
 
     Traversal traversal(std::size_t rays, const TraceOptions& options) const {
         Traversal result = make_traversal(device, rays);

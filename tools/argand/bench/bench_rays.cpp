@@ -134,6 +134,10 @@ std::vector<BenchRow> bench_rays(Device& device) {
     const double seconds = median_device_seconds(
         device, nothing, [&] { bvh = build_triangle_bvh(device, positions, triangles, count); });
     rows.push_back(make_row("bvh build", count, seconds, "triangles/s"));
+    const TriangleBvh moving = build_triangle_bvh(device, positions, triangles, count, true);
+    const double refit_seconds = median_device_seconds(
+        device, nothing, [&] { refit_triangle_bvh(device, moving, positions, triangles); });
+    rows.push_back(make_row("bvh refit", count, refit_seconds, "triangles/s"));
 
     std::vector<std::uint32_t> all_rays(std::uint64_t(edge) * edge);
     std::iota(all_rays.begin(), all_rays.end(), 0u);
