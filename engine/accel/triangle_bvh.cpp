@@ -95,12 +95,7 @@ double traversal_cost(Device& device, const TriangleBvh& bvh) {
     if (bvh.triangle_count < 2) {
         return 0;
     }
-    const ForestCost cost = download<ForestCost>(device, bvh.binary.costs, 1)[0];
-    const LbvhNode root = download<LbvhNode>(device, bvh.binary.nodes, 1)[0];
-    const double x = double(root.high_x) - root.low_x, y = double(root.high_y) - root.low_y,
-                 z = double(root.high_z) - root.low_z;
-    const double half_area = x * y + y * z + z * x;
-    return half_area > 0 ? cost.one / half_area : 0;
+    return download<ForestCost>(device, bvh.binary.costs, 1)[0].one;
 }
 
 } // namespace argand

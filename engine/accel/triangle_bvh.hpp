@@ -27,9 +27,11 @@ TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Bu
 void refit_triangle_bvh(Device& device, const TriangleBvh& bvh, const Buffer& positions,
                         const Buffer& triangles);
 
-/// Expected cost of a ray that meets the box of all triangles, in nodes visited, by the surface
-/// area heuristic; 0 for fewer than two triangles. Requires a structure built for triangles that
-/// move. Waits for the device.
+/// Cost of the structure by the surface area heuristic: the half areas of its nodes, and half of
+/// those of its triangles' boxes. Random lines through space visit nodes in proportion to it. It is
+/// not divided by the area of the root, which grows where an object leaves the others and spoils
+/// the nodes that hold both. 0 for fewer than two triangles. Requires a structure built for
+/// triangles that move. Waits for the device.
 double traversal_cost(Device& device, const TriangleBvh& bvh);
 
 /// Working memory of traversal. A ray that uses up its steps in one dispatch is suspended, and the

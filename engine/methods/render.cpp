@@ -4,21 +4,22 @@
 #include "methods/light_learning.hpp"
 #include "methods/method.hpp"
 #include "methods/next_pass.hpp"
+#include "world/world.hpp"
 
 namespace argand {
 
 namespace {
 
-RenderContext make_context(Device& device, const Scene& scene, const RenderSettings& settings,
+RenderContext make_context(World& world, const Scene& scene, const RenderSettings& settings,
                            MethodTable methods) {
-    RenderContext context{.device = device,
+    RenderContext context{.device = world.device(),
                           .scene = scene,
                           .settings = settings,
                           .on_device =
-                              upload_scene(device, scene, plan_render(scene, settings, methods)),
+                              world.on_device(scene, plan_render(scene, settings, methods)),
                           .eye = {}};
     context.eye = make_eye_workspace(
-        device, context.on_device.plan, settings,
+        context.device, context.on_device.plan, settings,
         camera_record(scene.cameras[settings.camera], settings.width, settings.height));
     learn_lights(context);
     return context;
@@ -71,18 +72,24 @@ const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
     return plan_render(scene, by_other, methods).needs(Feature::caustics) ? *first : *other;
 }
 
-RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,
+RenderResult render(World& world, const Scene& scene, const RenderSettings& settings,
                     const OnProgress& progress, const OnPass& on_pass, MethodTable methods) {
     const MethodInfo& info = methods.at(settings.method);
     Budget budget(settings.budget);
-    RenderContext context = make_context(device, scene, settings, methods);
+    RenderContext context = make_context(world, scene, settings, methods);
     const std::unique_ptr<Method> method = info.make(context);
     method->begin(budget);
     RenderResult result;
     run_passes(*method, context, budget, {progress, on_pass}, result.statistics);
     method->report(result.statistics);
-    result.layers = resolve_film(device, context.eye.film, result.statistics);
+    result.layers = resolve_film(context.device, context.eye.film, result.statistics);
     return result;
+}
+
+RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,
+                    const OnProgress& progress, const OnPass& on_pass, MethodTable methods) {
+    World world(device, scene);
+    return render(world, scene, settings, progress, on_pass, methods);
 }
 
 } // namespace argand

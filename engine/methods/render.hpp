@@ -17,6 +17,8 @@
 
 namespace argand {
 
+class World;
+
 /// The largest value of RenderSettings::bounces: no path is truncated, but by Russian roulette.
 inline constexpr std::uint32_t unlimited_bounces = 0xffff;
 
@@ -131,9 +133,14 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings,
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
                              MethodTable methods = builtin_methods());
 
-/// Renders the scene. With `on_pass` the settings' samples and photons are those of one pass, and
-/// on_pass decides how many passes there are, not the budget. Throws UsageError on an unknown
-/// method, Error if the device cannot do it.
+/// Renders the scene that `world` holds. With `on_pass` the settings' samples and photons are those
+/// of one pass, and on_pass decides how many passes there are, not the budget. Throws UsageError on
+/// an unknown method, Error if the device cannot do it.
+RenderResult render(World& world, const Scene& scene, const RenderSettings& settings,
+                    const OnProgress& progress, const OnPass& on_pass = nullptr,
+                    MethodTable methods = builtin_methods());
+
+/// As above, in a world of its own.
 RenderResult render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const OnProgress& progress, const OnPass& on_pass = nullptr,
                     MethodTable methods = builtin_methods());

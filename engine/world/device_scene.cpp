@@ -1,7 +1,5 @@
 #include "world/device_scene.hpp"
 
-#include "scene/material_record.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,18 +8,6 @@
 namespace argand {
 
 namespace {
-
-std::vector<glm::vec4> padded(const std::vector<glm::vec3>& vectors) {
-    std::vector<glm::vec4> result;
-    result.reserve(vectors.size());
-    for (const glm::vec3& v : vectors) {
-        result.emplace_back(v, 0.0f);
-    }
-    return result;
-}
-
-/// Bound where a kernel does not read its buffer.
-Buffer nothing(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }
 
 SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3 center,
                          float radius) {
@@ -42,25 +28,6 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
     return record;
 }
 
-/// Of each triangle the vertices and the material.
-std::vector<glm::uvec4> triangle_records(const Scene& scene) {
-    std::vector<glm::uvec4> triangles;
-    triangles.reserve(scene.triangles.size());
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        triangles.emplace_back(scene.triangles[i], scene.triangle_material[i]);
-    }
-    return triangles;
-}
-
-std::vector<MaterialRecord> material_records(const Scene& scene) {
-    std::vector<MaterialRecord> materials;
-    materials.reserve(scene.materials.size());
-    for (const Material& material : scene.materials) {
-        materials.push_back(material_record(material));
-    }
-    return materials;
-}
-
 } // namespace
 
 kernels::SceneBindings DeviceScene::bindings() const {
@@ -79,8 +46,9 @@ kernels::SceneConstants DeviceScene::constants() const {
             .light_kinds = plan.light_kinds()};
 }
 
-DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
-    const StageScope stage(device, "upload scene");
+Buffer unneeded(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }
+
+DeviceScene prepare_scene(Device& device, const Scene& scene, const Plan& plan) {
     const Bounds box = bounds(scene);
     const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
     // A little more than half the diagonal, so that the sphere contains the box in spite of
@@ -92,12 +60,6 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     result.light_table = make_light_table(scene, radius);
     result.record = scene_record(scene, result.light_table, center, radius);
     result.record.follow_roughness = plan.request.follow_roughness;
-    result.positions = upload(device, "positions", padded(scene.positions));
-    result.normals = plan.needs(Feature::smooth_normals)
-                         ? upload(device, "normals", padded(scene.normals))
-                         : nothing(device);
-    result.triangles = upload(device, "triangles", triangle_records(scene));
-    result.materials = upload(device, "materials", material_records(scene));
     result.lights = upload(device, "lights", result.light_table.lights);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);
@@ -105,10 +67,8 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
         sample_areas(device, scene, result, {});
         result.surface_area = result.sampled_area;
     } else {
-        result.area_sums = nothing(device);
+        result.area_sums = unneeded(device);
     }
-    result.bvh = build_triangle_bvh(device, result.positions, result.triangles,
-                                    result.record.triangle_count);
     return result;
 }
 
@@ -136,7 +96,7 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
     scene.record.emitter_probability = share_of_kind(light_triangle);
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
     if (!scene.plan.needs(Feature::several_lights)) {
-        scene.light_choices = nothing(device);
+        scene.light_choices = unneeded(device);
         return;
     }
     const std::vector<LightChoice> of_photons = light_choices(table, for_photons);

@@ -38,9 +38,12 @@ struct DeviceScene {
     kernels::SceneConstants constants() const;
 };
 
-/// Uploads the parts of the scene that the plan needs, and builds its acceleration structure.
-/// Records only.
-DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan);
+/// Memory to bind where a kernel does not read its buffer.
+Buffer unneeded(Device& device);
+
+/// The parts of a scene that belong to one render: its lights and how they are chosen, and its
+/// areas. World::on_device() adds the others. Records only.
+DeviceScene prepare_scene(Device& device, const Scene& scene, const Plan& plan);
 
 /// Lets area samples lie in a part of the scene only: they can be as dense there as a small radius
 /// requires. Requires a plan with a photon map. Records only.

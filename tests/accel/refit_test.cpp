@@ -115,12 +115,14 @@ TEST_P(Refit, CostTellsHowFarTrianglesHaveMoved) {
     const Mesh mesh = random_triangles(2000, 0.05f, 4);
     Moving moving(device, mesh);
     const double cost = traversal_cost(device, moving.tracer.bvh);
-    EXPECT_GT(cost, 1);
+    EXPECT_GT(cost, 0);
     moving.follow(mesh);
     EXPECT_EQ(traversal_cost(device, moving.tracer.bvh), cost);
-    // As a whole: no ray visits more.
+    // As a whole: areas grow, but no more than that.
     moving.follow(moved(mesh, [](std::size_t, glm::vec3 p) { return 4.0f * p; }));
-    EXPECT_NEAR(traversal_cost(device, moving.tracer.bvh) / cost, 1, 1e-5);
+    EXPECT_NEAR(traversal_cost(device, moving.tracer.bvh) / cost, 16, 1e-3);
+    moving.follow(moved(mesh, [](std::size_t, glm::vec3 p) { return p + glm::vec3(4, 0, 0); }));
+    EXPECT_NEAR(traversal_cost(device, moving.tracer.bvh) / cost, 1, 1e-3);
     // Neighbours part.
     const auto scatter = [](std::size_t i, glm::vec3 p) {
         return p + (i / 3 % 2 == 0 ? glm::vec3(0) : glm::vec3(1, 0, 0));

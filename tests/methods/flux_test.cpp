@@ -4,6 +4,7 @@
 #include "photon/photon_map.hpp"
 #include "scene/light_power.hpp"
 #include "shared/photon.h"
+#include "world/world.hpp"
 
 #include <cstdint>
 

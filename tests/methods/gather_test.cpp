@@ -3,6 +3,7 @@
 
 #include "photon/map_queries.hpp"
 #include "shared/photon.h"
+#include "world/world.hpp"
 
 #include <random>
 

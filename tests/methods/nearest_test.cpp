@@ -6,6 +6,7 @@
 #include "photon/nearest.hpp"
 #include "shared/nearest_records.h"
 #include "shared/photon.h"
+#include "world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

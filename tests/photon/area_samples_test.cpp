@@ -4,6 +4,7 @@
 #include "photon/map_queries.hpp"
 #include "photon/photon_map.hpp"
 #include "shared/photon.h"
+#include "world/world.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,6 +5,7 @@
 #include "photon/smoothing.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
+#include "world/world.hpp"
 
 #include <algorithm>
 #include <random>

@@ -4,6 +4,7 @@
 #include "photon/vvh.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
+#include "world/world.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -92,6 +92,9 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         const Clock::time_point start = Clock::now();
         job.device->reset_stage_times();
         move_to(static_cast<double>(frame) / options.frames_per_second, job.scene);
+        if (job.world) {
+            job.world->update(job.scene);
+        }
         job.times.update = seconds_since(start);
         if (options.seed_per_frame) {
             job.settings.seed = options.settings.seed + static_cast<std::uint32_t>(frame);

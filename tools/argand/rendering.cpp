@@ -54,8 +54,12 @@ void choose_method(RenderSettings& settings, const RenderOptions& options, const
     }
 }
 
-Rendered render_on(Device& device, const RenderJob& job, const std::string& work) {
+Rendered render_on(RenderJob& job, const std::string& work) {
     const RenderOptions& options = job.options;
+    if (!job.world) {
+        job.world = std::make_unique<World>(*job.device, job.scene);
+    }
+    World& world = *job.world;
     std::optional<Progress> progress;
     const OnProgress on_progress = [&](double done) {
         progress->update(done);
@@ -64,7 +68,7 @@ Rendered render_on(Device& device, const RenderJob& job, const std::string& work
     if (!is_autotuned(options, job.command)) {
         progress.emplace(work, options.quiet);
         return {.result =
-                    render(device, job.scene, job.settings, on_progress, nullptr, options.methods),
+                    render(world, job.scene, job.settings, on_progress, nullptr, options.methods),
                 .settings = job.settings,
                 .tuned = {},
                 .notes = {}};
@@ -80,7 +84,7 @@ Rendered render_on(Device& device, const RenderJob& job, const std::string& work
                            .photons = is_given(job.command, "--photons")};
     const RenderPasses passes = [&](const RenderSettings& settings, const OnPass& on_pass) {
         return render(
-            device, job.scene, settings,
+            world, job.scene, settings,
             [&](double done) { return on_progress(picked_one ? done : 0); }, on_pass,
             options.methods);
     };
@@ -141,6 +145,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command) {
                   .settings = options.settings,
                   .scene = {},
                   .device = nullptr,
+                  .world = nullptr,
                   .times = {}};
     const PictureSize size = parse_picture_size(options.size);
     job.settings.width = size.width;
@@ -162,11 +167,12 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
     Clock::time_point start = Clock::now();
     Rendered rendered;
     try {
-        rendered = render_on(*job.device, job, work);
+        rendered = render_on(job, work);
     } catch (const DeviceFault& fault) {
+        job.world.reset();
         job.device = open_after_fault(options.backend, options.device, fault);
         start = Clock::now();
-        rendered = render_on(*job.device, job, work);
+        rendered = render_on(job, work);
     }
     job.times.render = seconds_since(start);
     rendered.notes = notes_on(rendered, options.methods, job.times.render);

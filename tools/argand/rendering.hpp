@@ -3,6 +3,7 @@
 #include "autotune/autotune.hpp"
 #include "report.hpp"
 #include "scene_options.hpp"
+#include "world/world.hpp"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -42,7 +43,8 @@ struct RenderJob {
     RenderSettings settings; ///< those of the options, but for what the scene decides
     Scene scene;
     std::unique_ptr<Device> device;
-    ReportTimes times; ///< of the last picture
+    std::unique_ptr<World> world; ///< on the device; null before the first picture
+    ReportTimes times;            ///< of the last picture
 };
 
 /// Loads the scene, chooses what the scene decides, and opens the device. Prints the scene's notes.

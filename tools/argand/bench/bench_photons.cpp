@@ -5,6 +5,7 @@
 #include "cornell_scene.hpp"
 #include "methods/render.hpp"
 #include "photon/photon_map.hpp"
+#include "world/world.hpp"
 
 namespace argand {
 

@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "photon/radius.hpp"
+#include "world/world.hpp"
 
 #include <algorithm>
 #include <ctime>
