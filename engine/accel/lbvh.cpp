@@ -1,5 +1,6 @@
 #include "accel/lbvh.hpp"
 
+#include "accel/fences.hpp"
 #include "kernels/code_distances.hpp"
 #include "kernels/lbvh_codes.hpp"
 #include "kernels/lbvh_fit.hpp"
@@ -15,11 +16,6 @@ namespace argand {
 namespace {
 
 constexpr std::uint32_t code_bits = 30;
-
-/// See `fences` in lbvh_fit.comp.
-bool needs_fences(const Device& device) {
-    return device.info().driver.find("llvmpipe") == std::string::npos;
-}
 
 /// What the tree is built over. It refers to the buffers.
 struct Leaves {
@@ -54,11 +50,11 @@ void fit(Device& device, const Lbvh& bvh, const Leaves& leaves) {
 
 } // namespace
 
-Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, const LbvhUse& use) {
+Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays) {
     const std::uint64_t bound = std::max<std::uint64_t>(count.bound, 1);
     Lbvh bvh{.order = device.allocate("lbvh order", bound * sizeof(std::uint32_t)),
              .nodes = device.allocate("lbvh nodes", 2 * bound * sizeof(LbvhNode))};
-    if (use.rays) {
+    if (for_rays) {
         bvh.costs = device.allocate("lbvh costs", bound * sizeof(ForestCost));
         bvh.parents = device.allocate("lbvh parents", bound * sizeof(std::uint32_t));
     }
@@ -81,18 +77,8 @@ Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, const L
              count);
     radix_sort_pairs(device, codes, bvh.order, count, code_bits);
     const Buffer distances = code_distances(device, codes, count, false);
-    if (use.refit) {
-        bvh.distances = device.allocate("lbvh distances", bound * sizeof(std::uint32_t));
-        device.copy({distances, 0, bvh.distances.size()}, bvh.distances);
-    }
     fit(device, bvh, {boxes, distances, count, false});
     return bvh;
-}
-
-void refit_lbvh(Device& device, const Lbvh& bvh, const Buffer& boxes, const Count& count) {
-    if (count.bound > 0) {
-        fit(device, bvh, {boxes, bvh.distances, count, false});
-    }
 }
 
 Buffer code_distances(Device& device, const Buffer& codes, const Count& count, bool codes64) {

@@ -13,24 +13,12 @@ struct Lbvh {
     Buffer nodes;   ///< LbvhNode: inner node i at 2 i, leaf i at 2 i + 1, 2 n in all
     Buffer costs;   ///< ForestCost per inner node; only for rays
     Buffer parents; ///< uint per inner node, see lbvh_fit.comp; only for rays
-    /// The distance of each sorted code from the next one; only for trees that are refitted.
-    Buffer distances;
-};
-
-/// What a tree over boxes is for.
-struct LbvhUse {
-    bool rays = false;  ///< to be collapsed into a four-wide tree
-    bool refit = false; ///< keeps what refit_lbvh() needs
 };
 
 /// Builds a hierarchy over boxes (BoxRecord), sorted by the 30-bit Morton codes of their centres in
 /// their common bounds. Equal codes are told apart by their place in the order. The root is node 0,
 /// or node 1 (a leaf) if there is only one box. Records only.
-Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, const LbvhUse& use = {});
-
-/// Fits the nodes and costs to boxes that have changed. Every node keeps its leaves. Requires a
-/// tree that was built for that, over as many boxes. Records only.
-void refit_lbvh(Device& device, const Lbvh& bvh, const Buffer& boxes, const Count& count);
+Lbvh build_lbvh(Device& device, const Buffer& boxes, const Count& count, bool for_rays = false);
 
 /// The distance of each sorted code from the next one (code_distance of shared/morton.h), a uint
 /// each in scratch memory. codes64: codes of 64 bits, low word first; else of 32 bits.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "accel/lbvh.hpp"
 #include "device/count.hpp"
 #include "device/device.hpp"
 
@@ -11,7 +10,10 @@ struct TriangleBvh {
     Buffer nodes;     ///< RayNode per inner node
     Buffer triangles; ///< RayTriangle, in the order of the leaves
     std::uint32_t triangle_count = 0;
-    Lbvh binary; ///< the tree from which `nodes` follow; empty unless the triangles move
+    // Only if the triangles move:
+    Buffer order;   ///< uint: of each leaf the triangle's index in the scene
+    Buffer parents; ///< uint: of each child reference its place among all nodes' children
+    Buffer boxes;   ///< of each child reference: vec4 (low, cost), vec4 (high, 0)
 };
 
 /// Builds the structure on the device; records only. positions: vec4 (xyz) per vertex; triangles:

@@ -141,8 +141,8 @@ private:
 
     /// Renders again from the start, with the method of the witness.
     void render_as_witness() {
-        Candidate& refuted = tuned_.candidates.front();
-        refuted.error = control_->measured()->error();
+        Candidate& left = tuned_.candidates.front();
+        left.error = control_->measured()->error();
         tuned_.candidates.insert(tuned_.candidates.begin(), control_->of_witness());
         tuned_.settings = tuned_.candidates.front().settings;
         on_pick_(tuned_);

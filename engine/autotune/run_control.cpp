@@ -19,8 +19,7 @@ constexpr double tolerance = 1.5;
 // Without a time budget a witness may take this many times as long as all else, and at least these
 // seconds.
 constexpr double most_of_witness = 2, seconds_of_witness = 2;
-// A render is overdue once it has taken so many times the promised time, and at least these
-// seconds.
+// A render is overdue after so many times the promised passes, and at least these seconds.
 constexpr double most_of_promise = 2, least_overdue = 2;
 
 } // namespace
@@ -59,7 +58,7 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
         question();
         if (outcome_ == RunOutcome::unfinished && may_switch_ && !measured_->testimony &&
             is_overdue()) {
-            sound_out_witness();
+            complete_witness();
         }
         if (outcome_ == RunOutcome::unfinished && witness_is_faster(done)) {
             outcome_ = RunOutcome::slow;
@@ -223,14 +222,14 @@ double RunControl::own_seconds() const {
     return seconds_since(start_) - (witness_ ? witness_->seconds() : 0);
 }
 
-/// Whether the render takes so much longer than promised that its error model is not to be
+/// Whether the render takes so many more passes than promised that its error model is not to be
 /// believed. A pilot that rare bright photons have missed promises too much.
 bool RunControl::is_overdue() const {
-    return own_seconds() > std::max(most_of_promise * candidate_.seconds, least_overdue);
+    return measured_->passes > most_of_promise * candidate_.passes && own_seconds() > least_overdue;
 }
 
 /// Renders enough of an unbiased witness to know how long its method would take.
-void RunControl::sound_out_witness() {
+void RunControl::complete_witness() {
     if (witness_ && witness_->is_unbiased() && witness_->passes_missing() > 0 &&
         ask_witness(witness_->passes_missing())) {
         measure();
@@ -241,7 +240,7 @@ void RunControl::sound_out_witness() {
 /// measured much bias, or because the render is overdue. done: passes so far, without the pilot's.
 bool RunControl::witness_is_faster(std::uint64_t done) const {
     if (!may_switch_ || !witness_ || !witness_->is_unbiased() || !(variance_of_witness_ > 0) ||
-        !(measured_->testimony || is_overdue())) {
+        !(measured_->testimony || (is_overdue() && !(witness_->passes_missing() > 0)))) {
         return false;
     }
     const double each = done > 0 ? own_seconds() / static_cast<double>(done)

@@ -68,7 +68,7 @@ private:
     double seconds_of_witness_left() const;
     double own_seconds() const;
     bool is_overdue() const;
-    void sound_out_witness();
+    void complete_witness();
     bool witness_is_faster(std::uint64_t done) const;
     double passes_to_target() const;
     bool takes_too_long(double times) const;

@@ -2,13 +2,16 @@
 
 #include "scene/gltf_accessor.hpp"
 #include "scene/gltf_morph.hpp"
+#include "scene/gltf_value.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace argand {
 namespace {
 
-constexpr std::size_t most_keys = std::size_t(1) << 22; // of all animations of a file
+using nlohmann::json;
+
+constexpr std::size_t most_numbers = std::size_t(1) << 23; // of all keys of a file
 
 Interpolation interpolation_of(const GltfSource& source, const std::string& name,
                                const std::string& what) {
@@ -25,9 +28,7 @@ Interpolation interpolation_of(const GltfSource& source, const std::string& name
                 one_line(name, 40));
 }
 
-/// Takes the keys from those that the file may still have.
-std::vector<double> read_times(const GltfSource& source, int accessor, const std::string& what,
-                               std::size_t& keys_left) {
+std::vector<double> read_times(const GltfSource& source, int accessor, const std::string& what) {
     const GltfAccessor input = open_accessor(source, accessor, "the times of " + what);
     if (input.components != 1 || input.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) {
         source.fail("the times of {} are not floating-point numbers", what);
@@ -35,10 +36,6 @@ std::vector<double> read_times(const GltfSource& source, int accessor, const std
     if (input.count == 0) {
         source.fail("{} has no keys", what);
     }
-    if (input.count > keys_left) {
-        source.fail("its animations have more than {} keys", most_keys);
-    }
-    keys_left -= input.count;
     std::vector<double> times(input.count);
     for (std::size_t i = 0; i < times.size(); ++i) {
         times[i] = read_component(input, i, 0);
@@ -56,12 +53,13 @@ struct Target {
     std::size_t elements = 1;                 ///< of a value
 };
 
+/// Takes the numbers of the values from those that the file may still have.
 KeyFrames read_keys(const GltfSource& source, const tinygltf::AnimationSampler& sampler,
-                    const Target& target, const std::string& what, std::size_t& keys_left) {
+                    const Target& target, const std::string& what, std::size_t& numbers_left) {
     KeyFrames keys;
     keys.width = std::size_t(target.components) * target.elements;
     keys.interpolation = interpolation_of(source, sampler.interpolation, what);
-    keys.times = read_times(source, sampler.input, what, keys_left);
+    keys.times = read_times(source, sampler.input, what);
     const GltfAccessor output = open_accessor(source, sampler.output, "the values of " + what);
     const std::size_t expected = keys.times.size() * target.elements *
                                  (keys.interpolation == Interpolation::cubic_spline ? 3 : 1);
@@ -70,11 +68,16 @@ KeyFrames read_keys(const GltfSource& source, const tinygltf::AnimationSampler& 
                     output.count, output.components, keys.times.size(), expected,
                     target.components);
     }
+    const std::size_t numbers = expected * std::size_t(target.components);
+    if (numbers > numbers_left) {
+        source.fail("the keys of its animations have more than {} numbers", most_numbers);
+    }
+    numbers_left -= numbers;
     if (output.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
         (output.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT && !output.normalized)) {
         source.fail("the values of {} are neither floating-point nor normalised numbers", what);
     }
-    keys.values.reserve(expected * std::size_t(target.components));
+    keys.values.reserve(numbers);
     for (std::size_t i = 0; i < expected; ++i) {
         for (int k = 0; k < target.components; ++k) {
             keys.values.push_back(read_component(output, i, k));
@@ -111,13 +114,9 @@ Target property_of(NodeKeys& keys, const std::string& path, std::size_t targets)
     return path == "scale" ? Target{&keys.scale, 3} : Target{};
 }
 
-/// Finds what a channel moves: nothing, with a note, if it is unknown to Argand.
+/// Finds what a channel moves: nothing if it has no node.
 Target target_of(const GltfSource& source, const tinygltf::AnimationChannel& channel,
-                 std::vector<NodeKeys>& nodes, const std::string& what, Scene& scene) {
-    if (channel.target_path == "pointer") {
-        add_note(scene, "animations by KHR_animation_pointer are not supported yet");
-        return {};
-    }
+                 std::vector<NodeKeys>& nodes, const std::string& what) {
     if (channel.target_node < 0) {
         return {}; // to be ignored: glTF 2.0, section 5.4.1
     }
@@ -143,14 +142,14 @@ Target target_of(const GltfSource& source, const tinygltf::AnimationChannel& cha
 
 Animation read_animation(const GltfSource& source, const tinygltf::Animation& from,
                          const std::string& what, std::vector<NodeKeys>& nodes,
-                         std::size_t& keys_left, Scene& scene) {
+                         std::size_t& numbers_left, Scene& scene) {
     Animation animation;
     animation.name = one_line(from.name);
     for (const tinygltf::AnimationChannel& channel : from.channels) {
         if (channel.sampler < 0 || std::size_t(channel.sampler) >= from.samplers.size()) {
             source.fail("{} refers to sampler {}, which does not exist", what, channel.sampler);
         }
-        const Target target = target_of(source, channel, nodes, what, scene);
+        const Target target = target_of(source, channel, nodes, what);
         if (!target.keys) {
             continue;
         }
@@ -160,7 +159,7 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
         }
         const std::string sampler = fmt::format("sampler {} of {}", channel.sampler, what);
         KeyFrames keys = read_keys(source, from.samplers[std::size_t(channel.sampler)], target,
-                                   sampler, keys_left);
+                                   sampler, numbers_left);
         if (channel.target_path == "rotation") {
             check_rotations(source, keys, sampler);
         }
@@ -174,15 +173,28 @@ Animation read_animation(const GltfSource& source, const tinygltf::Animation& fr
     return animation;
 }
 
+/// Their targets have no node, and tinygltf leaves them out.
+void note_pointers(const GltfSource& source, Scene& scene) {
+    for (std::size_t i = 0; const json* animation = find_element(source, "animations", i); ++i) {
+        const json* channels = find_member(animation, "channels");
+        for (std::size_t k = 0; channels && channels->is_array() && k < channels->size(); ++k) {
+            if (find_extension(find_member(&(*channels)[k], "target"), "KHR_animation_pointer")) {
+                add_note(scene, "animations by KHR_animation_pointer are not supported yet");
+            }
+        }
+    }
+}
+
 } // namespace
 
 std::vector<NodeKeys> read_animations(const GltfSource& source, Scene& scene) {
+    note_pointers(source, scene);
     std::vector<NodeKeys> nodes(source.model.nodes.size());
-    std::size_t keys_left = most_keys;
+    std::size_t numbers_left = most_numbers;
     for (std::size_t i = 0; i < source.model.animations.size(); ++i) {
         const tinygltf::Animation& from = source.model.animations[i];
         const std::string what = label("animation", static_cast<int>(i), from.name);
-        scene.animations.push_back(read_animation(source, from, what, nodes, keys_left, scene));
+        scene.animations.push_back(read_animation(source, from, what, nodes, numbers_left, scene));
     }
     return nodes;
 }

@@ -19,10 +19,17 @@ constexpr std::uint64_t largest_int = std::numeric_limits<std::int32_t>::max();
 constexpr std::uint64_t largest_size = std::uint64_t(1) << 53;
 
 // Properties that hold an index or a list of indices wherever they occur in core glTF.
-constexpr std::array index_keys{
-    "buffer",   "bufferView", "camera", "children", "indices", "input",    "joints",
-    "material", "mesh",       "mode",   "node",     "nodes",   "output",   "sampler",
-    "scene",    "skeleton",   "skin",   "source",   "index",   "texCoord", "componentType"};
+constexpr std::array index_keys{"buffer",        "bufferView",
+                                "camera",        "children",
+                                "indices",       "input",
+                                "joints",        "material",
+                                "mesh",          "mode",
+                                "node",          "nodes",
+                                "output",        "sampler",
+                                "scene",         "skeleton",
+                                "skin",          "source",
+                                "index",         "texCoord",
+                                "componentType", "inverseBindMatrices"};
 constexpr std::array size_keys{"byteOffset", "byteLength", "byteStride", "count"};
 // Properties that hold a number or several.
 constexpr std::array number_keys{"alphaCutoff",
@@ -35,6 +42,7 @@ constexpr std::array number_keys{"alphaCutoff",
                                  "roughnessFactor",
                                  "scale",
                                  "translation",
+                                 "weights",
                                  "xmag",
                                  "yfov",
                                  "ymag",

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <deque>
 #include <span>
+#include <sstream>
+#include <string>
 #include <string_view>
 
 namespace argand {
@@ -211,6 +213,20 @@ bool keep_image_undecoded(tinygltf::Image*, int, std::string*, std::string*, int
     return true;
 }
 
+/// The reader's complaints, a line each, without those about what glTF allows to be missing: the
+/// matrices of a skin, and the node of an animation's target.
+std::string without_false_ones(const std::string& complaints) {
+    std::istringstream lines(complaints);
+    std::string kept;
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_false = line.find("'inverseBindMatrices' property is missing") == 0 ||
+                              line.find("'node' property is missing") == 0 ||
+                              line.find("`node` field is missing in animation") == 0;
+        kept += is_false ? "" : line + "\n";
+    }
+    return kept;
+}
+
 void parse(const std::filesystem::path& path, GltfSource& source, std::vector<std::string>& notes) {
     const Bytes bytes = read_file(path);
     const Container container = open_container(bytes);
@@ -250,8 +266,9 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
         fail("it is not valid glTF: {}",
              problem.empty() ? "the reader gives no reason" : one_line(problem));
     }
-    if (!problem.empty()) {
-        notes.push_back(fmt::format("not quite valid glTF: {}", one_line(problem)));
+    const std::string complaints = without_false_ones(problem);
+    if (!complaints.empty()) {
+        notes.push_back(fmt::format("not quite valid glTF: {}", one_line(complaints)));
     }
 }
 

@@ -43,6 +43,22 @@ void forget_what_rests(Scene& scene) {
     }
 }
 
+/// What a camera that is added sees: the scene at rest, or if that is a point, in the middle of its
+/// animations. So the camera stands still while objects move.
+Bounds bounds_to_frame(const Scene& scene) {
+    const Bounds at_rest = bounds(scene);
+    if (at_rest.low != at_rest.high) {
+        return at_rest;
+    }
+    double longest = 0;
+    for (const Animation& animation : scene.animations) {
+        longest = std::max(longest, animation.seconds);
+    }
+    Scene moved = scene;
+    move_to(longest / 2, moved);
+    return bounds(moved);
+}
+
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds) {
@@ -62,19 +78,17 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     add_meshes(source, nodes, scene);
     add_missing_light(scene);
     forget_what_rests(scene);
-    const Bounds at_rest = bounds(scene);
+    const Bounds to_frame = scene.cameras.empty() ? bounds_to_frame(scene) : Bounds();
     if (seconds) {
         move_to(*seconds, scene);
     }
-    if (!has_area(scene)) {
+    // What has no area now may have some at another time.
+    if (!has_area(scene) && scene.motion.meshes.empty()) {
         source.fail(
-            "there is nothing to render: it shows no triangle that has an area and can be seen{}",
-            seconds ? fmt::format(" at {} s", *seconds) : "");
+            "there is nothing to render: it shows no triangle that has an area and can be seen");
     }
-    // A camera that is added sees the scene at rest, so that it stands still while objects move.
     if (scene.cameras.empty()) {
-        scene.cameras.push_back(
-            frame_bounds(at_rest.low == at_rest.high ? bounds(scene) : at_rest));
+        scene.cameras.push_back(frame_bounds(to_frame));
         add_note(scene, scene.motion.meshes.empty()
                             ? "there is no camera: one that sees the whole scene is added"
                             : "there is no camera: one that sees the whole scene at rest is added");

@@ -224,8 +224,8 @@ private:
             take(corners);
         }
         // Reset only the entries in use: many primitives may share one long vertex buffer.
-        for (std::size_t corner = 0; corner < surface.corner_count; ++corner) {
-            staged_as_[surface.has_indices ? read_index(surface.indices, corner) : corner] = none;
+        for (const StagedVertex& vertex : staged_) {
+            staged_as_[vertex.in_file] = none;
         }
         staged_.clear();
     }
@@ -260,6 +260,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
     check_triangle_count(source, nodes);
     MeshAdder adder(source, scene);
     Skins skins(source, nodes);
+    std::size_t vectors_left = most_morph_vectors;
     const Pose rest = pose_at(scene.motion, {});
     for (std::size_t number = 0; number < nodes.size(); ++number) {
         const GltfNode& node = nodes[number];
@@ -299,7 +300,8 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
                     skins.weights_of(shown.skin, primitive, vertices, name, scene);
                 moves = motion.keys.weights.has_value() || skins.moves(shown.skin);
             }
-            moving.targets = read_morph_targets(source, primitive, surface, vertices, name);
+            moving.targets =
+                read_morph_targets(source, primitive, surface, vertices, name, vectors_left);
             place(moving, rest, scene);
             if (moves) {
                 scene.motion.meshes.push_back(std::move(moving));

@@ -8,9 +8,6 @@
 namespace argand {
 namespace {
 
-// Of a primitive: vertices times targets. A short file can state many targets.
-constexpr std::size_t most_vectors = std::size_t(1) << 26;
-
 /// The mesh that a node shows, or null.
 const tinygltf::Mesh* mesh_of(const GltfSource& source, int node) {
     const int mesh = source.model.nodes[std::size_t(node)].mesh;
@@ -91,10 +88,13 @@ std::vector<MorphTarget> read_morph_targets(const GltfSource& source,
                                             const tinygltf::Primitive& primitive,
                                             const Surface& surface,
                                             const std::vector<std::size_t>& vertices,
-                                            const std::string& name) {
-    if (primitive.targets.size() > most_vectors / std::max<std::size_t>(vertices.size(), 1)) {
-        source.fail("the morph targets of {} have more than {} vectors", name, most_vectors);
+                                            const std::string& name, std::size_t& vectors_left) {
+    constexpr std::size_t attributes = 2;
+    const std::size_t each = attributes * std::max<std::size_t>(vertices.size(), 1);
+    if (primitive.targets.size() > vectors_left / each) {
+        source.fail("its morph targets have more than {} vectors", most_morph_vectors);
     }
+    vectors_left -= primitive.targets.size() * each;
     std::vector<MorphTarget> targets;
     targets.reserve(primitive.targets.size());
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {

@@ -92,6 +92,7 @@ std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys>
             waiting.push_back({*i, parent});
         }
     };
+    std::size_t weights_left = most_morph_weights;
     push(root_nodes(source), -1);
     while (!waiting.empty()) {
         const auto [index, parent] = waiting.back();
@@ -105,10 +106,15 @@ std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys>
         }
         seen[std::size_t(index)] = true;
         push(nodes[std::size_t(index)].children, static_cast<int>(flat.size()));
+        if (morph_target_count(source, index) > weights_left) {
+            source.fail("its nodes have more than {} morph weights", most_morph_weights);
+        }
+        std::vector<double> weights = rest_weights(source, index);
+        weights_left -= weights.size();
         flat.push_back({index, glm::dmat4(1), false});
         scene.motion.nodes.push_back({.parent = parent,
                                       .rest = rest_transform(source, index),
-                                      .weights = rest_weights(source, index),
+                                      .weights = std::move(weights),
                                       .keys = std::move(keys[std::size_t(index)])});
     }
     const Pose rest = pose_at(scene.motion, {});

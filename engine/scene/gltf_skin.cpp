@@ -51,8 +51,9 @@ std::vector<JointSet> open_sets(const GltfSource& source, const tinygltf::Primit
                         open_accessor(source, weights, "the joint weights of " + name)});
         const JointSet& set = sets.back();
         const int type = set.joints.component_type;
-        if (set.joints.components != 4 || (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-                                           type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)) {
+        if (set.joints.components != 4 || set.joints.normalized ||
+            (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+             type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)) {
             source.fail("the joints of {} are not four small unsigned integers", name);
         }
         if (set.weights.components != 4 ||

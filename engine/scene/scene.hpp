@@ -63,7 +63,7 @@ struct Scene {
     std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none
     std::vector<Animation> animations;
     std::optional<double> seconds;            ///< moment of the animations; none: at rest
-    Motion motion;                            ///< what is elsewhere at other moments
+    Motion motion;                            ///< what moves, in object space
     std::vector<std::string> extensions_used; ///< as the file lists them
     std::vector<std::string>
         notes; ///< unsupported features and added objects, one line each, for the user

@@ -82,7 +82,7 @@ void World::build_tree(const Scene& scene) {
     bvh_ = build_triangle_bvh(device_, positions_, triangles_,
                               static_cast<std::uint32_t>(scene.triangles.size()),
                               !scene.motion.meshes.empty());
-    cost_of_build_ = 0;
+    cost_of_build_ = 0; // known when it is asked for
 }
 
 /// Uploads a mesh if it has moved. Returns whether the tree is affected.

@@ -2,7 +2,9 @@
 
 #include "world/device_scene.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace argand {

@@ -1,8 +1,12 @@
 // Trees that follow moving triangles: rays must hit what they hit in a tree that is built anew.
 #include "device_fixture.hpp"
+#include "shared/accel_records.h"
 #include "tracing.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -80,6 +84,26 @@ TEST_P(Refit, HitsWhatAFreshTreeHits) {
             moving.follow(place);
             expect_as_fresh(device, moving, place, 500);
         }
+    }
+}
+
+TEST_P(Refit, WritesWhatTheBuildWrites) {
+    Device& device = open_variant();
+    for (const std::uint32_t count : {2u, 3u, 5u, 333u}) {
+        const Mesh mesh = random_triangles(count, 0.2f, 3);
+        const Buffer positions = upload(device, "positions", mesh.positions),
+                     triangles = upload(device, "triangles", mesh.triangles);
+        const auto words = [&](bool moves) {
+            const TriangleBvh bvh = build_triangle_bvh(device, positions, triangles, count, moves);
+            // Of the nodes at least a third of `count` exists.
+            std::vector<std::uint32_t> all =
+                download<std::uint32_t>(device, bvh.nodes, (count + 2) / 3 * sizeof(RayNode) / 4);
+            const auto leaves =
+                download<std::uint32_t>(device, bvh.triangles, count * sizeof(RayTriangle) / 4);
+            all.insert(all.end(), leaves.begin(), leaves.end());
+            return all;
+        };
+        EXPECT_EQ(words(true), words(false)) << count;
     }
 }
 

@@ -47,7 +47,7 @@ TEST_F(Frames, AreThePicturesOfTheirTimes) {
         EXPECT_EQ(reports[i]["outputs"].size(), 2u);
         EXPECT_EQ(reports[i]["parameters"]["seed"], 0);
     }
-    // Each report counts its own frame, not those before.
+    // Stages count their own frame, not those before.
     EXPECT_EQ(reports[1]["stages"][0]["runs"], reports[2]["stages"][0]["runs"]);
     EXPECT_EQ(reports[1]["wall_seconds"]["load"], 0);
 }
@@ -74,16 +74,50 @@ TEST_F(Frames, GoOnWhereTheyStopped) {
     EXPECT_EQ(reports[5]["frame"], 4);
 }
 
+TEST_F(Frames, FollowObjectsThatMove) {
+    nlohmann::json scene = nlohmann::json::parse(read_text(asset("plane_point.gltf")));
+    // The plane, which is node 0, rises from y = 0 to 0.8 m in two seconds.
+    const std::vector<float> keys{0, 2, 0, 0, 0, 0, 0.8f, 0};
+    write_text(file("keys.bin"), std::string(reinterpret_cast<const char*>(keys.data()), 32));
+    const auto append = [&](const char* list, const nlohmann::json& element) {
+        scene[list].push_back(element);
+        return scene[list].size() - 1;
+    };
+    const std::size_t buffer = append("buffers", {{"byteLength", 32}, {"uri", "keys.bin"}});
+    const std::size_t view = append("bufferViews", {{"buffer", buffer}, {"byteLength", 32}});
+    const auto accessor = [&](const char* type, int offset) {
+        return append("accessors", {{"bufferView", view},
+                                    {"byteOffset", offset},
+                                    {"componentType", 5126},
+                                    {"type", type},
+                                    {"count", 2}});
+    };
+    const std::size_t input = accessor("SCALAR", 0), output = accessor("VEC3", 8);
+    scene["animations"] = {
+        {{"samplers", {{{"input", input}, {"output", output}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    write_text(file("rising.gltf"), scene.dump());
+    const std::string render = "render rising.gltf --size 8x8 --spp 1 --photons 500 -q ";
+    ASSERT_EQ(argand(render + "--frames 0:3 --fps 1 -o f%d.exr", on_host).exit_code, 0);
+    for (const char* second : {"0", "1", "2"}) {
+        ASSERT_EQ(argand(render + "-o at.exr --at " + second, on_host).exit_code, 0);
+        EXPECT_TRUE(same(std::string("f") + second + ".exr", "at.exr")) << second;
+    }
+    EXPECT_FALSE(same("f0.exr", "f1.exr"));
+}
+
 TEST_F(Frames, InterruptedOnesLeaveWholeFrames) {
-    // A shell without job control ignores SIGINT, and so do its children: hence SIGTERM.
+    // Ends the film once it has a frame. (A shell without job control ignores SIGINT, and so do its
+    // children: hence SIGTERM.)
     const std::string command =
-        "--version >/dev/null; exec timeout -s TERM 4 '" ARGAND_EXECUTABLE "' render '" +
-        asset("moving_light.glb") +
-        "' --backend cpu --size 32x32 --spp 4 --photons 5000 -q --frames 0:100000 -o f%04d.exr";
-    const Outcome run = argand(command + " 2>'" + file("error") + "'");
+        "--version >/dev/null; '" ARGAND_EXECUTABLE "' render '" + asset("moving_light.glb") +
+        "' --backend cpu --size 32x32 --spp 4 --photons 5000 -q --frames 0:100000 -o f%06d.exr "
+        "2>error & film=$!; while kill -0 $film && ! test -e f000000.exr; do sleep 0.05; done; "
+        "kill -TERM $film; wait $film";
+    const Outcome run = argand(command);
     const std::string error = read_text(file("error"));
     std::filesystem::remove(file("error"));
-    EXPECT_EQ(run.exit_code, 124); // timeout's own
+    EXPECT_EQ(run.exit_code, failure);
     const std::vector<std::string> names = files();
     ASSERT_FALSE(names.empty());
     EXPECT_THAT(error, ::testing::HasSubstr("interrupted in frame " + std::to_string(names.size()) +
@@ -108,7 +142,7 @@ TEST_F(Frames, WrongOptionsAreUsageErrors) {
     expect_usage("--continue", "it needs --frames");
     expect_usage("--seed-per-frame", "it needs --frames");
     expect_usage("--frames 0:2 --fps 0", "--fps");
-    expect_usage("--frames 0:2 -o f%d.jpg", "f%d.jpg");
+    expect_usage("--frames 0:2 -o f%d.jpg", "f0.jpg");
 }
 
 TEST_F(Frames, AFullDiskStopsThem) {

@@ -5,6 +5,9 @@
 #include "support/recording_device.hpp"
 #include "world/world.hpp"
 
+#include <cmath>
+#include <utility>
+
 namespace argand::testing {
 namespace {
 

@@ -85,6 +85,15 @@ TEST(GltfMesh, IgnoresSurplusCornersWithANote) {
                 ::testing::HasSubstr("nothing to render"));
 }
 
+TEST(GltfMesh, DoesNotFollowIndicesOfSurplusCorners) {
+    GltfBuilder builder = one_triangle();
+    builder.root["meshes"][0]["primitives"][0]["indices"] =
+        builder.add_indices(std::vector<std::uint32_t>{0, 1, 2, 4294967290u, 3});
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_TRUE(has_note(scene, "no multiple of three"));
+}
+
 TEST(GltfMesh, ReadsNormalsAndMakesThemUnit) {
     GltfBuilder builder;
     const int positions = builder.add_vectors(right_triangle());

@@ -163,6 +163,14 @@ TEST(Skin, WeightsAreNormalisedWithANote) {
     EXPECT_FALSE(has_note(arm().file.load({}), "do not sum to 1"));
 }
 
+TEST(Skin, WithoutMatricesJointsMoveVerticesAsTheyAre) {
+    Skinned s = arm();
+    s.file.builder.root["skins"][0].erase("inverseBindMatrices");
+    const Scene scene = s.file.load({});
+    EXPECT_EQ(scene.positions[4], glm::vec3(3, 0, 0)); // by the second joint, at x = 1
+    EXPECT_FALSE(has_note(scene, "not quite valid"));
+}
+
 TEST(Skin, BadOnesAreErrors) {
     const auto with_weight = [](float weight) {
         Skinned s = arm();
@@ -189,6 +197,11 @@ TEST(Skin, BadOnesAreErrors) {
     EXPECT_THAT(with("/meshes/0/primitives/0/attributes/JOINTS_0", 0),
                 HasSubstr("are not four small unsigned"));
     EXPECT_THAT(with("/accessors/2/count", 3), HasSubstr("has joints for 3 vertices"));
+    EXPECT_THAT(with("/accessors/2/normalized", true), HasSubstr("are not four small unsigned"));
+    EXPECT_THAT(with("/skins/0/inverseBindMatrices", 4294967296),
+                HasSubstr("\"inverseBindMatrices\" must be an integer"));
+    EXPECT_THAT(with("/skins/0/inverseBindMatrices", -1), HasSubstr("must be an integer"));
+    EXPECT_THAT(with("/nodes/0/skin", -1), HasSubstr("must be an integer"));
 }
 
 /// A triangle with two morph targets: one lifts it, the other stretches it and turns its normals.
@@ -262,8 +275,53 @@ TEST(Morph, BadOnesAreErrors) {
     EXPECT_THAT(with("/meshes/0/primitives/0/targets/0/POSITION", 99), HasSubstr("accessor 99"));
     EXPECT_THAT(with("/accessors/2/count", 2), HasSubstr("of morph target 0 of mesh 0 are 2"));
     EXPECT_THAT(with("/accessors/6/count", 3), HasSubstr("need 4 of 1"));
+    EXPECT_THAT(with("/meshes/0/weights", {"a", 1}), HasSubstr("must be made of numbers"));
     EXPECT_THAT(with("/meshes/0/primitives/0/targets", json::array()),
                 HasSubstr("moves the morph targets of node 0, which has none"));
+}
+
+// A few kilobytes must not ask for gigabytes.
+TEST(Morph, ShortFilesCannotStateHugeOnes) {
+    const auto zeros = [](Animated& file, const char* type, std::size_t count) {
+        return GltfBuilder::append(
+            file.builder.root["accessors"],
+            {{"componentType", float_type}, {"type", type}, {"count", count}});
+    };
+    Animated weights = morphed_triangle();
+    json& targets = weights.builder.root["meshes"][0]["primitives"][0]["targets"];
+    targets = json::array();
+    for (int i = 0; i < 1000; ++i) {
+        targets.push_back(json::object());
+    }
+    for (int i = 0; i < 5000; ++i) {
+        weights.builder.add_node({{"mesh", 0}});
+    }
+    EXPECT_THAT(weights.builder.problem(), HasSubstr("more than 4194304 morph weights"));
+
+    Animated keys = morphed_triangle();
+    keys.builder.root["meshes"][0]["primitives"][0]["targets"] = targets;
+    const int times = zeros(keys, "SCALAR", 1);
+    const int values = zeros(keys, "SCALAR", 3000);
+    json animation{
+        {"samplers", {{{"input", times}, {"output", values}, {"interpolation", "CUBICSPLINE"}}}}};
+    for (int i = 0; i < 4000; ++i) {
+        const int node = keys.builder.add_node({{"mesh", 0}});
+        animation["channels"].push_back(
+            {{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    }
+    keys.builder.root["animations"] = json::array({animation});
+    EXPECT_THAT(keys.builder.problem(), HasSubstr("have more than 8388608 numbers"));
+
+    Animated vectors = morphed_triangle();
+    const std::size_t many = 1 << 20;
+    json& primitive = vectors.builder.root["meshes"][0]["primitives"][0];
+    primitive["attributes"] = {{"POSITION", zeros(vectors, "VEC3", many)}};
+    primitive["targets"] = json::array();
+    for (int i = 0; i < 17; ++i) {
+        primitive["targets"].push_back({{"POSITION", primitive["attributes"]["POSITION"]}});
+    }
+    vectors.builder.root["meshes"][0]["weights"] = std::vector<double>(17, 1.0);
+    EXPECT_THAT(vectors.builder.problem(), HasSubstr("more than 33554432 vectors"));
 }
 
 } // namespace

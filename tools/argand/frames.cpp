@@ -1,8 +1,8 @@
 #include "frames.hpp"
 
 #include "base/error.hpp"
+#include "numbers.hpp"
 
-#include <charconv>
 #include <optional>
 #include <string_view>
 
@@ -11,13 +11,6 @@ namespace argand {
 namespace {
 
 constexpr std::uint64_t most_frames = 10'000'000; // as the number of the last frame
-
-std::optional<std::uint64_t> parse_number(std::string_view text) {
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() ? std::optional(number)
-                                                                    : std::nullopt;
-}
 
 /// Where a frame's number goes in a name.
 struct NumberPlace {
@@ -56,8 +49,8 @@ std::optional<NumberPlace> find_place(const std::string& pattern) {
 FrameRange parse_frame_range(const std::string& text) {
     const std::size_t colon = text.find(':');
     if (colon != std::string::npos) {
-        const auto first = parse_number(std::string_view(text).substr(0, colon)),
-                   end = parse_number(std::string_view(text).substr(colon + 1));
+        const auto first = parse_number<std::uint64_t>(std::string_view(text).substr(0, colon)),
+                   end = parse_number<std::uint64_t>(std::string_view(text).substr(colon + 1));
         if (first && end && *first < *end && *end <= most_frames) {
             return {*first, *end};
         }

@@ -1,9 +1,9 @@
 #include "picture_size.hpp"
 
 #include "base/error.hpp"
+#include "numbers.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 namespace argand {
@@ -13,14 +13,12 @@ namespace {
 constexpr int largest_side = 32768;
 
 int parse_side(std::string_view text, const std::string& size) {
-    int side = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-    if (error != std::errc() || end != text.data() + text.size() || side < 1 ||
-        side > largest_side) {
+    const std::optional<int> side = parse_number<int>(text);
+    if (!side || *side < 1 || *side > largest_side) {
         throw UsageError(fmt::format(
             "reading --size {}: it must be WIDTHxHEIGHT, each from 1 to {}", size, largest_side));
     }
-    return side;
+    return *side;
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include "render_frames.hpp"
 #include "rendering.hpp"
 
+#include <filesystem>
 #include <memory>
 
 namespace argand {
@@ -55,7 +56,7 @@ void check(const RenderOptions& options, const CLI::App& command) {
     std::vector<std::string> files{options.scene};
     for (const std::string& output : options.outputs) {
         check_overwrites_none(output, files);
-        check_image_writable(output);
+        check_image_writable(options.frames.empty() ? output : first_name(options, output));
         files.push_back(output);
     }
     if (!options.report.empty()) {
@@ -66,7 +67,7 @@ void check(const RenderOptions& options, const CLI::App& command) {
 
 void render_one(const RenderOptions& options, const CLI::App& command) {
     const Clock::time_point start = Clock::now();
-    RenderJob job = open_job(options, command);
+    RenderJob job = open_job(options, command, options.seconds);
     const Rendered rendered = render_picture(job, "rendering");
     if (rendered.result.statistics.samples == 0) {
         fail("rendering '{}': interrupted {}; nothing is written", options.scene,

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/interrupt.hpp"
 #include "frames.hpp"
 #include "method_options.hpp"
 #include "scene/pose.hpp"
@@ -80,9 +81,16 @@ void check_frames(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+std::string first_name(const RenderOptions& options, const std::string& pattern) {
+    return frame_name(pattern, parse_frame_range(options.frames).first);
+}
+
 void render_frames(const RenderOptions& options, const CLI::App& command) {
     const FrameRange range = parse_frame_range(options.frames);
-    RenderJob job = open_job(options, command);
+    const auto seconds_of = [&](std::uint64_t frame) {
+        return static_cast<double>(frame) / options.frames_per_second;
+    };
+    RenderJob job = open_job(options, command, seconds_of(range.first));
     FrameReports reports(options.report, options.continues);
     for (std::uint64_t frame = range.first; frame < range.end; ++frame) {
         const std::vector<std::string> outputs = names_of(options.outputs, frame);
@@ -91,20 +99,19 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         }
         const Clock::time_point start = Clock::now();
         job.device->reset_stage_times();
-        move_to(static_cast<double>(frame) / options.frames_per_second, job.scene);
-        if (job.world) {
-            job.world->update(job.scene);
-        }
+        move_to(seconds_of(frame), job.scene);
         job.times.update = seconds_since(start);
         if (options.seed_per_frame) {
             job.settings.seed = options.settings.seed + static_cast<std::uint32_t>(frame);
         }
         const Rendered rendered =
             render_picture(job, fmt::format("frame {} of {}", frame, options.frames));
-        if (rendered.result.statistics.interrupted) {
-            fail("rendering '{}': interrupted in frame {}, which is not written; --continue goes "
-                 "on there",
-                 options.scene, frame);
+        // The signal may have ended the work of a witness, and left the picture itself whole.
+        if (rendered.result.statistics.interrupted || interrupted()) {
+            fail(
+                "rendering '{}': interrupted in frame {}, which is not written; --continue resumes "
+                "there",
+                options.scene, frame);
         }
         write_picture(job, rendered, outputs);
         nlohmann::ordered_json report{{"frame", frame}};

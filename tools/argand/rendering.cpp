@@ -7,11 +7,11 @@
 #include "base/progress.hpp"
 #include "image/files.hpp"
 #include "method_options.hpp"
+#include "numbers.hpp"
 #include "picture_size.hpp"
 #include "scene/gltf.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 namespace argand {
@@ -27,11 +27,9 @@ std::size_t find_camera(const Scene& scene, const std::string& choice) {
             return i;
         }
     }
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-    if (error == std::errc() && end == choice.data() + choice.size() &&
-        index < scene.cameras.size()) {
-        return index;
+    const std::optional<std::size_t> index = parse_number<std::size_t>(choice);
+    if (index && *index < scene.cameras.size()) {
+        return *index;
     }
     fail("choosing camera '{}' of '{}': there is none of that name or index; `argand inspect` "
          "lists its {} cameras",
@@ -124,7 +122,7 @@ std::vector<std::string> notes_on(const Rendered& rendered, MethodTable methods,
     return notes;
 }
 
-/// Tells the user, unless to be quiet.
+/// Prints them, unless --quiet is given.
 void print_notes(const RenderOptions& options, const std::vector<std::string>& notes) {
     for (const std::string& note : notes) {
         if (!options.quiet) {
@@ -139,7 +137,8 @@ bool is_autotuned(const RenderOptions& options, const CLI::App& command) {
     return options.target_error || (options.settings.budget && !is_given(command, "--method"));
 }
 
-RenderJob open_job(const RenderOptions& options, const CLI::App& command) {
+RenderJob open_job(const RenderOptions& options, const CLI::App& command,
+                   std::optional<double> seconds) {
     RenderJob job{.options = options,
                   .command = command,
                   .settings = options.settings,
@@ -151,7 +150,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command) {
     job.settings.width = size.width;
     job.settings.height = size.height;
     const Clock::time_point start = Clock::now();
-    job.scene = load_gltf(options.scene, options.seconds);
+    job.scene = load_gltf(options.scene, seconds);
     job.times.load = seconds_since(start);
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);
@@ -167,6 +166,11 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
     Clock::time_point start = Clock::now();
     Rendered rendered;
     try {
+        if (job.world) {
+            job.world->update(job.scene);
+            job.times.update += seconds_since(start);
+            start = Clock::now();
+        }
         rendered = render_on(job, work);
     } catch (const DeviceFault& fault) {
         job.world.reset();

@@ -47,8 +47,10 @@ struct RenderJob {
     ReportTimes times;            ///< of the last picture
 };
 
-/// Loads the scene, chooses what the scene decides, and opens the device. Prints the scene's notes.
-RenderJob open_job(const RenderOptions& options, const CLI::App& command);
+/// Loads the scene at a time of its animations (none: at rest), chooses what the scene decides, and
+/// opens the device. Prints the scene's notes.
+RenderJob open_job(const RenderOptions& options, const CLI::App& command,
+                   std::optional<double> seconds);
 
 /// A rendered picture.
 struct Rendered {
@@ -58,7 +60,8 @@ struct Rendered {
     std::vector<std::string> notes;       ///< for the user
 };
 
-/// Renders the scene as it is. work: shown while it runs.
+/// Renders the scene as it is, in a world that follows it; adds the time for that to
+/// job.times.update. work: shown while it runs.
 Rendered render_picture(RenderJob& job, const std::string& work);
 
 /// Writes the picture to each output.
@@ -69,7 +72,7 @@ void write_picture(RenderJob& job, const Rendered& rendered,
 nlohmann::ordered_json report_on(const RenderJob& job, const Rendered& rendered,
                                  const std::vector<std::string>& outputs);
 
-/// Tells the user of a picture that is written, and what is to be noted, unless to be quiet.
+/// Prints a line on the written picture, and its notes, unless --quiet is given.
 void tell_of(const RenderJob& job, const Rendered& rendered,
              const std::vector<std::string>& outputs, double seconds);
 

@@ -19,9 +19,7 @@ layout(set = 0, binding = 6) coherent buffer Costs { uvec4 costs[]; };
 layout(set = 0, binding = 7) writeonly buffer Parents { uint parents[]; };
 layout(push_constant) uniform Push { AccelParams params; };
 
-// Off on lavapipe, where atomics are sequentially consistent anyway. Version 22.3 handles a memory
-// barrier as a control barrier, and loses its place in a loop that invocations run unequally often.
-layout(constant_id = 0) const bool fences = true;
+#include "memory_fence.glsl"
 
 // For trees that rays traverse: also writes a ForestCost and a parent for each inner node. The
 // parent is 2 p for the left child of inner node p, 2 p + 1 for the right one, and lbvh_end for the
@@ -31,8 +29,4 @@ layout(constant_id = 1) const bool for_rays = false;
 // looked up through it.
 layout(constant_id = 2) const bool in_order = false;
 
-#define MEMORY_FENCE() \
-    if (fences) {      \
-        memoryBarrierBuffer(); \
-    }
 #include "shared/kernels/accel/lbvh_fit.h"

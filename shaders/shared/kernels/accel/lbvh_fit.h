@@ -1,11 +1,5 @@
 #include "shared/kernels/count.h"
-
-CONSTANT real triangle_cost = real(0.5); // of testing a triangle, relative to a node
-
-FN real half_area(vec3 low, vec3 high) {
-    vec3 size = max(high - low, vec3(real(0.0)));
-    return size.x * size.y + size.y * size.z + size.z * size.x;
-}
+#include "shared/kernels/accel/half_area.h"
 
 // Costs of an inner node from those of its children (Ylitie et al. 2017, section 4).
 FN ForestCost join(ForestCost left, ForestCost right, real area) {

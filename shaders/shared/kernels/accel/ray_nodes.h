@@ -1,13 +1,8 @@
 #include "shared/kernels/accel/forest.h"
+#include "shared/kernels/accel/node_grid.h"
 
 // ranks: inclusive sums of the flags written by wide_roots.
 FN bool is_wide(uint node) { return ranks[node] != (node > 0u ? ranks[node - 1u] : 0u); }
-
-// Biased exponent of the least power of two such that `cells` cells of that size cover the extent.
-FN uint cell_exponent(real extent) {
-    uint bits = float_bits(max(extent, real(0.0)) / real(255.0));
-    return clamp((bits + 0x7fffffu) >> 23u, 1u, 254u);
-}
 
 // Writes the nodes of the four-wide tree, with their children's boxes rounded outwards to the grid.
 FN void main() {
@@ -38,28 +33,16 @@ FN void main() {
         }
     }
 
-    vec3 low = bits_float(uvec3(tree[4u * node]));
-    vec3 high = bits_float(uvec3(tree[4u * node + 1u]));
-    uvec3 exponents = uvec3(cell_exponent(high.x - low.x), cell_exponent(high.y - low.y),
-                            cell_exponent(high.z - low.z));
-    vec3 cell = bits_float(exponents << 23u);
-    uvec3 low_cells = uvec3(0u);
-    uvec3 high_cells = uvec3(0u);
+    NodeGrid grid = grid_over(bits_float(uvec3(tree[4u * node])),
+                              bits_float(uvec3(tree[4u * node + 1u])));
     uvec4 references = uvec4(lbvh_end);
     for (uint i = 0u; i < count; ++i) {
         uint child = children[i];
-        vec3 child_low = bits_float(uvec3(tree[2u * child]));
-        vec3 child_high = bits_float(uvec3(tree[2u * child + 1u]));
-        low_cells |= uvec3(clamp(floor((child_low - low) / cell), real(0.0), real(255.0)))
-                     << (8u * i);
-        high_cells |= uvec3(clamp(ceil((child_high - low) / cell), real(0.0), real(255.0)))
-                      << (8u * i);
+        add_child(grid, i, bits_float(uvec3(tree[2u * child])),
+                  bits_float(uvec3(tree[2u * child + 1u])));
         references[i] = (child & 1u) == 0u ? 2u * (ranks[child >> 1u] - 1u) : child;
     }
-    uint place = 4u * (ranks[node] - 1u);
-    nodes[place] = uvec4(float_bits(low),
-                         exponents.x | (exponents.y << 8u) | (exponents.z << 16u) | (count << 24u));
-    nodes[place + 1u] = uvec4(low_cells, high_cells.x);
-    nodes[place + 2u] = uvec4(high_cells.y, high_cells.z, 0u, 0u);
-    nodes[place + 3u] = references;
+    uint place = ranks[node] - 1u;
+    write_grid(place, grid, count);
+    nodes[4u * place + 3u] = references;
 }
