@@ -93,7 +93,7 @@ TEST_F(WorldUpdates, TouchOnlyWhatHasChanged) {
         EXPECT_EQ(update.moved_meshes, 0u);
         EXPECT_EQ(update.uploaded_bytes, 0u);
         EXPECT_FALSE(update.refitted || update.rebuilt);
-        EXPECT_EQ(recording.runs_of("lbvh_fit"), 1u);
+        EXPECT_EQ(recording.runs_of("ray_refit"), 1u);
     };
     expect_nothing();
     // Lights and cameras belong to a render.
@@ -108,7 +108,7 @@ TEST_F(WorldUpdates, TouchOnlyWhatHasChanged) {
     EXPECT_EQ(update.moved_meshes, 1u);
     EXPECT_EQ(update.uploaded_bytes, 16 * scene_.motion.meshes[0].positions.size());
     EXPECT_TRUE(update.refitted);
-    EXPECT_EQ(recording.runs_of("lbvh_fit"), 2u);
+    EXPECT_EQ(recording.runs_of("ray_refit"), 2u);
     EXPECT_EQ(recording.runs_of("lbvh_codes"), 1u);
     // Mirrored: its vertices and its triangles.
     scene_.motion.nodes[1].rest.scale.x *= -1;
