@@ -1,5 +1,5 @@
-#include "shared/kernels/count.h"
 #include "shared/kernels/accel/half_area.h"
+#include "shared/kernels/count.h"
 
 // Costs of an inner node from those of its children (Ylitie et al. 2017, section 4).
 FN ForestCost join(ForestCost left, ForestCost right, real area) {

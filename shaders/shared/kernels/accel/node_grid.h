@@ -30,9 +30,8 @@ FN void add_child(INOUT(NodeGrid) grid, uint child, vec3 low, vec3 high) {
 
 // Writes all of a node but the references to its children.
 FN void write_grid(uint node, NodeGrid grid, uint count) {
-    nodes[4u * node] =
-        uvec4(float_bits(grid.low), grid.exponents.x | (grid.exponents.y << 8u) |
-                                        (grid.exponents.z << 16u) | (count << 24u));
+    nodes[4u * node] = uvec4(float_bits(grid.low), grid.exponents.x | (grid.exponents.y << 8u) |
+                                                       (grid.exponents.z << 16u) | (count << 24u));
     nodes[4u * node + 1u] = uvec4(grid.low_cells, grid.high_cells.x);
     nodes[4u * node + 2u] = uvec4(grid.high_cells.y, grid.high_cells.z, 0u, 0u);
 }

@@ -33,8 +33,8 @@ FN void main() {
         }
     }
 
-    NodeGrid grid = grid_over(bits_float(uvec3(tree[4u * node])),
-                              bits_float(uvec3(tree[4u * node + 1u])));
+    NodeGrid grid =
+        grid_over(bits_float(uvec3(tree[4u * node])), bits_float(uvec3(tree[4u * node + 1u])));
     uvec4 references = uvec4(lbvh_end);
     for (uint i = 0u; i < count; ++i) {
         uint child = children[i];

@@ -40,8 +40,7 @@ FN Fitted fit_node(uint node, uint count) {
     fitted.cost += half_area(fitted.low, fitted.high);
     NodeGrid grid = grid_over(fitted.low, fitted.high);
     for (uint i = 0u; i < count; ++i) {
-        add_child(grid, i, vec3(boxes[2u * references[i]]),
-                  vec3(boxes[2u * references[i] + 1u]));
+        add_child(grid, i, vec3(boxes[2u * references[i]]), vec3(boxes[2u * references[i] + 1u]));
     }
     write_grid(node, grid, count);
     return fitted;
