@@ -39,10 +39,10 @@ bool is_blind_to_caustics(const Scene& scene);
 /// soonest, or have the least error within the time budget. Chooses from short pilots of this scene
 /// on this device. A render reaches an error when its measured noise plus its expected squared bias
 /// is no larger, and a witness confirms it: pictures by the unbiased method, or passes with narrow
-/// bandwidths where that method is blind. If a witness finds more bias than expected, or
-/// the render takes far more passes than expected, and the unbiased method is faster for that, the
-/// render starts again with it. Throws Error if no
-/// method is expected to reach the error within `default_time_limit` and the target has no budget.
+/// bandwidths where that method is blind. If a witness finds more bias than expected, or the render
+/// takes far more passes than expected, and the unbiased method is faster for that, the render
+/// starts again with it. Throws Error if no method is expected to reach the error within
+/// `default_time_limit` and the target has no budget.
 AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
                          const UserSet& user_set, const Target& target, const OnPick& on_pick);
 

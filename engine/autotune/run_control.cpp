@@ -240,16 +240,18 @@ void RunControl::complete_witness() {
 /// measured much bias, or because the render is overdue. done: passes so far, without the pilot's.
 bool RunControl::witness_is_faster(std::uint64_t done) const {
     if (!may_switch_ || !witness_ || !witness_->is_unbiased() || !(variance_of_witness_ > 0) ||
-        !(measured_->testimony || (is_overdue() && !(witness_->passes_missing() > 0)))) {
+        !(measured_->testimony || (is_overdue() && witness_->passes_missing() == 0))) {
         return false;
     }
-    const double each = done > 0 ? own_seconds() / static_cast<double>(done)
-                                 : candidate_.seconds_per_pass,
-                 modelled = (passes_to_target() - measured_->passes) * each,
-                 // Nothing better is known of an overdue render than that it takes as long again.
-        more = is_overdue() ? std::max(modelled, own_seconds()) : modelled,
-                 left = target_.seconds ? seconds_ - seconds_since(start_) : default_time_limit,
-                 other = of_witness().seconds;
+    const double each =
+        done > 0 ? own_seconds() / static_cast<double>(done) : candidate_.seconds_per_pass;
+    double more = (passes_to_target() - measured_->passes) * each;
+    if (is_overdue()) {
+        // Nothing better is known of it than that it takes as long again.
+        more = std::max(more, own_seconds());
+    }
+    const double left = target_.seconds ? seconds_ - seconds_since(start_) : default_time_limit;
+    const double other = of_witness().seconds;
     return other < more && other <= left;
 }
 
