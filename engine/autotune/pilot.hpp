@@ -2,7 +2,7 @@
 
 #include "autotune/error_model.hpp"
 #include "base/clock.hpp"
-#include "methods/render.hpp"
+#include "session/render.hpp"
 
 #include <functional>
 #include <optional>

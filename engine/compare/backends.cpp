@@ -6,6 +6,7 @@
 #include "compare/paired_device.hpp"
 #include "image/metrics.hpp"
 #include "scene/fingerprint.hpp"
+#include "session/render.hpp"
 
 #include <algorithm>
 #include <array>

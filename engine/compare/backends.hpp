@@ -3,7 +3,7 @@
 #include "compare/comparison.hpp"
 #include "compare/golden.hpp"
 #include "device/device.hpp"
-#include "methods/render.hpp"
+#include "methods/render_settings.hpp"
 #include "scene/scene.hpp"
 
 #include <vector>

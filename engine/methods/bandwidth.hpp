@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/render.hpp"
+#include "methods/render_settings.hpp"
 #include "photon/gather.hpp"
 #include "photon/sort_photons.hpp"
 

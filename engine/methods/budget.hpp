@@ -62,10 +62,4 @@ private:
     double begun_ = 0, in_passes_ = 0;
 };
 
-/// Whether the samples of the pass after `passes` others have numbers within 32 bits. Beyond that,
-/// samples would repeat.
-inline bool has_sample_numbers(std::uint64_t passes, std::uint32_t samples) {
-    return (passes + 1) * samples <= 0xffffffffu;
-}
-
 } // namespace argand

@@ -298,6 +298,15 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     return w;
 }
 
+void restart(Device& device, EyeWorkspace& w, const CameraRecord& camera) {
+    device.upload(w.camera, 0, std::as_bytes(std::span(&camera, 1)));
+    w.queries.view = camera;
+    w.queries.sharing = {};
+    for (const Buffer& part : w.film.parts) {
+        device.fill(part, 0);
+    }
+}
+
 bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyePass& pass,
                      const PhotonLookup* lookup, const OnProgress& progress) {
     const Batching most = batching(w, pass, lookup != nullptr);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "base/on_progress.hpp"
 #include "methods/film.hpp"
 #include "methods/query_sharing.hpp"
+#include "methods/render_settings.hpp"
 #include "shared/path_records.h"
 #include "world/device_scene.hpp"
 
@@ -21,6 +23,10 @@ struct EyeWorkspace {
 /// Allocates only the buffers that the plan requires.
 EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
                                 const CameraRecord& camera);
+
+/// Readies the workspace for another image of the same plan and settings: empties the film. Records
+/// only.
+void restart(Device& device, EyeWorkspace& workspace, const CameraRecord& camera);
 
 /// Which samples of every pixel are traced.
 struct EyePass {

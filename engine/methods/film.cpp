@@ -6,6 +6,15 @@
 
 namespace argand {
 
+namespace {
+
+/// A number whose words a record holds.
+std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
+    return (std::uint64_t(high) << 32) | low;
+}
+
+} // namespace
+
 Film make_film(Device& device, int width, int height) {
     Film film{.width = width, .height = height};
     film.pixels_per_part = device.info().limits.storage_range / sizeof(FilmRecord);
@@ -33,11 +42,12 @@ std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatisti
         layer.image.height = film.height;
         layer.image.pixels.resize(pixels);
     }
-    statistics.samples = pixels > 0 ? records[0].samples : 0;
+    statistics.samples = pixels > 0 ? joined(records[0].samples, records[0].samples_high) : 0;
     statistics.non_finite = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const FilmRecord& r = records[i];
-        const std::uint32_t finite = r.samples - r.non_finite;
+        const std::uint64_t non_finite = joined(r.non_finite, r.non_finite_high);
+        const std::uint64_t finite = joined(r.samples, r.samples_high) - non_finite;
         const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
         const glm::vec3 direct = glm::vec3(r.direct_r, r.direct_g, r.direct_b) * scale;
         const glm::vec3 indirect = glm::vec3(r.indirect_r, r.indirect_g, r.indirect_b) * scale;
@@ -46,7 +56,7 @@ std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatisti
         layers[1].image.pixels[i] = direct;
         layers[2].image.pixels[i] = indirect;
         layers[3].image.pixels[i] = caustic;
-        statistics.non_finite += r.non_finite;
+        statistics.non_finite += non_finite;
     }
     return layers;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "device/device.hpp"
-#include "methods/render.hpp"
+#include "methods/render_result.hpp"
 
 #include <cstdint>
 #include <vector>

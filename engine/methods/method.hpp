@@ -3,9 +3,6 @@
 #include "methods/budget.hpp"
 #include "methods/eye_paths.hpp"
 #include "methods/method_info.hpp"
-#include "methods/streams.hpp"
-
-#include <functional>
 
 namespace argand {
 
@@ -18,35 +15,46 @@ struct RenderContext {
     EyeWorkspace eye; ///< holds the film
 };
 
+/// The random numbers of a pass.
+struct PassNumbers {
+    std::uint32_t seed = 0;
+    std::uint64_t index = 0; ///< of the pass among those of this seed
+};
+
 /// One pass.
 struct Pass {
     double expected = 1; ///< passes of the whole image, as far as is known
     PassNumbers numbers; ///< the random numbers that it takes
 };
 
-/// Told the share of a pass that is done; returns false to stop after the current batch.
-using OnPart = std::function<bool(double)>;
+/// Eye paths of a pixel, and photons, that one seed can number. They are the points of a Sobol'
+/// sequence of 32 bits.
+inline constexpr std::uint64_t numbers_of_seed = 0xffffffffu;
 
-/// A method at work on one image. It owns what outlives a pass.
+/// A method at work on images of a scene, one after the other. It owns what outlives a pass.
 class Method {
 public:
     virtual ~Method() = default;
 
-    /// Does the work that precedes the first pass. The time of the first pass begins where this
-    /// calls budget.start_pass(); work that only the first pass has goes into budget.once().
-    virtual void begin(Budget& budget) { budget.start_pass(); }
+    /// Does the work that precedes the first pass of an image. The context's scene, settings and
+    /// lights are those of the image, and its film is empty. Of earlier images only memory is kept.
+    /// The time of the first pass begins where this calls budget.start_pass(); work that only the
+    /// first pass has goes into budget.once().
+    virtual void begin_frame(Budget& budget) { budget.start_pass(); }
 
-    /// Passes over which the samples and photons of the settings are spread. Known after begin().
+    /// Passes over which the samples and photons of the settings are spread. Known after
+    /// begin_frame().
     virtual std::uint64_t passes() const { return 1; }
 
-    /// Adds one pass to the film. Returns false if `on_part` did; the film then holds the samples
-    /// that were finished.
-    virtual bool pass(const Pass& pass, const OnPart& on_part) = 0;
+    /// Adds one pass to the film. on_part: told the share of this pass. Returns false if on_part
+    /// did; the film then holds the samples that were finished.
+    virtual bool pass(const Pass& pass, const OnProgress& on_part) = 0;
 
-    /// Whether the pass of this index within its stream has random numbers of its own.
-    virtual bool has_numbers(std::uint64_t index) const = 0;
+    /// Passes, at least one, for which one seed has numbers: their indices are below this. Known
+    /// after begin_frame().
+    virtual std::uint64_t passes_per_seed() const = 0;
 
-    /// Writes what the method did so far.
+    /// Writes what the method did for the image so far.
     virtual void report(RenderStatistics& statistics) const = 0;
 };
 

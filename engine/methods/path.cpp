@@ -11,7 +11,7 @@ class PathTracing : public Method {
 public:
     explicit PathTracing(RenderContext& context) : c_(context) {}
 
-    bool pass(const Pass& pass, const OnPart& on_part) override {
+    bool pass(const Pass& pass, const OnProgress& on_part) override {
         const EyePass eye{.seed = pass.numbers.seed,
                           .first_sample =
                               static_cast<std::uint32_t>(pass.numbers.index * c_.settings.samples),
@@ -20,9 +20,7 @@ public:
         return trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, nullptr, on_part);
     }
 
-    bool has_numbers(std::uint64_t index) const override {
-        return has_sample_numbers(index, c_.settings.samples);
-    }
+    std::uint64_t passes_per_seed() const override { return numbers_of_seed / c_.settings.samples; }
 
     void report(RenderStatistics&) const override {}
 

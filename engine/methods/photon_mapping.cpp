@@ -41,7 +41,8 @@ std::uint32_t area_seed(const PassNumbers& numbers) {
     return pcg4d({numbers.seed, static_cast<std::uint32_t>(numbers.index), 0xa4ea5u, 0}).x;
 }
 
-void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, double unit) {
+FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {
+    FluxSums sums;
     for (std::size_t channel = 0; channel < 3; ++channel) {
         sums.emitted[channel] = words[channel];
         sums.absorbed[channel] = words[3 + channel];
@@ -49,23 +50,39 @@ void add_flux_sums(FluxSums& sums, const std::vector<std::int64_t>& words, doubl
         sums.cut[channel] = words[9 + channel];
     }
     sums.unit = unit;
+    return sums;
 }
+
+/// What belongs to one image.
+struct ImageState {
+    std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
+    PassSplit split;
+    double flux_unit = 0; ///< of the fixed-point sums
+    Bandwidth learnt;     ///< for split.passes passes
+    // Of the last pass.
+    Bandwidth bandwidth;
+    std::optional<FootprintScale> footprint_scale;
+    double mean_footprints = 0;
+    std::uint32_t leaf_size = 0;
+    // Of all passes.
+    std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
+};
 
 class PhotonMapping : public Method {
 public:
     PhotonMapping(RenderContext& context, std::unique_ptr<EstimationStrategy> strategy)
-        : c_(context), strategy_(std::move(strategy)) {
+        : c_(context), strategy_(std::move(strategy)) {}
+
+    void begin_frame(Budget& budget) override {
+        image_ = {};
         // Without indirect light no photon is ever looked up.
         const bool indirect = c_.settings.bounces > 0 && c_.on_device.record.light_count > 0;
-        emitted_ = indirect ? c_.settings.photons : 0;
-    }
-
-    void begin(Budget& budget) override {
+        image_.emitted = indirect ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
             c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
         aim_at_casters(c_, queries);
         first_ = trace_first(budget);
-        learnt_ = budget.once([&] {
+        image_.learnt = budget.once([&] {
             const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
             const FirstPass first{.device = c_.device,
                                   .scene = c_.on_device,
@@ -73,22 +90,20 @@ public:
                                   .stored = *first_,
                                   .photons = sorted,
                                   .queries = queries,
-                                  .passes = static_cast<double>(split_.passes)};
+                                  .passes = static_cast<double>(image_.split.passes)};
             const Bandwidth learnt = strategy_->learn(first, c_.settings);
             sample_areas_in_view(queries, strategy_->typical_radius(learnt));
             return learnt;
         });
     }
 
-    std::uint64_t passes() const override { return split_.passes; }
+    std::uint64_t passes() const override { return image_.split.passes; }
 
-    bool pass(const Pass& pass, const OnPart& on_part) override;
+    bool pass(const Pass& pass, const OnProgress& on_part) override;
 
-    bool has_numbers(std::uint64_t index) const override {
-        // Photons have numbers of 32 bits, beyond which they would be the same again.
-        const PhotonPass emission = emission_of({.index = index});
-        return emission.first + emission.count <= 0xffffffffu &&
-               has_sample_numbers(index, split_.samples);
+    std::uint64_t passes_per_seed() const override {
+        return numbers_of_seed /
+               std::max<std::uint64_t>(image_.split.photons, image_.split.samples);
     }
 
     void report(RenderStatistics& statistics) const override;
@@ -100,53 +115,46 @@ private:
     std::optional<StoredPhotons> trace(const PassNumbers& numbers);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
-    PhotonMap build_map(const PassNumbers& numbers);
+    PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
     std::unique_ptr<EstimationStrategy> strategy_;
-    std::uint64_t emitted_ = 0; ///< photons of the whole image, as the settings request
-    PassSplit split_;
-    double flux_unit_ = 0; ///< of the fixed-point sums
     PhotonWorkspace photons_;
+    std::uint64_t room_ = 0; ///< photons of a pass for which the workspace was made
+    ImageState image_;
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
-    Bandwidth learnt_;                   ///< for split_.passes passes
-    // Of the last pass.
-    StoredPhotons stored_;
-    Bandwidth bandwidth_;
-    std::optional<FootprintScale> footprint_scale_;
-    double mean_footprints_ = 0;
-    std::uint32_t leaf_size_ = 0;
-    // Of all passes.
-    std::uint64_t passes_done_ = 0, photons_emitted_ = 0, photons_stored_ = 0;
-    FluxSums flux_;
 };
 
 /// The photons of a pass. If there are more passes than the settings request, their numbers
 /// continue.
 PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
-    const std::uint64_t round = numbers.index / split_.passes;
-    const std::uint64_t in_round = numbers.index % split_.passes;
-    const std::uint64_t first = emitted_ * in_round / split_.passes;
+    const std::uint64_t round = numbers.index / image_.split.passes;
+    const std::uint64_t in_round = numbers.index % image_.split.passes;
+    const std::uint64_t first = image_.emitted * in_round / image_.split.passes;
     return {.seed = numbers.seed,
-            .first = round * emitted_ + first,
-            .count = emitted_ * (in_round + 1) / split_.passes - first,
+            .first = round * image_.emitted + first,
+            .count = image_.emitted * (in_round + 1) / image_.split.passes - first,
             .bounces = c_.settings.bounces};
 }
 
 void PhotonMapping::make_workspace() {
-    photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
-    photons_ = make_photon_workspace(c_.device, split_.photons,
-                                     c_.on_device.plan.needs(Feature::differentials));
+    if (room_ != image_.split.photons) {
+        photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
+        photons_ = make_photon_workspace(c_.device, image_.split.photons,
+                                         c_.on_device.plan.needs(Feature::differentials));
+        room_ = image_.split.photons;
+    }
+    c_.device.fill(photons_.flux_sums, 0);
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     const auto& power = c_.on_device.light_table.power;
-    flux_unit_ = std::max({power.r, power.g, power.b}) / static_cast<double>(split_.photons) /
-                 units_per_photon;
+    image_.flux_unit = std::max({power.r, power.g, power.b}) /
+                       static_cast<double>(image_.split.photons) / units_per_photon;
 }
 
 std::optional<StoredPhotons> PhotonMapping::trace(const PassNumbers& numbers) {
     return trace_photons(c_.device, c_.on_device, photons_, emission_of(numbers),
-                         static_cast<float>(flux_unit_));
+                         static_cast<float>(image_.flux_unit));
 }
 
 StoredPhotons PhotonMapping::stored_or_fail(const std::optional<StoredPhotons>& stored) const {
@@ -162,17 +170,17 @@ StoredPhotons PhotonMapping::stored_or_fail(const std::optional<StoredPhotons>& 
 /// often; passes then have fewer photons, so that later ones, which store a few more or less, fit
 /// as well.
 StoredPhotons PhotonMapping::trace_first(Budget& budget) {
-    split_ = split(emitted_, c_.settings.samples,
-                   std::min(max_photons_per_pass(c_.device), c_.settings.photons_per_pass));
+    image_.split = split(image_.emitted, c_.settings.samples,
+                         std::min(max_photons_per_pass(c_.device), c_.settings.photons_per_pass));
     for (;;) {
         make_workspace();
         budget.start_pass();
         const std::optional<StoredPhotons> stored = trace({.seed = c_.settings.seed});
         const bool has_room = stored && stored->slots <= max_stored_photons(c_.device) / 10 * 9;
-        if (has_room || split_.photons == 1) {
+        if (has_room || image_.split.photons == 1) {
             return stored_or_fail(stored);
         }
-        split_ = split(emitted_, c_.settings.samples, split_.photons / 2);
+        image_.split = split(image_.emitted, c_.settings.samples, image_.split.photons / 2);
     }
 }
 
@@ -193,61 +201,62 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, 
     sample_areas(c_.device, c_.scene, c_.on_device, {eye, reach * median(std::move(distances))});
 }
 
-PhotonMap PhotonMapping::build_map(const PassNumbers& numbers) {
-    footprint_scale_ =
-        strategy_->footprints(bandwidth_, c_.settings.footprints,
-                              static_cast<double>(split_.photons), c_.on_device.record);
-    const double radius = strategy_->typical_radius(bandwidth_);
+PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {
+    image_.footprint_scale =
+        strategy_->footprints(image_.bandwidth, c_.settings.footprints,
+                              static_cast<double>(image_.split.photons), c_.on_device.record);
+    const double radius = strategy_->typical_radius(image_.bandwidth);
     PhotonMap map =
-        build_photon_map(c_.device, c_.on_device, photons_, stored_,
+        build_photon_map(c_.device, c_.on_device, photons_, stored,
                          {.area_samples = area_samples(c_.on_device.sampled_area, radius),
                           .cover_height = disc_half_height * radius,
                           .seed = area_seed(numbers),
                           .leaf_size = c_.settings.leaf_size,
                           .wide_codes = c_.settings.wide_codes,
-                          .footprints = footprint_scale_});
-    mean_footprints_ = map.mean_footprints;
-    leaf_size_ = map.leaf_size;
+                          .footprints = image_.footprint_scale});
+    image_.mean_footprints = map.mean_footprints;
+    image_.leaf_size = map.leaf_size;
     return map;
 }
 
-bool PhotonMapping::pass(const Pass& pass, const OnPart& on_part) {
-    bandwidth_ =
-        for_passes(learnt_, static_cast<double>(split_.passes), pass.expected, c_.settings);
-    stored_ = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
+bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
+    image_.bandwidth = for_passes(image_.learnt, static_cast<double>(image_.split.passes),
+                                  pass.expected, c_.settings);
+    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
     first_.reset();
-    const PhotonMap map = build_map(pass.numbers);
+    const PhotonMap map = build_map(pass.numbers, stored);
     c_.eye.queries.sharing = strategy_->sharing(
-        bandwidth_, c_.settings.query_cell * strategy_->typical_radius(bandwidth_),
+        image_.bandwidth, c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth),
         c_.settings.query_cell > 0 || c_.settings.final_gather);
-    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, bandwidth_);
+    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, image_.bandwidth);
     const PhotonLookup lookup{.map = map, .estimator = *estimator};
     const EyePass eye{.seed = pass.numbers.seed,
                       .first_sample =
-                          static_cast<std::uint32_t>(pass.numbers.index * split_.samples),
-                      .samples = split_.samples,
+                          static_cast<std::uint32_t>(pass.numbers.index * image_.split.samples),
+                      .samples = image_.split.samples,
                       .bounces = c_.settings.bounces};
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
-    ++passes_done_;
-    photons_emitted_ += emission_of(pass.numbers).count;
-    photons_stored_ += stored_.photons;
-    // Every pass emits all of the lights' power.
-    add_flux_sums(flux_, download<std::int64_t>(c_.device, photons_.flux_sums, 12),
-                  flux_unit_ / static_cast<double>(passes_done_));
+    ++image_.passes;
+    image_.photons_emitted += emission_of(pass.numbers).count;
+    image_.photons_stored += stored.photons;
     return finished;
 }
 
 void PhotonMapping::report(RenderStatistics& statistics) const {
-    statistics.photons_emitted = photons_emitted_;
-    statistics.photons_stored = photons_stored_;
-    statistics.radius = bandwidth_.radii.indirect;
-    statistics.caustic_radius = bandwidth_.radii.caustic;
-    statistics.neighbours = bandwidth_.neighbours;
-    statistics.smoothing = bandwidth_.smoothing;
-    statistics.mean_footprints = mean_footprints_;
-    statistics.leaf_size = leaf_size_;
-    statistics.footprint_scale = footprint_scale_;
-    statistics.flux = flux_;
+    statistics.photons_emitted = image_.photons_emitted;
+    statistics.photons_stored = image_.photons_stored;
+    statistics.radius = image_.bandwidth.radii.indirect;
+    statistics.caustic_radius = image_.bandwidth.radii.caustic;
+    statistics.neighbours = image_.bandwidth.neighbours;
+    statistics.smoothing = image_.bandwidth.smoothing;
+    statistics.mean_footprints = image_.mean_footprints;
+    statistics.leaf_size = image_.leaf_size;
+    statistics.footprint_scale = image_.footprint_scale;
+    if (image_.passes > 0) {
+        // Every pass emits all of the lights' power.
+        statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, 12),
+                                  image_.flux_unit / static_cast<double>(image_.passes));
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "methods/render.hpp"
+#include "methods/render_result.hpp"
+#include "methods/render_settings.hpp"
 #include "scene/scene.hpp"
 
 #include <map>

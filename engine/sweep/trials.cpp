@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "image/files.hpp"
+#include "session/render.hpp"
 
 #include <algorithm>
 

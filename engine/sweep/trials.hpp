@@ -1,7 +1,9 @@
 #pragma once
 
 #include "device/device.hpp"
-#include "methods/render.hpp"
+#include "methods/render_result.hpp"
+#include "methods/render_settings.hpp"
+#include "scene/scene.hpp"
 
 #include <cstdint>
 #include <functional>

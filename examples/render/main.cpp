@@ -2,8 +2,8 @@
 #include "base/error.hpp"
 #include "device/device.hpp"
 #include "image/files.hpp"
-#include "methods/render.hpp"
 #include "scene/gltf.hpp"
+#include "session/render.hpp"
 #include <cstdio>
 #include <memory>
 

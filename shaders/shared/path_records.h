@@ -51,14 +51,15 @@ struct ShadowRecord {
 // Sums over a pixel's samples, with their rounding errors (Kahan).
 struct FilmRecord {
     float32 direct_r, direct_g, direct_b;
-    uint samples;
+    uint samples; // the low word of their number
     float32 indirect_r, indirect_g, indirect_b;
-    uint pad3;
+    uint samples_high;
     float32 caustic_r, caustic_g, caustic_b;
-    uint non_finite; // samples left out because they are not finite
-    float32 lost_direct_r, lost_direct_g, lost_direct_b, pad0;
-    float32 lost_indirect_r, lost_indirect_g, lost_indirect_b, pad1;
-    float32 lost_caustic_r, lost_caustic_g, lost_caustic_b, pad2;
+    uint non_finite; // samples left out because they are not finite: the low word of their number
+    float32 lost_direct_r, lost_direct_g, lost_direct_b;
+    uint non_finite_high;
+    float32 lost_indirect_r, lost_indirect_g, lost_indirect_b, pad0;
+    float32 lost_caustic_r, lost_caustic_g, lost_caustic_b, pad1;
 };
 
 // A batch of eye paths: slot = pixel in the batch × samples per pixel + sample.

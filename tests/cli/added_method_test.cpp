@@ -29,11 +29,11 @@ public:
     explicit Echo(RenderContext& context)
         : settings_(context.settings), path_(builtin_methods().at("path").make(context)) {}
 
-    bool pass(const Pass& pass, const OnPart& on_part) override {
+    bool pass(const Pass& pass, const OnProgress& on_part) override {
         ++passes_;
         return path_->pass(pass, on_part);
     }
-    bool has_numbers(std::uint64_t index) const override { return path_->has_numbers(index); }
+    std::uint64_t passes_per_seed() const override { return path_->passes_per_seed(); }
     void report(RenderStatistics& statistics) const override {
         statistics.own["echoes_heard"] = passes_ * own_number(settings_, echoes_option());
     }

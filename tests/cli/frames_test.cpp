@@ -52,6 +52,17 @@ TEST_F(Frames, AreThePicturesOfTheirTimes) {
     EXPECT_EQ(reports[1]["wall_seconds"]["load"], 0);
 }
 
+TEST_F(Frames, HaveTheSameBitsWhateverTheyKeep) {
+    for (const std::string method : {"photons", "footprints", "knn"}) {
+        const std::string options = "--frames 4:7 --method " + method;
+        ASSERT_EQ(argand(film(options + " -o all%d.exr"), on_host).exit_code, 0);
+        ASSERT_EQ(argand(film(options + " -o none%d.exr --keep none"), on_host).exit_code, 0);
+        for (const std::string frame : {"4", "5", "6"}) {
+            EXPECT_TRUE(same("all" + frame + ".exr", "none" + frame + ".exr")) << method;
+        }
+    }
+}
+
 TEST_F(Frames, MayHaveNoiseOfTheirOwn) {
     ASSERT_EQ(argand(film("--frames 7:8 --seed-per-frame --seed 4 -o f%d.exr"), on_host).exit_code,
               0);
@@ -140,6 +151,8 @@ TEST_F(Frames, WrongOptionsAreUsageErrors) {
     expect_usage("--frames 0:2 --at 1", "leave one of the two out");
     expect_usage("--fps 12", "it needs --frames");
     expect_usage("--continue", "it needs --frames");
+    expect_usage("--keep none", "it needs --frames");
+    expect_usage("--frames 0:2 --keep some", "--keep");
     expect_usage("--seed-per-frame", "it needs --frames");
     expect_usage("--frames 0:2 --fps 0", "--fps");
     expect_usage("--frames 0:2 -o f%d.jpg", "f0.jpg");

@@ -4,6 +4,7 @@
 #include "device/host/host_device.hpp"
 #include "device_fixture.hpp"
 #include "scene/gltf.hpp"
+#include "session/render.hpp"
 
 #include <cstring>
 #include <filesystem>

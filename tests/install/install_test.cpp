@@ -56,7 +56,7 @@ private:
 TEST_F(Install, PlacesTheToolTheLibraryItsHeadersAndTheLicence) {
     EXPECT_EQ(run(prefix().string() + "/bin/argand --version"), 0);
     EXPECT_THAT(log(), HasSubstr(ARGAND_VERSION));
-    EXPECT_TRUE(fs::exists(prefix() / "include/argand/methods/render.hpp"));
+    EXPECT_TRUE(fs::exists(prefix() / "include/argand/session/render.hpp"));
     EXPECT_TRUE(fs::exists(prefix() / "include/argand/shared/footprint_records.h"));
     EXPECT_FALSE(fs::exists(prefix() / "include/argand/device/vulkan"));
     EXPECT_TRUE(fs::exists(prefix() / "share/doc/argand/LICENSE"));

@@ -29,6 +29,7 @@ inline const std::vector<std::vector<std::string>> levels = {
     {"world"},
     {"photon"},
     {"methods"},
+    {"session"},
     {"autotune", "sweep", "compare"},
     {"plot"},
 };

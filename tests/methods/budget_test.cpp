@@ -39,14 +39,5 @@ TEST(Budget, WithoutATimeEveryPassIsMadeOnce) {
     EXPECT_EQ(budget.expected(2, 3), 3);
 }
 
-TEST(Budget, SamplesEndWhereTheirNumbersDo) {
-    EXPECT_TRUE(has_sample_numbers(0, 1 << 24));
-    EXPECT_TRUE(has_sample_numbers(254, 1 << 24));
-    EXPECT_FALSE(has_sample_numbers(255, 1 << 24));
-    EXPECT_TRUE(has_sample_numbers(0xfffffffeu, 1));
-    EXPECT_FALSE(has_sample_numbers(0xffffffffu, 1));
-    EXPECT_FALSE(has_sample_numbers(1ull << 33, 1));
-}
-
 } // namespace
 } // namespace argand

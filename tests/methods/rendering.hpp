@@ -3,9 +3,9 @@
 #include "device_fixture.hpp"
 #include "image/files.hpp"
 #include "image/metrics.hpp"
-#include "methods/render.hpp"
 #include "scene/gltf.hpp"
 #include "scenes.hpp"
+#include "session/render.hpp"
 #include "support/abilities.hpp"
 
 #include <array>

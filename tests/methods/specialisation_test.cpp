@@ -1,4 +1,5 @@
 // Argand compiles, runs and allocates only what a scene requires, which changes no bit of an image.
+#include "methods/plan_render.hpp"
 #include "rendering.hpp"
 #include "shared/geometry_records.h"
 #include "shared/query_record.h"

@@ -31,10 +31,14 @@ public:
         return found != runs_.end() ? found->second : 0;
     }
 
+    /// Allocations so far by name.
+    const std::map<std::string, std::uint64_t>& allocations() const { return allocations_; }
+
     const DeviceInfo& info() const override { return device_.info(); }
     Buffer allocate(std::string name, std::uint64_t bytes) override {
         std::uint64_t& largest = bytes_[name];
         largest = std::max(largest, bytes);
+        ++allocations_[name];
         return device_.allocate(std::move(name), bytes);
     }
     void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override {
@@ -84,7 +88,7 @@ private:
     Device& device_;
     std::set<Variant> variants_;
     std::set<std::string> stages_;
-    std::map<std::string, std::uint64_t> bytes_, runs_;
+    std::map<std::string, std::uint64_t> bytes_, runs_, allocations_;
 };
 
 } // namespace argand::testing

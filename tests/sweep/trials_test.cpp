@@ -1,6 +1,7 @@
 #include "device_fixture.hpp"
 #include "image/metrics.hpp"
 #include "scene/gltf.hpp"
+#include "session/render.hpp"
 #include "sweep/trials.hpp"
 
 #include <array>

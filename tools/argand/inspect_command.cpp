@@ -2,6 +2,7 @@
 
 #include "base/json.hpp"
 #include "methods/method_info.hpp"
+#include "methods/plan_render.hpp"
 #include "scene/gltf.hpp"
 #include "scene/summary.hpp"
 #include "scene_options.hpp"

@@ -150,6 +150,12 @@ void add_render_command(CLI::App& app, MethodTable methods) {
                       "Give each frame noise of its own: frame k has the seed --seed + k");
     command->add_flag("--continue", options->continues,
                       "Leave out frames whose files exist, to go on after an interruption");
+    command
+        ->add_option("--keep", options->keep,
+                     "What frames keep for the next ones: all of a method's memory, or none; the "
+                     "pictures are the same")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"all", "none"}));
     add_backend_options(*command, options->backend, options->device);
     command->add_option("--json", options->report,
                         "Write a report of parameters, times and memory to this file; with "

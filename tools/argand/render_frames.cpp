@@ -63,7 +63,7 @@ private:
 
 void check_frames(const RenderOptions& options, const CLI::App& command) {
     if (options.frames.empty()) {
-        for (const char* option : {"--fps", "--seed-per-frame", "--continue"}) {
+        for (const char* option : {"--fps", "--seed-per-frame", "--continue", "--keep"}) {
             if (is_given(command, option)) {
                 throw UsageError(
                     fmt::format("reading {}: it needs --frames A:B, the frames to render", option));
@@ -119,6 +119,9 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         reports.add(report);
         tell_of(job, rendered, outputs, seconds_since(start));
         job.times.load = job.times.open = 0; // they are the first frame's
+        if (options.keep == "none") {
+            job.session.reset();
+        }
     }
 }
 

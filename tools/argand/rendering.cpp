@@ -7,9 +7,11 @@
 #include "base/progress.hpp"
 #include "image/files.hpp"
 #include "method_options.hpp"
+#include "methods/plan_render.hpp"
 #include "numbers.hpp"
 #include "picture_size.hpp"
 #include "scene/gltf.hpp"
+#include "session/render.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -65,8 +67,12 @@ Rendered render_on(RenderJob& job, const std::string& work) {
     };
     if (!is_autotuned(options, job.command)) {
         progress.emplace(work, options.quiet);
-        return {.result =
-                    render(world, job.scene, job.settings, on_progress, nullptr, options.methods),
+        if (!job.session) {
+            job.session =
+                std::make_unique<Session>(world, job.scene, job.settings, options.methods);
+        }
+        job.session->begin_frame(job.settings.seed);
+        return {.result = finish(*job.session, on_progress),
                 .settings = job.settings,
                 .tuned = {},
                 .notes = {}};
@@ -145,6 +151,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
                   .scene = {},
                   .device = nullptr,
                   .world = nullptr,
+                  .session = nullptr,
                   .times = {}};
     const PictureSize size = parse_picture_size(options.size);
     job.settings.width = size.width;
@@ -173,6 +180,7 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
         }
         rendered = render_on(job, work);
     } catch (const DeviceFault& fault) {
+        job.session.reset();
         job.world.reset();
         job.device = open_after_fault(options.backend, options.device, fault);
         start = Clock::now();

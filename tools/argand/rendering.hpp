@@ -3,6 +3,7 @@
 #include "autotune/autotune.hpp"
 #include "report.hpp"
 #include "scene_options.hpp"
+#include "session/session.hpp"
 #include "world/world.hpp"
 
 #include <CLI/CLI.hpp>
@@ -28,6 +29,7 @@ struct RenderOptions : SceneOptions {
     std::string frames; ///< "A:B"; empty: one picture
     double frames_per_second = 24;
     bool seed_per_frame = false, continues = false;
+    std::string keep = "all"; ///< of a frame's memory for the next one: "all" or "none"
     RenderSettings settings;
 
     const MethodInfo& method() const { return methods.at(settings.method); }
@@ -43,8 +45,10 @@ struct RenderJob {
     RenderSettings settings; ///< those of the options, but for what the scene decides
     Scene scene;
     std::unique_ptr<Device> device;
-    std::unique_ptr<World> world; ///< on the device; null before the first picture
-    ReportTimes times;            ///< of the last picture
+    std::unique_ptr<World> world;     ///< on the device; null before the first picture
+    std::unique_ptr<Session> session; ///< in this world; null before the first picture, and where
+                                      ///< pictures share nothing
+    ReportTimes times;                ///< of the last picture
 };
 
 /// Loads the scene at a time of its animations (none: at rest), chooses what the scene decides, and

@@ -3,8 +3,8 @@
 
 #include "bench_nearest.hpp"
 #include "cornell_scene.hpp"
-#include "methods/render.hpp"
 #include "photon/photon_map.hpp"
+#include "session/render.hpp"
 #include "world/world.hpp"
 
 namespace argand {

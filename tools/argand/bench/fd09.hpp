@@ -1,7 +1,8 @@
 #pragma once
 
 #include "device/device.hpp"
-#include "methods/render.hpp"
+#include "methods/render_settings.hpp"
+#include "scene/scene.hpp"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>

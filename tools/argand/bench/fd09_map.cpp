@@ -2,7 +2,9 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "methods/plan_render.hpp"
 #include "photon/radius.hpp"
+#include "session/render.hpp"
 #include "world/world.hpp"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "methods/eye_paths.hpp"
-#include "methods/render.hpp"
+#include "methods/render_result.hpp"
+#include "methods/render_settings.hpp"
 #include "photon/gather.hpp"
 
 #include <functional>

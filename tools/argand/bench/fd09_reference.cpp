@@ -2,6 +2,7 @@
 
 #include "image/files.hpp"
 #include "image/metrics.hpp"
+#include "session/render.hpp"
 
 namespace argand {
 

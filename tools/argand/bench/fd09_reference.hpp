@@ -1,6 +1,9 @@
 #pragma once
 
-#include "methods/render.hpp"
+#include "device/device.hpp"
+#include "methods/render_result.hpp"
+#include "methods/render_settings.hpp"
+#include "scene/scene.hpp"
 
 namespace argand {
 

@@ -21,17 +21,19 @@ FN void main() {
                       is_finite(l.indirect_r + l.indirect_g + l.indirect_b) &&
                       is_finite(l.caustic_r + l.caustic_g + l.caustic_b);
         f.samples += 1u;
+        f.samples_high += f.samples == 0u ? 1u : 0u;
         if (!finite) {
             f.non_finite += 1u;
+            f.non_finite_high += f.non_finite == 0u ? 1u : 0u;
             continue;
         }
         add_compensated(direct, lost_direct, vec3(l.direct_r, l.direct_g, l.direct_b));
         add_compensated(indirect, lost_indirect, vec3(l.indirect_r, l.indirect_g, l.indirect_b));
         add_compensated(caustic, lost_caustic, vec3(l.caustic_r, l.caustic_g, l.caustic_b));
     }
-    film[pixel] =
-        FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y, indirect.z, 0u,
-                   caustic.x, caustic.y, caustic.z, f.non_finite, lost_direct.x, lost_direct.y,
-                   lost_direct.z, real(0.0), lost_indirect.x, lost_indirect.y, lost_indirect.z,
-                   real(0.0), lost_caustic.x, lost_caustic.y, lost_caustic.z, real(0.0));
+    film[pixel] = FilmRecord(direct.x, direct.y, direct.z, f.samples, indirect.x, indirect.y,
+                             indirect.z, f.samples_high, caustic.x, caustic.y, caustic.z,
+                             f.non_finite, lost_direct.x, lost_direct.y, lost_direct.z,
+                             f.non_finite_high, lost_indirect.x, lost_indirect.y, lost_indirect.z,
+                             real(0.0), lost_caustic.x, lost_caustic.y, lost_caustic.z, real(0.0));
 }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "methods/render_settings.hpp"
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace argand {
+
+/// What the scene and the settings require. Throws UsageError on an unknown method.
+Plan plan_render(const Scene& scene, const RenderSettings& settings,
+                 MethodTable methods = builtin_methods());
+
+/// The method for a scene if the user names none: the table's first, `footprints`, where there may
+/// be caustics, else the one that autotuning tries first, `photons` (docs/photon-map.md).
+const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
+                             MethodTable methods = builtin_methods());
+
+} // namespace argand

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "image/image.hpp"
+#include "shared/footprint_records.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace argand {
+
+/// Flux by channel in units of FluxSums::unit: emitted = absorbed + escaped + cut, exactly.
+struct FluxSums {
+    std::array<std::int64_t, 3> emitted{}, absorbed{}, escaped{}, cut{};
+    double unit = 0;
+};
+
+/// What happened while rendering.
+struct RenderStatistics {
+    std::uint64_t samples = 0; ///< eye paths per pixel that were traced
+    std::uint64_t passes = 0;
+    std::uint64_t photons_emitted = 0;
+    std::uint64_t photons_stored = 0;
+    // Of the last pass; 0 where the method has no such thing.
+    double radius = 0;
+    double caustic_radius = 0; ///< radius for caustic photons
+    std::uint32_t neighbours = 0;
+    double smoothing = 0;
+    double mean_footprints = 0;  ///< footprints on a point, if they were spread evenly
+    std::uint32_t leaf_size = 0; ///< maximum number of photons in a leaf of the map
+    std::optional<FootprintScale> footprint_scale; ///< none: photons are points
+    std::uint64_t non_finite = 0; ///< samples left out because they were not finite
+    FluxSums flux;
+    bool interrupted = false; ///< pixels hold the samples that were finished, maybe none
+    /// What a method counts beside all this, by a name that is a key of JSON.
+    std::map<std::string, double> own;
+};
+
+struct RenderResult {
+    std::vector<Layer> layers; ///< "" (the whole image), "direct", "indirect", "caustic"
+    RenderStatistics statistics;
+};
+
+} // namespace argand

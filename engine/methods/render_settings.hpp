@@ -1,0 +1,66 @@
+#pragma once
+
+#include "methods/table.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace argand {
+
+/// The largest value of RenderSettings::bounces: no path is truncated, but by Russian roulette.
+inline constexpr std::uint32_t unlimited_bounces = 0xffff;
+
+/// Options of the method `footprints` (docs/methods/footprints.md).
+struct FootprintSettings {
+    std::optional<double> smoothing; ///< s of Fabianowski and Dingliana 2009; none: from the scene
+    double caustic_smoothing = 4;    ///< s of photons that only mirrors and glass have scattered
+    std::optional<double> largest;   ///< maximum semi-axis, in scene radii; none: from the scene
+    double flatness = 0.3;           ///< half-axis along the normal over the mean of the others
+    bool uniform_kernel = false;     ///< instead of Epanechnikov's
+    /// Footprints shrink as n^(-1/2) with the number n of photons, as in the paper, not n^(-1/6).
+    bool fixed_smoothing = false;
+    bool paper_axes = false; ///< bounds differentials as they are, not the axes of the ellipse
+    bool paper_reemission = false; ///< diffuse reflection spaces photons as the paper does
+};
+
+/// Where the numbers come from that decide the first vertices of paths: Owen-scrambled Sobol'
+/// points, or a hash.
+enum class Sampling { sobol, random };
+
+/// A request for an image.
+struct RenderSettings {
+    std::string method = default_method(); ///< a name in the method table
+    int width = 512;
+    int height = 512;
+    /// Eye paths per pixel. A photon map whose photons are spread over several passes uses at least
+    /// one for each pass; RenderStatistics tells how many.
+    std::uint32_t samples = 8;
+    std::uint64_t photons = 200'000; ///< emitted, all passes together
+    /// Maximum for one pass, at least 1. It bounds the memory that any number of photons takes.
+    std::uint64_t photons_per_pass = 1 << 18;
+    /// Seconds: samples and photons are repeated until then.
+    std::optional<double> budget;
+    /// Maximum number of scatterings between a light and the first estimated vertex.
+    std::uint32_t bounces = unlimited_bounces;
+    std::optional<double> radius; ///< of density estimation, in scene units; `knn`: r_max
+    /// k of `knn` in each pass, at least 1; none: from the photons stored.
+    std::optional<std::uint32_t> neighbours;
+    std::uint32_t seed = 0;
+    std::size_t camera = 0;         ///< index into Scene::cameras
+    float follow_roughness = 0.25f; ///< glossy lobes up to this roughness are followed from the eye
+    /// Edge of the cells that share one density estimate, in radii of estimation; 0: no sharing.
+    double query_cell = 0.25;
+    std::uint32_t leaf_size = 0; ///< photons in a leaf of the photon map; 0: 16
+    bool wide_codes = false;     ///< photons are sorted by 63-bit Morton codes, not 30-bit ones
+    Sampling photon_sampling = Sampling::sobol;
+    bool final_gather = false; ///< the photon map is queried one bounce later, except for caustics
+    bool everything = false;   ///< also code, buffers and passes that the scene does not require
+    FootprintSettings footprints;
+    /// Values of options that have no member above, by name (own_option() of methods/option.hpp).
+    std::map<std::string, std::string> own;
+};
+
+} // namespace argand

@@ -1,0 +1,78 @@
+#include "session/session.hpp"
+
+#include "methods/light_learning.hpp"
+#include "methods/plan_render.hpp"
+#include "world/world.hpp"
+
+namespace argand {
+
+Session::Session(World& world, const Scene& scene, const RenderSettings& settings,
+                 MethodTable methods)
+    : world_(world), scene_(scene), settings_(settings), methods_(methods),
+      budget_(settings.budget), streams_(settings.seed) {
+    methods.at(settings.method); // throws if there is none
+}
+
+/// Makes the memory of the first image, or readies it for another one.
+void Session::prepare() {
+    DeviceScene on_device = world_.on_device(scene_, plan_render(scene_, settings_, methods_));
+    const CameraRecord camera =
+        camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
+    if (context_ && context_->on_device.plan.required == on_device.plan.required) {
+        context_->on_device = std::move(on_device);
+        restart(world_.device(), context_->eye, camera);
+        return;
+    }
+    method_ = nullptr;
+    context_.reset(); // frees its memory before the new one takes its own
+    context_.emplace(RenderContext{.device = world_.device(),
+                                   .scene = scene_,
+                                   .settings = settings_,
+                                   .on_device = std::move(on_device),
+                                   .eye = {}});
+    context_->eye =
+        make_eye_workspace(world_.device(), context_->on_device.plan, settings_, camera);
+    method_ = methods_.at(settings_.method).make(*context_);
+}
+
+void Session::begin_frame(std::uint32_t seed) {
+    settings_.seed = seed;
+    budget_ = Budget(settings_.budget);
+    streams_ = Streams(seed);
+    statistics_ = {};
+    prepare();
+    learn_lights(*context_);
+    method_->begin_frame(budget_);
+}
+
+std::optional<PassPlan> Session::next_pass() {
+    if (passes() > 0 && !budget_.another(passes(), method_->passes())) {
+        return std::nullopt;
+    }
+    return PassPlan{.expected = budget_.expected(passes(), method_->passes())};
+}
+
+bool Session::step(const PassPlan& plan, const OnProgress& on_part) {
+    const Pass pass{.expected = plan.expected,
+                    .numbers = streams_.next(plan.stream, method_->passes_per_seed())};
+    const bool finished = method_->pass(pass, on_part);
+    ++statistics_.passes;
+    statistics_.interrupted = !finished;
+    return finished;
+}
+
+double Session::share(double part) const {
+    return budget_.share(passes(), part, method_->passes());
+}
+
+std::vector<Layer> Session::layers() {
+    return resolve_film(context_->device, context_->eye.film, statistics_);
+}
+
+RenderResult Session::result() {
+    method_->report(statistics_);
+    std::vector<Layer> image = layers();
+    return {.layers = std::move(image), .statistics = statistics_};
+}
+
+} // namespace argand

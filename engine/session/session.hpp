@@ -1,0 +1,70 @@
+#pragma once
+
+#include "base/on_progress.hpp"
+#include "methods/method.hpp"
+#include "methods/render_result.hpp"
+#include "session/streams.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace argand {
+
+class World;
+
+/// A request for one more pass.
+struct PassPlan {
+    /// Passes of the whole image, as far as is known: bandwidths follow from it.
+    double expected = 1;
+    /// Passes of different streams have independent noise. The first pass must be of stream 0.
+    std::uint32_t stream = 0;
+};
+
+/// A method at work on the images of a scene, one after the other. It owns what outlives a pass
+/// (film, random streams, budget) and an image (the method with its memory).
+class Session {
+public:
+    /// Keeps references to the world and the scene. Throws UsageError on an unknown method.
+    Session(World& world, const Scene& scene, const RenderSettings& settings,
+            MethodTable methods = builtin_methods());
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Begins an image of the scene as it is now, and as World::update() has been told. Its bits do
+    /// not depend on the images before it. seed: replaces that of the settings. Call it before the
+    /// first pass. Throws Error if the device cannot do it.
+    void begin_frame(std::uint32_t seed);
+
+    /// The next pass of the image that the settings request, with their photons, samples and
+    /// budget. None: the image is complete.
+    std::optional<PassPlan> next_pass();
+
+    /// Adds a pass to the image. on_part: told the share of this pass. Returns false if on_part
+    /// did; the image then holds the samples that were finished, maybe none.
+    bool step(const PassPlan& plan, const OnProgress& on_part);
+
+    /// Passes of the image so far.
+    std::uint64_t passes() const { return statistics_.passes; }
+    /// The share of the image that is done, with `part` of the next pass.
+    double share(double part) const;
+    /// The image so far, as in RenderResult. Waits for the device.
+    std::vector<Layer> layers();
+    /// The image so far, and what happened. Waits for the device.
+    RenderResult result();
+
+private:
+    void prepare();
+
+    World& world_;
+    const Scene& scene_;
+    RenderSettings settings_;
+    MethodTable methods_;
+    std::optional<RenderContext> context_; ///< empty before the first image
+    std::unique_ptr<Method> method_;
+    Budget budget_;
+    Streams streams_;
+    RenderStatistics statistics_;
+};
+
+} // namespace argand
