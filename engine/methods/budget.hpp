@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.hpp"
 #include "base/clock.hpp"
 
 #include <algorithm>
@@ -52,6 +53,18 @@ public:
     double share(std::uint64_t done, double part, std::uint64_t passes) const {
         return seconds_ ? std::min(elapsed() / *seconds_, 1.0)
                         : (static_cast<double>(done) + part) / static_cast<double>(passes);
+    }
+
+    /// Saves or loads the time spent so far.
+    void persist(Archive& archive) {
+        double spent = elapsed();
+        archive.value(spent);
+        archive.value(begun_);
+        archive.value(in_passes_);
+        if (archive.loads()) {
+            start_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(spent));
+        }
     }
 
 private:

@@ -1,5 +1,6 @@
 #include "methods/film.hpp"
 
+#include "methods/persist_buffer.hpp"
 #include "shared/path_records.h"
 
 #include <algorithm>
@@ -24,6 +25,12 @@ Film make_film(Device& device, int width, int height) {
         device.fill(film.parts.back(), 0);
     }
     return film;
+}
+
+void persist_film(Archive& archive, Device& device, const Film& film) {
+    for (const Buffer& part : film.parts) {
+        persist_buffer(archive, device, part, part.size());
+    }
 }
 
 std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatistics& statistics) {

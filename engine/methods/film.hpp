@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.hpp"
 #include "device/device.hpp"
 #include "methods/render_result.hpp"
 
@@ -21,6 +22,9 @@ struct Film {
 
 /// A film without samples. Records only.
 Film make_film(Device& device, int width, int height);
+
+/// Saves or loads the film's sums. Waits for the device.
+void persist_film(Archive& archive, Device& device, const Film& film);
 
 /// The means over each pixel's samples, as in RenderResult::layers. Sets the statistics' numbers of
 /// samples. Waits for the device.

@@ -1,5 +1,6 @@
 #include "methods/light_learning.hpp"
 
+#include "base/error.hpp"
 #include "shared/lights.h"
 
 #include <algorithm>
@@ -112,6 +113,27 @@ void add(FoundShares& shares, std::uint32_t emitter, double light) {
 }
 
 } // namespace
+
+void persist_lights(Archive& archive, RenderContext& context) {
+    DeviceScene& scene = context.on_device;
+    SampledPart part = scene.sampled_part;
+    archive.value(scene.record);
+    archive.values(scene.ray_shares);
+    archive.values(scene.photon_shares);
+    archive.value(part);
+    if (!archive.loads()) {
+        return;
+    }
+    const std::size_t emitters = scene.light_table.emitter_weights.size();
+    if (scene.ray_shares.size() != emitters || scene.photon_shares.size() != emitters) {
+        fail("loading a saved state: it has other lights than '{}'", context.scene.name);
+    }
+    const std::vector<double> for_rays = scene.ray_shares, for_photons = scene.photon_shares;
+    set_light_choices(context.device, scene, for_rays, for_photons);
+    if (scene.plan.needs(Feature::photon_map) && std::isfinite(part.reach)) {
+        sample_areas(context.device, context.scene, scene, part);
+    }
+}
 
 void learn_lights(RenderContext& context) {
     DeviceScene& scene = context.on_device;

@@ -10,4 +10,8 @@ namespace argand {
 /// Does nothing where there is no choice: with one emitter inside the scene.
 void learn_lights(RenderContext& context);
 
+/// Saves or loads what was learnt about the lights, by learn_lights() and by the method: how they
+/// are chosen, where photons are aimed, and where areas are sampled.
+void persist_lights(Archive& archive, RenderContext& context);
+
 } // namespace argand

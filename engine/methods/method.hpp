@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.hpp"
 #include "methods/budget.hpp"
 #include "methods/eye_paths.hpp"
 #include "methods/method_info.hpp"
@@ -53,6 +54,10 @@ public:
     /// Passes, at least one, for which one seed has numbers: their indices are below this. Known
     /// after begin_frame().
     virtual std::uint64_t passes_per_seed() const = 0;
+
+    /// Saves or loads what later passes of the image depend on. Loading replaces begin_frame(), in
+    /// a context whose lights are loaded; it throws Error on values that no method saves.
+    virtual void persist(Archive& archive) = 0;
 
     /// Writes what the method did for the image so far.
     virtual void report(RenderStatistics& statistics) const = 0;

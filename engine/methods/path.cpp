@@ -1,6 +1,8 @@
 #include "methods/method.hpp"
 #include "methods/render_options.hpp"
 
+#include <algorithm>
+
 namespace argand {
 
 namespace {
@@ -11,20 +13,35 @@ class PathTracing : public Method {
 public:
     explicit PathTracing(RenderContext& context) : c_(context) {}
 
+    std::uint64_t passes() const override {
+        return (samples() + samples_of_pass() - 1) / samples_of_pass();
+    }
+
     bool pass(const Pass& pass, const OnProgress& on_part) override {
+        const std::uint64_t round = pass.numbers.index / passes();
+        const std::uint64_t in_round = pass.numbers.index % passes() * samples_of_pass();
         const EyePass eye{.seed = pass.numbers.seed,
-                          .first_sample =
-                              static_cast<std::uint32_t>(pass.numbers.index * c_.settings.samples),
-                          .samples = c_.settings.samples,
+                          .first_sample = static_cast<std::uint32_t>(round * samples() + in_round),
+                          .samples = static_cast<std::uint32_t>(
+                              std::min(samples_of_pass(), samples() - in_round)),
                           .bounces = c_.settings.bounces};
         return trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, nullptr, on_part);
     }
 
-    std::uint64_t passes_per_seed() const override { return numbers_of_seed / c_.settings.samples; }
+    std::uint64_t passes_per_seed() const override {
+        return numbers_of_seed / samples() * passes();
+    }
 
+    void persist(Archive&) override {}
     void report(RenderStatistics&) const override {}
 
 private:
+    std::uint64_t samples() const { return c_.settings.samples; }
+    /// Of all passes but a last, smaller one.
+    std::uint64_t samples_of_pass() const {
+        return std::min(c_.settings.samples, c_.settings.samples_per_pass);
+    }
+
     RenderContext& c_;
 };
 

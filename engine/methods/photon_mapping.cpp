@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/median.hpp"
 #include "methods/bandwidth.hpp"
+#include "methods/persist_buffer.hpp"
 #include "methods/photon_targets.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 // Units of the fixed-point flux sums in the mean flux of a photon.
 constexpr double units_per_photon = 1 << 18;
+constexpr std::size_t flux_words = 12; // four sums of three channels
 
 /// How photons and samples are spread over passes. All passes count the same, so they are of one
 /// size: the noise of a small last one would be the noise of the image. Each pass has at least one
@@ -106,6 +108,7 @@ public:
                std::max<std::uint64_t>(image_.split.photons, image_.split.samples);
     }
 
+    void persist(Archive& archive) override;
     void report(RenderStatistics& statistics) const override;
 
 private:
@@ -242,6 +245,21 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
     return finished;
 }
 
+void PhotonMapping::persist(Archive& archive) {
+    archive.value(image_);
+    const PassSplit& split = image_.split;
+    if (split.passes == 0 || split.photons == 0 || split.samples == 0 ||
+        split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1)) {
+        fail("loading a saved state: it is not one of photon mapping on '{}'",
+             c_.device.info().name);
+    }
+    if (archive.loads()) {
+        first_.reset();
+        make_workspace();
+    }
+    persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
+}
+
 void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.photons_emitted;
     statistics.photons_stored = image_.photons_stored;
@@ -254,7 +272,7 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.footprint_scale = image_.footprint_scale;
     if (image_.passes > 0) {
         // Every pass emits all of the lights' power.
-        statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, 12),
+        statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, flux_words),
                                   image_.flux_unit / static_cast<double>(image_.passes));
     }
 }

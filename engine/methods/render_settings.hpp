@@ -41,6 +41,8 @@ struct RenderSettings {
     std::uint64_t photons = 200'000; ///< emitted, all passes together
     /// Maximum for one pass, at least 1. It bounds the memory that any number of photons takes.
     std::uint64_t photons_per_pass = 1 << 18;
+    /// Maximum for one pass of a method without photons, at least 1. The image is the same.
+    std::uint32_t samples_per_pass = 0xffffffff;
     /// Seconds: samples and photons are repeated until then.
     std::optional<double> budget;
     /// Maximum number of scatterings between a light and the first estimated vertex.

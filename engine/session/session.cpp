@@ -14,7 +14,11 @@ Session::Session(World& world, const Scene& scene, const RenderSettings& setting
 }
 
 /// Makes the memory of the first image, or readies it for another one.
-void Session::prepare() {
+void Session::prepare(std::uint32_t seed) {
+    settings_.seed = seed;
+    budget_ = Budget(settings_.budget);
+    streams_ = Streams(seed);
+    statistics_ = {};
     DeviceScene on_device = world_.on_device(scene_, plan_render(scene_, settings_, methods_));
     const CameraRecord camera =
         camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
@@ -36,13 +40,33 @@ void Session::prepare() {
 }
 
 void Session::begin_frame(std::uint32_t seed) {
-    settings_.seed = seed;
-    budget_ = Budget(settings_.budget);
-    streams_ = Streams(seed);
-    statistics_ = {};
-    prepare();
+    prepare(seed);
     learn_lights(*context_);
     method_->begin_frame(budget_);
+}
+
+void Session::persist(Archive& archive) {
+    archive.value(statistics_.passes);
+    streams_.persist(archive);
+    budget_.persist(archive);
+    persist_lights(archive, *context_);
+    method_->persist(archive);
+    persist_film(archive, context_->device, context_->eye.film);
+}
+
+void Session::resume(std::span<const std::uint8_t> state, std::uint32_t seed) {
+    prepare(seed);
+    Archive archive(state);
+    persist(archive);
+    if (!archive.at_end()) {
+        fail("loading a saved state: it is longer than that of '{}'", settings_.method);
+    }
+}
+
+std::vector<std::uint8_t> Session::save() {
+    Archive archive;
+    persist(archive);
+    return std::move(archive).take_bytes();
 }
 
 std::optional<PassPlan> Session::next_pass() {

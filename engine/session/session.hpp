@@ -36,6 +36,15 @@ public:
     /// first pass. Throws Error if the device cannot do it.
     void begin_frame(std::uint32_t seed);
 
+    /// Goes on with the image of a session for the same scene, settings and device, from what its
+    /// save() returned: later passes have the bits that they would have had there. Replaces
+    /// begin_frame(). Throws Error on other bytes, after which the session has no image.
+    void resume(std::span<const std::uint8_t> state, std::uint32_t seed);
+
+    /// All that later passes of the image depend on. Not after an interrupted pass, which is not
+    /// whole. Waits for the device.
+    std::vector<std::uint8_t> save();
+
     /// The next pass of the image that the settings request, with their photons, samples and
     /// budget. None: the image is complete.
     std::optional<PassPlan> next_pass();
@@ -54,7 +63,8 @@ public:
     RenderResult result();
 
 private:
-    void prepare();
+    void prepare(std::uint32_t seed);
+    void persist(Archive& archive);
 
     World& world_;
     const Scene& scene_;

@@ -31,6 +31,20 @@ public:
         return {.seed = hash.x, .index = index % passes_per_seed};
     }
 
+    /// Saves or loads how many passes each stream has had.
+    void persist(Archive& archive) {
+        std::vector<std::uint64_t> words; // stream and count in turn
+        for (const auto& [stream, count] : counts_) {
+            words.push_back(stream);
+            words.push_back(count);
+        }
+        archive.values(words);
+        counts_.clear();
+        for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
+            counts_[static_cast<std::uint32_t>(words[i])] = words[i + 1];
+        }
+    }
+
 private:
     std::uint32_t seed_;
     std::map<std::uint32_t, std::uint64_t> counts_;

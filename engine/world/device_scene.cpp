@@ -84,6 +84,8 @@ void sample_areas(Device& device, const Scene& scene, DeviceScene& on_device,
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,
                        const std::vector<double>& for_photons) {
     const LightTable& table = scene.light_table;
+    scene.ray_shares = for_rays;
+    scene.photon_shares = for_photons;
     std::vector<LightChoice> choices = light_choices(table, for_rays);
     const auto share_of_kind = [&](std::uint32_t kind) {
         double share = 0;

@@ -24,8 +24,10 @@ struct DeviceScene {
     Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
     Buffer area_sums;     ///< AreaSumRecord per piece of a surface that stores photons
     TriangleBvh bvh;
-    SceneRecord record;            ///< the host's copy of `scene`
-    LightTable light_table;        ///< the host's copy of `lights`, and their emitters
+    SceneRecord record;     ///< the host's copy of `scene`
+    LightTable light_table; ///< the host's copy of `lights`, and their emitters
+    /// Probabilities with which each emitter is chosen for shadow rays, and for photons.
+    std::vector<double> ray_shares, photon_shares;
     double surface_area = 0;       ///< of all triangles that store photons; 0 without a photon map
     std::uint32_t area_pieces = 0; ///< in `area_sums`
     double sampled_area = 0;       ///< of these pieces

@@ -34,6 +34,10 @@ public:
         return path_->pass(pass, on_part);
     }
     std::uint64_t passes_per_seed() const override { return path_->passes_per_seed(); }
+    void persist(Archive& archive) override {
+        path_->persist(archive);
+        archive.value(passes_);
+    }
     void report(RenderStatistics& statistics) const override {
         statistics.own["echoes_heard"] = passes_ * own_number(settings_, echoes_option());
     }

@@ -53,12 +53,16 @@ inline bool same_bits(const Image& a, const Image& b) {
     return a.width == b.width && a.height == b.height && a.pixels == b.pixels;
 }
 
-inline bool same_bits(const RenderResult& a, const RenderResult& b) {
-    bool same = a.layers.size() == b.layers.size();
-    for (std::size_t i = 0; same && i < a.layers.size(); ++i) {
-        same = same_bits(a.layers[i].image, b.layers[i].image);
+inline bool same_bits(const std::vector<Layer>& a, const std::vector<Layer>& b) {
+    bool same = a.size() == b.size();
+    for (std::size_t i = 0; same && i < a.size(); ++i) {
+        same = same_bits(a[i].image, b[i].image);
     }
     return same;
+}
+
+inline bool same_bits(const RenderResult& a, const RenderResult& b) {
+    return same_bits(a.layers, b.layers);
 }
 
 #define EXPECT_RELATIVE(actual, expected, tolerance)                                               \

@@ -16,6 +16,44 @@ protected:
         settings.photons_per_pass = 3'000;
         return settings;
     }
+
+    /// Resumes a render of eight passes after some of them, and compares the next pass.
+    void expect_same_bits_after_resuming(const Scene& scene) {
+        SCOPED_TRACE(scene.name);
+        RenderSettings long_render = settings();
+        long_render.width = long_render.height = 12;
+        long_render.samples = 16;
+        long_render.samples_per_pass = 2; // eight passes
+        long_render.photons_per_pass = 500;
+        long_render.photons = 4'000;
+        World world(device(), scene);
+        Session session(world, scene, long_render);
+        session.begin_frame(long_render.seed);
+        std::map<std::uint64_t, std::vector<std::uint8_t>> states; // by passes
+        std::map<std::uint64_t, RenderResult> results;
+        while (const std::optional<PassPlan> plan = session.next_pass()) {
+            EXPECT_TRUE(session.step(*plan, go_on));
+            states[session.passes()] = session.save();
+            results[session.passes()] = session.result();
+        }
+        ASSERT_EQ(session.passes(), 8u);
+        EXPECT_TRUE(same_bits(results[8], render(scene, long_render)));
+        Session other(world, scene, long_render);
+        other.begin_frame(5);
+        EXPECT_TRUE(other.step({}, go_on)); // something to be replaced
+        for (const std::uint64_t passes : {1, 2, 7}) {
+            other.resume(states[passes], long_render.seed);
+            EXPECT_EQ(other.passes(), passes);
+            EXPECT_TRUE(same_bits(other.layers(), results[passes].layers));
+            EXPECT_TRUE(other.step(other.next_pass().value(), go_on));
+            const RenderResult next = other.result(), &expected = results[passes + 1];
+            EXPECT_TRUE(same_bits(next, expected)) << passes;
+            EXPECT_EQ(next.statistics.photons_stored, expected.statistics.photons_stored);
+            EXPECT_EQ(next.statistics.flux.absorbed, expected.statistics.flux.absorbed);
+            EXPECT_EQ(next.statistics.radius, expected.statistics.radius);
+        }
+        EXPECT_FALSE(other.next_pass());
+    }
 };
 
 TEST_P(Sessions, EveryFrameHasThePictureOfAFreshRender) {
@@ -68,7 +106,67 @@ TEST_P(Sessions, PassesMayBeAddedOneByOne) {
     EXPECT_TRUE(same_bits(session.result(), render(scene, settings())));
 }
 
+TEST_P(Sessions, GoOnFromWhatTheyHaveSavedWithTheSameBits) {
+    // Of these scenes different things are learnt: how lights are chosen and where areas are
+    // sampled, where the sun comes in, and at which small caster photons are aimed.
+    for (const char* name : {"sunlit_ground.glb", "window_room.glb", "marble_box.glb"}) {
+        expect_same_bits_after_resuming(load_asset(name));
+    }
+}
+
+TEST_P(Sessions, RefuseStatesThatAreCutShortOrTooLong) {
+    const Scene scene = moving_scene();
+    World world(device(), scene);
+    Session session(world, scene, settings());
+    session.begin_frame(0);
+    EXPECT_TRUE(session.step({}, go_on));
+    std::vector<std::uint8_t> state = session.save();
+    for (std::size_t length = 0; length < state.size(); length += 1 + length / 2) {
+        EXPECT_THROW(session.resume(std::span(state).first(length), 0), Error) << length;
+    }
+    state.push_back(0);
+    EXPECT_THROW(session.resume(state, 0), Error);
+    state.pop_back();
+    session.resume(state, 0);
+    EXPECT_EQ(session.passes(), 1u);
+}
+
 INSTANTIATE_METHODS(Sessions);
+
+TEST(ArchiveTest, LoadsWhatItHasSaved) {
+    double number = 0.1;
+    std::vector<std::uint32_t> list{3, 1, 4};
+    std::string text = "a\0b";
+    Archive saving;
+    saving.value(number);
+    saving.values(list);
+    saving.text(text);
+    const std::vector<std::uint8_t> bytes = std::move(saving).take_bytes();
+    Archive loading(bytes);
+    double other = 0;
+    std::vector<std::uint32_t> other_list{9};
+    std::string other_text;
+    loading.value(other);
+    EXPECT_FALSE(loading.at_end());
+    loading.values(other_list);
+    loading.text(other_text);
+    EXPECT_EQ(other, number);
+    EXPECT_EQ(other_list, list);
+    EXPECT_EQ(other_text, text);
+    EXPECT_TRUE(loading.at_end());
+    EXPECT_THROW(loading.value(other), Error);
+}
+
+TEST(ArchiveTest, RefusesCountsThatExceedItsBytes) {
+    std::uint64_t count = ~std::uint64_t(0) / 8 + 2; // times 8 it would wrap around to 8
+    Archive saving;
+    saving.value(count);
+    saving.value(count);
+    const std::vector<std::uint8_t> bytes = std::move(saving).take_bytes();
+    Archive loading(bytes);
+    std::vector<std::uint64_t> list;
+    EXPECT_THROW(loading.values(list), Error);
+}
 
 } // namespace
 } // namespace argand::testing

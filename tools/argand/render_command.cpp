@@ -12,6 +12,7 @@
 #include "overwriting.hpp"
 #include "render_frames.hpp"
 #include "rendering.hpp"
+#include "session/checkpoint.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -46,8 +47,31 @@ void check_autotuned(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+/// Throws UsageError on options that do not go with checkpoints, Error on a file that cannot be
+/// one.
+void check_checkpoints(const RenderOptions& options, const CLI::App& command) {
+    if (options.checkpoint.empty() && is_given(command, "--every")) {
+        throw UsageError("reading --every: it needs --checkpoint FILE, the file to write");
+    }
+    if (!has_checkpoints(options)) {
+        return;
+    }
+    if (!options.frames.empty()) {
+        throw UsageError("reading --checkpoint and --resume: a film goes on after its last whole "
+                         "frame with --continue; leave them out");
+    }
+    if (is_autotuned(options, command)) {
+        throw UsageError("reading --checkpoint and --resume: they need a render whose passes are "
+                         "known; leave out --target-error, and give --method with --budget");
+    }
+    if (!options.checkpoint.empty()) {
+        check_checkpoint_writable(options.checkpoint);
+    }
+}
+
 void check(const RenderOptions& options, const CLI::App& command) {
     check_methods({options.settings.method}, options.methods);
+    check_checkpoints(options, command);
     if (is_autotuned(options, command)) {
         check_autotuned(options, command);
     }
@@ -62,6 +86,10 @@ void check(const RenderOptions& options, const CLI::App& command) {
     if (!options.report.empty()) {
         check_overwrites_none(options.report, files);
         check_writable(options.report);
+        files.push_back(options.report);
+    }
+    if (!options.checkpoint.empty()) {
+        check_overwrites_none(options.checkpoint, files);
     }
 }
 
@@ -156,6 +184,15 @@ void add_render_command(CLI::App& app, MethodTable methods) {
                      "pictures are the same")
         ->capture_default_str()
         ->check(CLI::IsMember({"all", "none"}));
+    command->add_option("--checkpoint", options->checkpoint,
+                        "File to which the state of the render is saved now and then and at its "
+                        "end; the one before it stays, as FILE.old");
+    command->add_option("--every", options->every, "Seconds between checkpoints")
+        ->capture_default_str()
+        ->check(number_between(0, 1e9));
+    command->add_option("--resume", options->resume,
+                        "Checkpoint to go on from: the picture is that of a render that was never "
+                        "interrupted");
     add_backend_options(*command, options->backend, options->device);
     command->add_option("--json", options->report,
                         "Write a report of parameters, times and memory to this file; with "

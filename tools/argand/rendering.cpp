@@ -11,6 +11,7 @@
 #include "numbers.hpp"
 #include "picture_size.hpp"
 #include "scene/gltf.hpp"
+#include "session/checkpoint.hpp"
 #include "session/render.hpp"
 
 #include <algorithm>
@@ -54,6 +55,59 @@ void choose_method(RenderSettings& settings, const RenderOptions& options, const
     }
 }
 
+/// Samples of a pass of few enough paths that it ends now and then: passes can be saved, and end
+/// near a budget.
+std::uint32_t samples_per_pass(const PictureSize& size) {
+    constexpr std::uint64_t paths = 1u << 24;
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
+}
+
+/// Renders an image, or the rest of one, with checkpoints. An interrupted render ends with a whole
+/// pass, which is saved.
+RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progress,
+                                     std::vector<std::string>& notes) {
+    const RenderOptions& options = job.options;
+    Session& session = *job.session;
+    const CheckpointKey key = checkpoint_key(
+        job.scene, job.settings, options.methods.at(job.settings.method), job.device->info());
+    if (options.resume.empty()) {
+        session.begin_frame(job.settings.seed);
+    } else {
+        const LoadedCheckpoint loaded = load_checkpoint(options.resume, key);
+        session.resume(loaded.state, job.settings.seed);
+        if (loaded.note) {
+            notes.push_back(*loaded.note);
+        }
+    }
+    std::uint64_t saved = session.passes();
+    Clock::time_point last = Clock::now();
+    bool stopped = false;
+    RenderResult result = finish(
+        session,
+        [&](double done) {
+            on_progress(done);
+            return true;
+        },
+        [&](const PictureSoFar& so_far) {
+            std::optional<PassPlan> plan = session.next_pass();
+            stopped = plan && interrupted();
+            if (stopped) {
+                plan.reset();
+            }
+            if (!options.checkpoint.empty() && so_far.passes > saved &&
+                (!plan || seconds_since(last) >= options.every)) {
+                save_checkpoint(options.checkpoint, key, session.save());
+                saved = so_far.passes;
+                last = Clock::now();
+            }
+            return plan;
+        });
+    result.statistics.interrupted = stopped;
+    return result;
+}
+
 Rendered render_on(RenderJob& job, const std::string& work) {
     const RenderOptions& options = job.options;
     if (!job.world) {
@@ -70,6 +124,11 @@ Rendered render_on(RenderJob& job, const std::string& work) {
         if (!job.session) {
             job.session =
                 std::make_unique<Session>(world, job.scene, job.settings, options.methods);
+        }
+        if (has_checkpoints(options)) {
+            Rendered rendered{.result = {}, .settings = job.settings, .tuned = {}, .notes = {}};
+            rendered.result = render_with_checkpoints(job, on_progress, rendered.notes);
+            return rendered;
         }
         job.session->begin_frame(job.settings.seed);
         return {.result = finish(*job.session, on_progress),
@@ -139,6 +198,10 @@ void print_notes(const RenderOptions& options, const std::vector<std::string>& n
 
 } // namespace
 
+bool has_checkpoints(const RenderOptions& options) {
+    return !options.checkpoint.empty() || !options.resume.empty();
+}
+
 bool is_autotuned(const RenderOptions& options, const CLI::App& command) {
     return options.target_error || (options.settings.budget && !is_given(command, "--method"));
 }
@@ -161,6 +224,9 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.times.load = seconds_since(start);
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);
+    if (!is_autotuned(options, command)) {
+        job.settings.samples_per_pass = samples_per_pass(size);
+    }
     print_notes(options, job.scene.notes);
     const Clock::time_point opened = Clock::now();
     job.device = open_backend(options.backend, options.device, options.quiet);
@@ -180,6 +246,9 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
         }
         rendered = render_on(job, work);
     } catch (const DeviceFault& fault) {
+        if (has_checkpoints(options)) {
+            throw; // they are this device's
+        }
         job.session.reset();
         job.world.reset();
         job.device = open_after_fault(options.backend, options.device, fault);
@@ -187,7 +256,9 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
         rendered = render_on(job, work);
     }
     job.times.render = seconds_since(start);
-    rendered.notes = notes_on(rendered, options.methods, job.times.render);
+    for (std::string& note : notes_on(rendered, options.methods, job.times.render)) {
+        rendered.notes.push_back(std::move(note));
+    }
     return rendered;
 }
 

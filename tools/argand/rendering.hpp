@@ -29,7 +29,9 @@ struct RenderOptions : SceneOptions {
     std::string frames; ///< "A:B"; empty: one picture
     double frames_per_second = 24;
     bool seed_per_frame = false, continues = false;
-    std::string keep = "all"; ///< of a frame's memory for the next one: "all" or "none"
+    std::string keep = "all";       ///< of a frame's memory for the next one: "all" or "none"
+    std::string checkpoint, resume; ///< files; empty: none
+    double every = 300;             ///< seconds between checkpoints
     RenderSettings settings;
 
     const MethodInfo& method() const { return methods.at(settings.method); }
@@ -37,6 +39,9 @@ struct RenderOptions : SceneOptions {
 
 /// Whether Argand is to choose the method or the numbers of photons and samples.
 bool is_autotuned(const RenderOptions& options, const CLI::App& command);
+
+/// Whether the render saves checkpoints or goes on from one.
+bool has_checkpoints(const RenderOptions& options);
 
 /// What all pictures of a command share.
 struct RenderJob {

@@ -1,0 +1,206 @@
+#include "session/checkpoint.hpp"
+
+#include "base/archive.hpp"
+#include "base/atomic_write.hpp"
+#include "base/machine.hpp"
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "scene/fingerprint.hpp"
+#include "scene/material_record.hpp"
+#include "shared/material_record.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+namespace argand {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::uint8_t, 8> magic = {'A', 'r', 'g', 'a', 'n', 'd', 'C', '1'};
+
+/// Precedes the contents of a checkpoint.
+struct Header {
+    std::array<std::uint8_t, 8> start = magic;
+    std::uint64_t length = 0;   ///< of what follows, in bytes
+    std::uint64_t checksum = 0; ///< of what follows
+};
+
+template <class T> std::uint64_t with(std::uint64_t before, const T& value) {
+    return fingerprint(std::as_bytes(std::span(&value, 1)), before);
+}
+
+/// Fingerprint of all of the scene that a picture shows.
+std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
+    std::uint64_t hash = fingerprint(scene);
+    for (const Material& material : scene.materials) {
+        hash = with(hash, material_record(material));
+    }
+    for (const Light& light : scene.lights) {
+        hash = with(with(with(hash, light.kind), light.position), light.direction);
+        hash =
+            with(with(with(hash, light.intensity), light.inner_cone_angle), light.outer_cone_angle);
+    }
+    const Camera& c = scene.cameras[camera];
+    hash = with(with(with(with(with(hash, c.kind), c.position), c.right), c.up), c.forward);
+    return with(with(hash, c.vertical_angle), c.vertical_extent);
+}
+
+std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
+
+/// Fingerprint of the program that runs.
+std::string build_name() {
+    const std::vector<std::uint8_t> program = read_file(program_file());
+    return hexadecimal(fingerprint(std::as_bytes(std::span(program))));
+}
+
+std::string name_of(const fs::path& path) { return one_line(path.string()); }
+
+/// What follows the header of a checkpoint. Throws Error if the file is not a whole checkpoint.
+std::vector<std::uint8_t> read_contents(const fs::path& path) {
+    std::vector<std::uint8_t> bytes = read_file(path);
+    Header header;
+    if (bytes.size() < sizeof(header) || !std::equal(magic.begin(), magic.end(), bytes.begin())) {
+        fail("reading '{}': it is not a checkpoint; choose another file", name_of(path));
+    }
+    Archive archive(bytes);
+    archive.value(header);
+    bytes.erase(bytes.begin(), bytes.begin() + sizeof(header));
+    if (bytes.size() != header.length) {
+        fail("reading '{}': it has {} of {} bytes", name_of(path), bytes.size(), header.length);
+    }
+    if (fingerprint(std::as_bytes(std::span(bytes))) != header.checksum) {
+        fail("reading '{}': it is damaged", name_of(path));
+    }
+    return bytes;
+}
+
+void persist_key(Archive& archive, CheckpointKey& key) {
+    std::uint64_t count = key.size();
+    archive.value(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        if (archive.loads()) {
+            key.emplace_back();
+        }
+        archive.text(key[i].first);
+        archive.text(key[i].second);
+    }
+}
+
+/// Throws Error if the checkpoint's key is another one.
+void check_key(const fs::path& path, const CheckpointKey& found, const CheckpointKey& wanted) {
+    for (std::size_t i = 0; i < std::max(found.size(), wanted.size()); ++i) {
+        if (i >= found.size() || i >= wanted.size() || found[i].first != wanted[i].first) {
+            fail("resuming '{}': it is of another method or version of Argand; render from the "
+                 "start",
+                 name_of(path));
+        }
+        if (found[i].second != wanted[i].second) {
+            fail("resuming '{}': its {} is {}, and not {}; resume with what it was begun with, or "
+                 "render from the start",
+                 name_of(path), found[i].first, found[i].second, wanted[i].second);
+        }
+    }
+}
+
+std::vector<std::uint8_t> state_of(const fs::path& path, std::span<const std::uint8_t> contents,
+                                   const CheckpointKey& wanted) {
+    Archive archive(contents);
+    CheckpointKey key;
+    persist_key(archive, key);
+    check_key(path, key, wanted);
+    std::vector<std::uint8_t> state;
+    archive.values(state);
+    return state;
+}
+
+} // namespace
+
+CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
+                             const MethodInfo& method, const DeviceInfo& device) {
+    CheckpointKey key{
+        {"build", build_name()},
+        {"scene", fmt::format("{} ({})", scene.name,
+                              hexadecimal(picture_fingerprint(scene, settings.camera)))},
+        {"method", settings.method},
+        {"size", fmt::format("{}x{}", settings.width, settings.height)},
+        {"seed", fmt::format("{}", settings.seed)},
+        {"backend", device.backend},
+        {"device", fmt::format("{}, {}", device.name, device.driver)},
+        {"budget", settings.budget ? "set" : "not set"},
+        {"largest pass", fmt::format("{} photons, {} samples", settings.photons_per_pass,
+                                     settings.samples_per_pass)},
+        {"--everything", settings.everything ? "on" : "off"}};
+    for (const Option& option : method.options) {
+        key.emplace_back("--" + option.name, option.get(settings));
+    }
+    return key;
+}
+
+fs::path older_checkpoint(const fs::path& path) {
+    fs::path older = path;
+    older += ".old";
+    return older;
+}
+
+void check_checkpoint_writable(const fs::path& path) {
+    check_writable(path);
+    std::error_code problem;
+    if (fs::exists(path, problem) && fs::file_size(path, problem) > 0) {
+        std::array<std::uint8_t, magic.size()> start{};
+        std::ifstream(path, std::ios::binary)
+            .read(reinterpret_cast<char*>(start.data()), start.size());
+        if (start != magic) {
+            fail("writing the checkpoint '{}': there is another file of that name, which is not a "
+                 "checkpoint; choose another name",
+                 name_of(path));
+        }
+    }
+}
+
+void save_checkpoint(const fs::path& path, CheckpointKey key, std::vector<std::uint8_t> state) {
+    Archive archive;
+    Header header;
+    archive.value(header);
+    persist_key(archive, key);
+    archive.values(state);
+    std::vector<std::uint8_t> bytes = std::move(archive).take_bytes();
+    const auto contents = std::as_bytes(std::span(bytes)).subspan(sizeof(header));
+    header.length = contents.size();
+    header.checksum = fingerprint(contents);
+    std::memcpy(bytes.data(), &header, sizeof(header));
+    // The last checkpoint gives way only once the new one is on disk.
+    fs::path newer = path;
+    newer += ".new";
+    write_atomically(newer, bytes);
+    std::error_code problem;
+    if (fs::exists(path, problem)) {
+        fs::rename(path, older_checkpoint(path), problem);
+    }
+    fs::rename(newer, path, problem);
+    if (problem) {
+        fail("writing the checkpoint '{}': {}; check the folder's permissions", name_of(path),
+             problem.message());
+    }
+}
+
+LoadedCheckpoint load_checkpoint(const fs::path& path, const CheckpointKey& key) {
+    std::vector<std::uint8_t> contents;
+    try {
+        contents = read_contents(path);
+    } catch (const Error& damaged) {
+        const fs::path older = older_checkpoint(path);
+        std::error_code problem;
+        if (!fs::exists(older, problem)) {
+            throw;
+        }
+        return {.state = state_of(older, read_contents(older), key),
+                .note = fmt::format("{}; going on from the checkpoint before it, '{}'",
+                                    damaged.what(), name_of(older))};
+    }
+    return {.state = state_of(path, contents, key), .note = {}};
+}
+
+} // namespace argand

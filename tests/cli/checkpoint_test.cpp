@@ -1,0 +1,128 @@
+// Renders that are saved, killed and resumed.
+#include "argand_run.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+namespace argand::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Checkpoints : public ArgandTest {
+protected:
+    static std::string render(const std::string& options) {
+        return "render '" + asset("cornell_glass.glb") + "' --size 12x12 --spp 4 -q " + options;
+    }
+    /// Eight passes.
+    static constexpr const char* long_render = "--method photons --photons 2000000 ";
+    Outcome run(const std::string& options) { return argand(render(options), on_host); }
+    void expect_error(const std::string& options, const std::string& text, int status = failure) {
+        expect_failure(render(options), status, text, on_host);
+    }
+    /// Runs the tool until a signal ends it, or it ends by itself.
+    void run_for(double seconds, const std::string& signal, const std::string& options) {
+        const std::string command =
+            fmt::format("cd '{}' && {} OMP_WAIT_POLICY=passive timeout -s {} {} '{}' {} "
+                        ">/dev/null 2>&1",
+                        file("."), on_host, signal, seconds, ARGAND_EXECUTABLE, render(options));
+        EXPECT_NE(std::system(command.c_str()), -1);
+    }
+    void truncate(const std::string& name) {
+        std::filesystem::resize_file(file(name), std::filesystem::file_size(file(name)) / 2);
+    }
+};
+
+TEST_F(Checkpoints, OfACompleteRenderGiveItsPictureAgain) {
+    ASSERT_EQ(run("-o whole.exr").exit_code, 0);
+    ASSERT_EQ(run("-o saved.exr --checkpoint c").exit_code, 0);
+    ASSERT_EQ(run("-o again.exr --resume c").exit_code, 0);
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("saved.exr")));
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("again.exr")));
+    EXPECT_EQ(files(), (std::vector<std::string>{"again.exr", "c", "saved.exr", "whole.exr"}));
+}
+
+TEST_F(Checkpoints, GoOnAfterAKillAtAnyMoment) {
+    const std::string passes = long_render;
+    ASSERT_EQ(run(passes + "-o whole.exr").exit_code, 0);
+    for (const double seconds : {0.2, 0.4, 0.6}) {
+        const std::string resume = std::filesystem::exists(file("c")) ? " --resume c" : "";
+        run_for(seconds, "KILL", passes + "-o killed.exr --checkpoint c --every 0" + resume);
+    }
+    if (!std::filesystem::exists(file("c"))) {
+        ASSERT_EQ(run(passes + "-o no.exr --checkpoint c --every 0").exit_code, 0);
+    }
+    ASSERT_EQ(run(passes + "-o resumed.exr --resume c").exit_code, 0);
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("resumed.exr")));
+}
+
+TEST_F(Checkpoints, AreReplacedByTheOlderOneWhereTheyAreDamaged) {
+    ASSERT_EQ(run(std::string(long_render) + "-o whole.exr --checkpoint c --every 0").exit_code, 0);
+    ASSERT_TRUE(std::filesystem::exists(file("c.old")));
+    truncate("c");
+    const std::string older = read_text(file("c.old"));
+    Outcome outcome = argand("render '" + asset("cornell_glass.glb") + "' --size 12x12 --spp 4 " +
+                                 std::string(long_render) + "-o resumed.exr --resume c",
+                             on_host);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_THAT(outcome.error, AllOf(HasSubstr("bytes"), HasSubstr("going on from the checkpoint "
+                                                                   "before it, 'c.old'")));
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("resumed.exr")));
+    EXPECT_EQ(read_text(file("c.old")), older);
+    std::filesystem::remove(file("c"));
+    EXPECT_EQ(run(std::string(long_render) + "-o resumed.exr --resume c").exit_code, 0);
+    // One byte is wrong.
+    std::fstream(file("c.old"), std::ios::in | std::ios::out | std::ios::binary)
+        .seekp(500)
+        .put(older[500] == 'x' ? 'y' : 'x');
+    expect_error(std::string(long_render) + "-o no.exr --resume c.old", "it is damaged");
+}
+
+TEST_F(Checkpoints, OfOtherRendersAreRefused) {
+    ASSERT_EQ(run("-o whole.exr --photons 1000 --checkpoint c").exit_code, 0);
+    const std::string kept = read_text(file("c"));
+    const std::string at_any_size =
+        "render '" + asset("cornell_glass.glb") + "' --spp 4 -q -o no.exr --resume c ";
+    expect_failure(at_any_size + "--size 13x12 --photons 1000", failure,
+                   "its size is 12x12, and not 13x12", on_host);
+    expect_failure(at_any_size + "--size 12x12 --photons 2000", failure,
+                   "its --photons is 1000, and not 2000", on_host);
+    const std::string as_before = "--photons 1000 -o no.exr --resume c ";
+    expect_error(as_before + "--seed 1", "its seed is 0, and not 1");
+    expect_error(as_before + "--method knn", "its method is footprints, and not knn");
+    expect_error(as_before + "--smoothing 3", "its --smoothing is auto, and not 3");
+    expect_error(as_before + "--backend vulkan", "its backend is cpu, and not vulkan");
+    expect_failure("render '" + asset("cornell_mirror.glb") + "' --size 12x12 --spp 4 -q " +
+                       as_before,
+                   failure, "its scene is cornell_glass.glb", on_host);
+    EXPECT_EQ(read_text(file("c")), kept);
+}
+
+TEST_F(Checkpoints, RefuseWhatTheyCannotDo) {
+    std::ofstream(file("notes.txt")) << "do not lose me";
+    expect_error("-o no.exr --checkpoint notes.txt", "which is not a checkpoint");
+    EXPECT_EQ(read_text(file("notes.txt")), "do not lose me");
+    expect_error("-o no.exr --resume notes.txt", "it is not a checkpoint");
+    expect_error("-o no.exr --resume missing", "there is no such file");
+    expect_error("-o no.exr --checkpoint folder/c", "folder");
+    expect_error("-o no.exr --every 3", "it needs --checkpoint", usage);
+    expect_error("-o no%d.exr --frames 0:2 --checkpoint c", "--continue", usage);
+    expect_error("-o no.exr --target-error 0.1 --checkpoint c", "--target-error", usage);
+    expect_error("-o no.exr --budget 1 --resume c", "--budget", usage);
+    expect_error("-o no.exr --checkpoint no.exr", "no.exr", usage);
+    expect_error("-o no.exr --checkpoint c --every -1", "--every", usage);
+}
+
+TEST_F(Checkpoints, AreSavedWhenARenderIsInterrupted) {
+    const std::string passes = long_render;
+    ASSERT_EQ(run(passes + "-o whole.exr").exit_code, 0);
+    run_for(0.5, "TERM", passes + "-o part.exr --checkpoint c");
+    ASSERT_TRUE(std::filesystem::exists(file("c")));
+    ASSERT_TRUE(std::filesystem::exists(file("part.exr")));
+    ASSERT_EQ(run(passes + "-o resumed.exr --resume c").exit_code, 0);
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("resumed.exr")));
+}
+
+} // namespace
+} // namespace argand::testing
