@@ -298,9 +298,12 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     return w;
 }
 
-void restart(Device& device, EyeWorkspace& w, const CameraRecord& camera) {
+void set_camera(Device& device, EyeWorkspace& w, const CameraRecord& camera) {
     device.upload(w.camera, 0, std::as_bytes(std::span(&camera, 1)));
     w.queries.view = camera;
+}
+
+void restart(Device& device, EyeWorkspace& w) {
     w.queries.sharing = {};
     for (const Buffer& part : w.film.parts) {
         device.fill(part, 0);

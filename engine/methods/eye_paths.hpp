@@ -24,9 +24,12 @@ struct EyeWorkspace {
 EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
                                 const CameraRecord& camera);
 
+/// Sets the camera for the next pass. Records only.
+void set_camera(Device& device, EyeWorkspace& workspace, const CameraRecord& camera);
+
 /// Readies the workspace for another image of the same plan and settings: empties the film. Records
 /// only.
-void restart(Device& device, EyeWorkspace& workspace, const CameraRecord& camera);
+void restart(Device& device, EyeWorkspace& workspace);
 
 /// Which samples of every pixel are traced.
 struct EyePass {

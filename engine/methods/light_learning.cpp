@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -90,6 +92,14 @@ void set_focus(SceneRecord& record, const LightTable& table, const std::vector<F
     }
 }
 
+/// Copies where photons are aimed.
+void copy_aims(const SceneRecord& from, SceneRecord& to) {
+    SceneRecord record = from;
+    // Everything up to the aims belongs to the moment.
+    std::memcpy(&record, &to, offsetof(SceneRecord, focus_x));
+    to = record;
+}
+
 /// Divides what was found in a pixel by the pixel's radiance, because errors count in relation to
 /// it: light in the dark parts of an image is as important as in bright ones.
 void make_relative(FoundLights& found) {
@@ -114,25 +124,32 @@ void add(FoundShares& shares, std::uint32_t emitter, double light) {
 
 } // namespace
 
-void persist_lights(Archive& archive, RenderContext& context) {
+void keep_learnt(RenderContext& context, const DeviceScene& before) {
     DeviceScene& scene = context.on_device;
-    SampledPart part = scene.sampled_part;
-    archive.value(scene.record);
-    archive.values(scene.ray_shares);
-    archive.values(scene.photon_shares);
-    archive.value(part);
+    copy_aims(before.record, scene.record);
+    const bool same_emitters = scene.light_table.emitter_weights.size() == before.ray_shares.size();
+    const DeviceScene& choices = same_emitters ? before : scene;
+    const std::vector<double> for_rays = choices.ray_shares, for_photons = choices.photon_shares;
+    set_light_choices(context.device, scene, for_rays, for_photons);
+    if (scene.plan.needs(Feature::photon_map) && std::isfinite(before.sampled_part.reach)) {
+        sample_areas(context.device, context.scene, scene, before.sampled_part);
+    }
+}
+
+void persist_lights(Archive& archive, RenderContext& context) {
+    DeviceScene learnt = context.on_device;
+    archive.value(learnt.record);
+    archive.values(learnt.ray_shares);
+    archive.values(learnt.photon_shares);
+    archive.value(learnt.sampled_part);
     if (!archive.loads()) {
         return;
     }
-    const std::size_t emitters = scene.light_table.emitter_weights.size();
-    if (scene.ray_shares.size() != emitters || scene.photon_shares.size() != emitters) {
+    const std::size_t emitters = learnt.light_table.emitter_weights.size();
+    if (learnt.ray_shares.size() != emitters || learnt.photon_shares.size() != emitters) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
-    const std::vector<double> for_rays = scene.ray_shares, for_photons = scene.photon_shares;
-    set_light_choices(context.device, scene, for_rays, for_photons);
-    if (scene.plan.needs(Feature::photon_map) && std::isfinite(part.reach)) {
-        sample_areas(context.device, context.scene, scene, part);
-    }
+    keep_learnt(context, learnt);
 }
 
 void learn_lights(RenderContext& context) {

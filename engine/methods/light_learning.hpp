@@ -10,6 +10,9 @@ namespace argand {
 /// Does nothing where there is no choice: with one emitter inside the scene.
 void learn_lights(RenderContext& context);
 
+/// Takes over what was learnt about the lights of the scene at another moment.
+void keep_learnt(RenderContext& context, const DeviceScene& before);
+
 /// Saves or loads what was learnt about the lights, by learn_lights() and by the method: how they
 /// are chosen, where photons are aimed, and where areas are sampled.
 void persist_lights(Archive& archive, RenderContext& context);

@@ -39,7 +39,9 @@ private:
     std::uint64_t samples() const { return c_.settings.samples; }
     /// Of all passes but a last, smaller one.
     std::uint64_t samples_of_pass() const {
-        return std::min(c_.settings.samples, c_.settings.samples_per_pass);
+        const std::uint64_t spread =
+            std::max<std::uint64_t>(samples() / std::max(c_.settings.least_passes, 1u), 1);
+        return std::min<std::uint64_t>(spread, c_.settings.samples_per_pass);
     }
 
     RenderContext& c_;

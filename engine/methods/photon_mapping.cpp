@@ -30,11 +30,15 @@ struct PassSplit {
     std::uint32_t samples = 1; ///< of each pass, per pixel
 };
 
-PassSplit split(std::uint64_t photons, std::uint32_t samples, std::uint64_t most_photons) {
+PassSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint64_t most_photons) {
     PassSplit s;
-    s.passes = std::max<std::uint64_t>((photons + most_photons - 1) / most_photons, 1);
+    const std::uint64_t wanted =
+        std::max({std::uint64_t(settings.least_passes), (photons + most_photons - 1) / most_photons,
+                  std::uint64_t(1)});
+    // A pass without photons would have no indirect light.
+    s.passes = photons > 0 ? std::min(wanted, photons) : wanted;
     s.photons = std::max<std::uint64_t>((photons + s.passes - 1) / s.passes, 1);
-    s.samples = static_cast<std::uint32_t>((samples + s.passes - 1) / s.passes);
+    s.samples = static_cast<std::uint32_t>((settings.samples + s.passes - 1) / s.passes);
     return s;
 }
 
@@ -77,9 +81,8 @@ public:
 
     void begin_frame(Budget& budget) override {
         image_ = {};
-        // Without indirect light no photon is ever looked up.
-        const bool indirect = c_.settings.bounces > 0 && c_.on_device.record.light_count > 0;
-        image_.emitted = indirect ? c_.settings.photons : 0;
+        // Without bounces no photon is ever looked up.
+        image_.emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
             c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
         aim_at_casters(c_, queries);
@@ -128,15 +131,16 @@ private:
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
 };
 
-/// The photons of a pass. If there are more passes than the settings request, their numbers
-/// continue.
+/// The photons of a pass; none in the dark. If there are more passes than the settings request,
+/// their numbers continue.
 PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
     const std::uint64_t round = numbers.index / image_.split.passes;
     const std::uint64_t in_round = numbers.index % image_.split.passes;
     const std::uint64_t first = image_.emitted * in_round / image_.split.passes;
+    const std::uint64_t end = image_.emitted * (in_round + 1) / image_.split.passes;
     return {.seed = numbers.seed,
             .first = round * image_.emitted + first,
-            .count = image_.emitted * (in_round + 1) / image_.split.passes - first,
+            .count = c_.on_device.record.light_count > 0 ? end - first : 0,
             .bounces = c_.settings.bounces};
 }
 
@@ -151,8 +155,10 @@ void PhotonMapping::make_workspace() {
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     const auto& power = c_.on_device.light_table.power;
-    image_.flux_unit = std::max({power.r, power.g, power.b}) /
-                       static_cast<double>(image_.split.photons) / units_per_photon;
+    const double most = std::max({power.r, power.g, power.b});
+    // A light may be switched on while a shutter is open.
+    image_.flux_unit =
+        (most > 0 ? most : 1) / static_cast<double>(image_.split.photons) / units_per_photon;
 }
 
 std::optional<StoredPhotons> PhotonMapping::trace(const PassNumbers& numbers) {
@@ -173,7 +179,7 @@ StoredPhotons PhotonMapping::stored_or_fail(const std::optional<StoredPhotons>& 
 /// often; passes then have fewer photons, so that later ones, which store a few more or less, fit
 /// as well.
 StoredPhotons PhotonMapping::trace_first(Budget& budget) {
-    image_.split = split(image_.emitted, c_.settings.samples,
+    image_.split = split(c_.settings, image_.emitted,
                          std::min(max_photons_per_pass(c_.device), c_.settings.photons_per_pass));
     for (;;) {
         make_workspace();
@@ -183,7 +189,7 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
         if (has_room || image_.split.photons == 1) {
             return stored_or_fail(stored);
         }
-        image_.split = split(image_.emitted, c_.settings.samples, image_.split.photons / 2);
+        image_.split = split(c_.settings, image_.emitted, image_.split.photons / 2);
     }
 }
 

@@ -20,11 +20,10 @@ void Session::prepare(std::uint32_t seed) {
     streams_ = Streams(seed);
     statistics_ = {};
     DeviceScene on_device = world_.on_device(scene_, plan_render(scene_, settings_, methods_));
-    const CameraRecord camera =
-        camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
     if (context_ && context_->on_device.plan.required == on_device.plan.required) {
         context_->on_device = std::move(on_device);
-        restart(world_.device(), context_->eye, camera);
+        set_camera(world_.device(), context_->eye, camera());
+        restart(world_.device(), context_->eye);
         return;
     }
     method_ = nullptr;
@@ -35,8 +34,29 @@ void Session::prepare(std::uint32_t seed) {
                                    .on_device = std::move(on_device),
                                    .eye = {}});
     context_->eye =
-        make_eye_workspace(world_.device(), context_->on_device.plan, settings_, camera);
+        make_eye_workspace(world_.device(), context_->on_device.plan, settings_, camera());
     method_ = methods_.at(settings_.method).make(*context_);
+}
+
+CameraRecord Session::camera() const {
+    return camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
+}
+
+void Session::follow() {
+    Device& device = world_.device();
+    const DeviceScene before = context_->on_device;
+    // What an earlier moment required, this one gets as well: the memory stays of one kind.
+    Plan plan = plan_render(scene_, settings_, methods_);
+    plan.required.insert(before.plan.required.begin(), before.plan.required.end());
+    if (plan.required.size() != before.plan.required.size()) {
+        const Film film = context_->eye.film;
+        context_->eye = {}; // frees its memory before the new one takes its own
+        context_->eye = make_eye_workspace(device, plan, settings_, camera());
+        context_->eye.film = film;
+    }
+    context_->on_device = world_.on_device(scene_, plan);
+    set_camera(device, context_->eye, camera());
+    keep_learnt(*context_, before);
 }
 
 void Session::begin_frame(std::uint32_t seed) {

@@ -36,6 +36,10 @@ public:
     /// first pass. Throws Error if the device cannot do it.
     void begin_frame(std::uint32_t seed);
 
+    /// Follows the scene to another moment within the same image, after World::update(). What was
+    /// learnt for the image stays. A session that is resumed has to be followed there, too.
+    void follow();
+
     /// Goes on with the image of a session for the same scene, settings and device, from what its
     /// save() returned: later passes have the bits that they would have had there. Replaces
     /// begin_frame(). Throws Error on other bytes, after which the session has no image.
@@ -63,6 +67,7 @@ public:
     RenderResult result();
 
 private:
+    CameraRecord camera() const;
     void prepare(std::uint32_t seed);
     void persist(Archive& archive);
 

@@ -63,6 +63,25 @@ TEST_F(Frames, HaveTheSameBitsWhateverTheyKeep) {
     }
 }
 
+TEST_F(Frames, SeeWhatHappensWhileTheirShutterIsOpen) {
+    const std::string options = "render '" + asset("moving_light.glb") +
+                                "' --size 8x8 --spp 4 --photons 500 -q --frames 2:4 --fps 2 ";
+    ASSERT_EQ(argand(options + "-o s%d.exr", on_host).exit_code, 0);
+    ASSERT_EQ(argand(options + "--shutter 0:1 -o b%d.exr --json b.json", on_host).exit_code, 0);
+    EXPECT_FALSE(same("s2.exr", "b2.exr"));
+    EXPECT_FALSE(same("b3.exr", "b2.exr"));
+    const std::vector<nlohmann::json> reports = lines("b.json");
+    ASSERT_EQ(reports.size(), 2u);
+    EXPECT_EQ(reports[1]["parameters"]["at"], 1.5);
+    EXPECT_EQ(reports[1]["parameters"]["shutter"], nlohmann::json({1.5, 2.0}));
+    EXPECT_EQ(reports[1]["passes"], 4);
+    EXPECT_EQ(reports[1]["samples_per_pixel"], 4);
+    EXPECT_EQ(reports[1]["photons_emitted"], 500);
+    // Frame 2 with the shutter from one frame later on sees what frame 3 does.
+    ASSERT_EQ(argand(options + "--shutter 1:2 -o l%d.exr", on_host).exit_code, 0);
+    EXPECT_TRUE(same("l2.exr", "b3.exr"));
+}
+
 TEST_F(Frames, MayHaveNoiseOfTheirOwn) {
     ASSERT_EQ(argand(film("--frames 7:8 --seed-per-frame --seed 4 -o f%d.exr"), on_host).exit_code,
               0);
@@ -152,6 +171,11 @@ TEST_F(Frames, WrongOptionsAreUsageErrors) {
     expect_usage("--fps 12", "it needs --frames");
     expect_usage("--continue", "it needs --frames");
     expect_usage("--keep none", "it needs --frames");
+    expect_usage("--shutter 0:1", "it needs --frames");
+    for (const char* shutter : {"1", "0:0", "0.5:0", "0:nan", "0:inf", "a:b", "0:1:2", ":"}) {
+        expect_usage(std::string("--frames 0:2 --shutter '") + shutter + "'", "--shutter");
+    }
+    expect_usage("--frames 0:2 --shutter 0:1 --target-error 0.1", "--target-error");
     expect_usage("--frames 0:2 --keep some", "--keep");
     expect_usage("--seed-per-frame", "it needs --frames");
     expect_usage("--frames 0:2 --fps 0", "--fps");

@@ -60,6 +60,21 @@ FrameRange parse_frame_range(const std::string& text) {
                                  text, most_frames));
 }
 
+Shutter parse_shutter(const std::string& text) {
+    constexpr double most = 1e6; // frames before or after
+    const std::size_t colon = text.find(':');
+    if (colon != std::string::npos) {
+        const auto open = parse_number<double>(std::string_view(text).substr(0, colon)),
+                   close = parse_number<double>(std::string_view(text).substr(colon + 1));
+        if (open && close && *open >= -most && *open < *close && *close <= most) {
+            return {*open, *close};
+        }
+    }
+    throw UsageError(fmt::format("reading --shutter '{}': write OPEN:CLOSE in shares of a frame, "
+                                 "such as 0:0.5, with OPEN below CLOSE",
+                                 text));
+}
+
 void check_frame_pattern(const std::string& pattern) {
     if (!find_place(pattern)) {
         throw UsageError(fmt::format("writing '{}': with --frames the name needs one place for the "

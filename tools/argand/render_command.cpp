@@ -176,6 +176,10 @@ void add_render_command(CLI::App& app, MethodTable methods) {
         ->check(number_between(1e-6, 1e6));
     command->add_flag("--seed-per-frame", options->seed_per_frame,
                       "Give each frame noise of its own: frame k has the seed --seed + k");
+    command->add_option("--shutter", options->shutter,
+                        "Motion blur: a frame sees what happens from OPEN to CLOSE after its "
+                        "moment, in shares of a frame, such as 0:0.5. Each of the --spp samples "
+                        "sees a moment of its own, with its share of the photons");
     command->add_flag("--continue", options->continues,
                       "Leave out frames whose files exist, to go on after an interruption");
     command

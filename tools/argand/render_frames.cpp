@@ -63,7 +63,8 @@ private:
 
 void check_frames(const RenderOptions& options, const CLI::App& command) {
     if (options.frames.empty()) {
-        for (const char* option : {"--fps", "--seed-per-frame", "--continue", "--keep"}) {
+        for (const char* option :
+             {"--fps", "--seed-per-frame", "--continue", "--keep", "--shutter"}) {
             if (is_given(command, option)) {
                 throw UsageError(
                     fmt::format("reading {}: it needs --frames A:B, the frames to render", option));
@@ -72,6 +73,14 @@ void check_frames(const RenderOptions& options, const CLI::App& command) {
         return;
     }
     parse_frame_range(options.frames);
+    if (!options.shutter.empty()) {
+        parse_shutter(options.shutter);
+        if (is_autotuned(options, command)) {
+            throw UsageError("reading --shutter: its passes see different moments, which "
+                             "--target-error, and --budget without --method, would take for "
+                             "noise; leave one of the two out");
+        }
+    }
     if (options.seconds) {
         throw UsageError("reading --at: with --frames, frame k is at k / --fps seconds; leave one "
                          "of the two out");
@@ -90,6 +99,8 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
     const auto seconds_of = [&](std::uint64_t frame) {
         return static_cast<double>(frame) / options.frames_per_second;
     };
+    const bool blurs = !options.shutter.empty();
+    const Shutter shares = blurs ? parse_shutter(options.shutter) : Shutter();
     RenderJob job = open_job(options, command, seconds_of(range.first));
     FrameReports reports(options.report, options.continues);
     for (std::uint64_t frame = range.first; frame < range.end; ++frame) {
@@ -101,6 +112,11 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         job.device->reset_stage_times();
         move_to(seconds_of(frame), job.scene);
         job.times.update = seconds_since(start);
+        if (blurs) {
+            const auto first = static_cast<double>(frame);
+            job.shutter = {(first + shares.open) / options.frames_per_second,
+                           (first + shares.close) / options.frames_per_second};
+        }
         if (options.seed_per_frame) {
             job.settings.seed = options.settings.seed + static_cast<std::uint32_t>(frame);
         }
@@ -116,6 +132,10 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         write_picture(job, rendered, outputs);
         nlohmann::ordered_json report{{"frame", frame}};
         report.update(report_on(job, rendered, outputs));
+        if (blurs) {
+            report["parameters"]["at"] = seconds_of(frame);
+            report["parameters"]["shutter"] = {job.shutter->open, job.shutter->close};
+        }
         reports.add(report);
         tell_of(job, rendered, outputs, seconds_since(start));
         job.times.load = job.times.open = 0; // they are the first frame's

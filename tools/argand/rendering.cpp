@@ -108,6 +108,15 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
     return result;
 }
 
+RenderResult render_image(RenderJob& job, const OnProgress& on_progress) {
+    if (job.shutter) {
+        return render_through(*job.session, *job.world, job.scene, *job.shutter, job.settings.seed,
+                              on_progress);
+    }
+    job.session->begin_frame(job.settings.seed);
+    return finish(*job.session, on_progress);
+}
+
 Rendered render_on(RenderJob& job, const std::string& work) {
     const RenderOptions& options = job.options;
     if (!job.world) {
@@ -130,8 +139,7 @@ Rendered render_on(RenderJob& job, const std::string& work) {
             rendered.result = render_with_checkpoints(job, on_progress, rendered.notes);
             return rendered;
         }
-        job.session->begin_frame(job.settings.seed);
-        return {.result = finish(*job.session, on_progress),
+        return {.result = render_image(job, on_progress),
                 .settings = job.settings,
                 .tuned = {},
                 .notes = {}};
@@ -215,6 +223,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
                   .device = nullptr,
                   .world = nullptr,
                   .session = nullptr,
+                  .shutter = {},
                   .times = {}};
     const PictureSize size = parse_picture_size(options.size);
     job.settings.width = size.width;
@@ -224,6 +233,9 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.times.load = seconds_since(start);
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);
+    if (!options.shutter.empty()) {
+        job.settings = with_pass_per_sample(job.settings);
+    }
     if (!is_autotuned(options, command)) {
         job.settings.samples_per_pass = samples_per_pass(size);
     }

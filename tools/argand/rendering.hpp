@@ -3,7 +3,7 @@
 #include "autotune/autotune.hpp"
 #include "report.hpp"
 #include "scene_options.hpp"
-#include "session/session.hpp"
+#include "session/shutter.hpp"
 #include "world/world.hpp"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +29,7 @@ struct RenderOptions : SceneOptions {
     std::string frames; ///< "A:B"; empty: one picture
     double frames_per_second = 24;
     bool seed_per_frame = false, continues = false;
+    std::string shutter;            ///< "OPEN:CLOSE"; empty: a frame sees its moment only
     std::string keep = "all";       ///< of a frame's memory for the next one: "all" or "none"
     std::string checkpoint, resume; ///< files; empty: none
     double every = 300;             ///< seconds between checkpoints
@@ -53,6 +54,7 @@ struct RenderJob {
     std::unique_ptr<World> world;     ///< on the device; null before the first picture
     std::unique_ptr<Session> session; ///< in this world; null before the first picture, and where
                                       ///< pictures share nothing
+    std::optional<Shutter> shutter;   ///< of the next picture; none: it sees the scene as it is
     ReportTimes times;                ///< of the last picture
 };
 
