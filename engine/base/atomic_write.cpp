@@ -32,24 +32,6 @@ namespace {
     fail_to_write(target, std::strerror(code), advice);
 }
 
-/// An open file that is closed and, unless `path` was cleared, removed on destruction.
-struct Scratch {
-    fs::path path;
-    int descriptor = -1;
-
-    Scratch() = default;
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    ~Scratch() {
-        if (descriptor >= 0) {
-            ::close(descriptor);
-        }
-        if (!path.empty()) {
-            ::unlink(path.c_str());
-        }
-    }
-};
-
 /// The file to replace: the target after its symbolic links, which stay links.
 struct Destination {
     fs::path path;
@@ -105,25 +87,6 @@ Destination resolve(const fs::path& target) {
     return destination;
 }
 
-/// Creates a file with a new name in the destination's directory.
-void open_beside(const fs::path& target, const Destination& destination, Scratch& scratch) {
-    static std::atomic<unsigned> counter{0};
-    for (;;) {
-        // Not the target's name with a suffix: it may already have the greatest length allowed.
-        fs::path path = destination.path.parent_path() /
-                        fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
-        const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) {
-            scratch.path = std::move(path);
-            scratch.descriptor = descriptor;
-            return;
-        }
-        if (errno != EEXIST && errno != EINTR) {
-            fail_with_errno(target, errno);
-        }
-    }
-}
-
 void write_all(const fs::path& target, int descriptor, std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -135,41 +98,83 @@ void write_all(const fs::path& target, int descriptor, std::span<const std::uint
     }
 }
 
-void close_checked(const fs::path& target, Scratch& scratch) {
-    const int descriptor = std::exchange(scratch.descriptor, -1);
+void close_checked(const fs::path& target, int descriptor) {
     if (::close(descriptor) != 0 && errno != EINTR) {
         fail_with_errno(target, errno);
     }
 }
 
+void write_directly(const fs::path& target, const fs::path& path,
+                    std::span<const std::uint8_t> bytes) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) {
+        fail_with_errno(target, errno);
+    }
+    try {
+        write_all(target, descriptor, bytes);
+    } catch (...) {
+        ::close(descriptor);
+        throw;
+    }
+    close_checked(target, descriptor);
+}
+
 } // namespace
+
+Replacement::Replacement(const fs::path& target) : target_(target) {
+    const Destination destination = resolve(target);
+    if (destination.special) {
+        fail_to_write(target, "it is a pipe or a device", "give the name of a file");
+    }
+    destination_ = destination.path;
+    if (destination.exists) {
+        mode_ = destination.mode;
+    }
+    static std::atomic<unsigned> counter{0};
+    while (descriptor_ < 0) {
+        // Not the target's name with a suffix: it may already have the greatest length allowed.
+        path_ =
+            destination_.parent_path() / fmt::format(".argand-{}-{}.tmp", ::getpid(), counter++);
+        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ < 0 && errno != EEXIST && errno != EINTR) {
+            fail_with_errno(target_, errno);
+        }
+    }
+}
+
+Replacement::~Replacement() {
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+    if (!path_.empty()) {
+        ::unlink(path_.c_str());
+    }
+}
+
+void Replacement::put_in_place() {
+    // Otherwise a power failure after the rename could leave an empty file.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) {
+        fail_with_errno(target_, errno);
+    }
+    if (mode_ && ::fchmod(descriptor_, *mode_) != 0) {
+        fail_with_errno(target_, errno);
+    }
+    close_checked(target_, std::exchange(descriptor_, -1));
+    if (::rename(path_.c_str(), destination_.c_str()) != 0) {
+        fail_with_errno(target_, errno);
+    }
+    path_.clear();
+}
 
 void write_atomically(const fs::path& target, std::span<const std::uint8_t> bytes) {
     const Destination destination = resolve(target);
-    Scratch scratch;
     if (destination.special) {
-        scratch.descriptor = ::open(destination.path.c_str(), O_WRONLY | O_CLOEXEC);
-        if (scratch.descriptor < 0) {
-            fail_with_errno(target, errno);
-        }
-        write_all(target, scratch.descriptor, bytes);
-        close_checked(target, scratch);
+        write_directly(target, destination.path, bytes);
         return;
     }
-    open_beside(target, destination, scratch);
-    write_all(target, scratch.descriptor, bytes);
-    // Otherwise a power failure after the rename could leave an empty file.
-    if (::fsync(scratch.descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) {
-        fail_with_errno(target, errno);
-    }
-    if (destination.exists && ::fchmod(scratch.descriptor, destination.mode) != 0) {
-        fail_with_errno(target, errno);
-    }
-    close_checked(target, scratch);
-    if (::rename(scratch.path.c_str(), destination.path.c_str()) != 0) {
-        fail_with_errno(target, errno);
-    }
-    scratch.path.clear();
+    Replacement file(target);
+    write_all(target, file.descriptor(), bytes);
+    file.put_in_place();
 }
 
 void write_atomically(const fs::path& target, std::string_view text) {
@@ -178,10 +183,8 @@ void write_atomically(const fs::path& target, std::string_view text) {
 }
 
 void check_writable(const fs::path& target) {
-    const Destination destination = resolve(target);
-    if (!destination.special) {
-        Scratch scratch;
-        open_beside(target, destination, scratch);
+    if (!resolve(target).special) {
+        const Replacement file(target);
     }
 }
 

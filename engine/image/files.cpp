@@ -11,16 +11,6 @@ namespace argand {
 
 namespace {
 
-std::string lower_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& letter : extension) {
-        if (letter >= 'A' && letter <= 'Z') {
-            letter = static_cast<char>(letter - 'A' + 'a');
-        }
-    }
-    return extension;
-}
-
 [[noreturn]] void fail_unknown(std::string_view verb, const std::filesystem::path& path,
                                std::string_view known) {
     throw UsageError(fmt::format(
@@ -32,6 +22,16 @@ constexpr std::string_view writable = ".exr or .png";
 constexpr std::string_view readable = ".exr, .png or .hdr";
 
 } // namespace
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& letter : extension) {
+        if (letter >= 'A' && letter <= 'Z') {
+            letter = static_cast<char>(letter - 'A' + 'a');
+        }
+    }
+    return extension;
+}
 
 std::vector<Layer> read_image(const std::filesystem::path& path) {
     const std::string extension = lower_extension(path);
@@ -57,8 +57,7 @@ void write_image(const std::filesystem::path& path, std::span<const Layer> layer
         if (layers.empty()) {
             fail("cannot write '{}': there is no picture to write", path.string());
         }
-        const Image* whole = find_layer(layers, "");
-        write_png(path, whole != nullptr ? *whole : layers.front().image, exposure_ev);
+        write_png(path, whole_picture(layers), exposure_ev);
     } else {
         fail_unknown("write", path, writable);
     }
@@ -79,6 +78,11 @@ const Image* find_layer(std::span<const Layer> layers, std::string_view name) {
         }
     }
     return nullptr;
+}
+
+const Image& whole_picture(std::span<const Layer> layers) {
+    const Image* whole = find_layer(layers, "");
+    return whole != nullptr ? *whole : layers.front().image;
 }
 
 } // namespace argand

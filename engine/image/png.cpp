@@ -99,9 +99,7 @@ template <class T> std::vector<float> decode_table() {
 
 } // namespace
 
-std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev,
-                                    const std::filesystem::path& name) {
-    check_size_to_write(name, image);
+std::vector<std::uint8_t> srgb_bytes(const Image& image, float exposure_ev) {
     const double scale = std::exp2(static_cast<double>(exposure_ev));
     std::vector<std::uint8_t> samples;
     samples.reserve(image.pixels.size() * rgb);
@@ -110,6 +108,13 @@ std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev,
             samples.push_back(static_cast<std::uint8_t>(255 * srgb_encode(pixel[c] * scale) + 0.5));
         }
     }
+    return samples;
+}
+
+std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev,
+                                    const std::filesystem::path& name) {
+    check_size_to_write(name, image);
+    const std::vector<std::uint8_t> samples = srgb_bytes(image, exposure_ev);
     std::vector<std::uint8_t> bytes;
     if (samples.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
         stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(),

@@ -7,9 +7,12 @@
 
 namespace argand {
 
-/// Writes an 8-bit sRGB PNG in one step (base/atomic_write.hpp). Pixels are multiplied by
-/// 2^exposure_ev, clamped to [0, 1], encoded as sRGB and rounded to nearest; NaN becomes 0. Throws
-/// Error if the file cannot be written.
+/// Three bytes of sRGB for each pixel. Pixels are multiplied by 2^exposure_ev, clamped to [0, 1],
+/// encoded and rounded to nearest; NaN becomes 0.
+std::vector<std::uint8_t> srgb_bytes(const Image& image, float exposure_ev);
+
+/// Writes a PNG of the `srgb_bytes` in one step (base/atomic_write.hpp). Throws Error if the file
+/// cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image, float exposure_ev = 0);
 
 /// The bytes of the file that `write_png` writes. Throws Error, calling the image `name`, if it has

@@ -191,6 +191,30 @@ TEST(AtomicWrite, LeavesTheOldFileWhenTheDiskIsFull) {
     EXPECT_THAT(scratch.names(), ElementsAre("picture.exr"));
 }
 
+TEST(AtomicWrite, PutsAFileThatAnotherProgramWroteInPlace) {
+    const ScratchDirectory scratch;
+    const fs::path target = scratch / "film", link = scratch / "link";
+    write_text(target, "old");
+    fs::permissions(target, fs::perms(0604));
+    fs::create_symlink("film", link);
+    {
+        const Replacement unfinished(link);
+        std::ofstream(unfinished.path()) << "half";
+        EXPECT_EQ(unfinished.path().parent_path(), scratch.path());
+        EXPECT_EQ(read_text(target), "old");
+    }
+    EXPECT_EQ(scratch.names().size(), 2u);
+    Replacement finished(link);
+    std::ofstream(finished.path()) << "whole";
+    finished.put_in_place();
+    EXPECT_EQ(read_text(target), "whole");
+    EXPECT_EQ(fs::status(target).permissions(), fs::perms(0604));
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(scratch.names().size(), 2u);
+    EXPECT_THAT(error_of([] { const Replacement of_device("/dev/null"); }),
+                HasSubstr("it is a pipe or a device"));
+}
+
 TEST(AtomicWrite, ChecksWithoutATrace) {
     const ScratchDirectory scratch;
     check_writable(scratch / "later.png");

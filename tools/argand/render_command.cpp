@@ -6,7 +6,6 @@
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
-#include "image/files.hpp"
 #include "method_options.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
@@ -80,7 +79,7 @@ void check(const RenderOptions& options, const CLI::App& command) {
     std::vector<std::string> files{options.scene};
     for (const std::string& output : options.outputs) {
         check_overwrites_none(output, files);
-        check_image_writable(options.frames.empty() ? output : first_name(options, output));
+        check_output(options, output);
         files.push_back(output);
     }
     if (!options.report.empty()) {
@@ -133,9 +132,10 @@ void add_render_command(CLI::App& app, MethodTable methods) {
     settings.method = methods.begin()->name;
     add_scene_options(*command, *options);
     command
-        ->add_option("-o,--output", options->outputs,
-                     "Picture to write, .png or .exr; may be given several times (default: SCENE's "
-                     "name with .png)")
+        ->add_option(
+            "-o,--output", options->outputs,
+            "Picture to write, .png or .exr, or with --frames a film, .mp4 or .webm, which "
+            "needs ffmpeg; may be given several times (default: SCENE's name with .png)")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option(
@@ -169,8 +169,8 @@ void add_render_command(CLI::App& app, MethodTable methods) {
                       "the same; measures the cost");
     command->add_option("--frames", options->frames,
                         "Render frames A to B - 1 of the scene's animations, written A:B; frame k "
-                        "is at k / --fps seconds, and -o needs a place for k, such as "
-                        "frame_%04d.png");
+                        "is at k / --fps seconds. The -o of pictures needs a place for k, such as "
+                        "frame_%04d.png; film.mp4 is a film of all frames");
     command->add_option("--fps", options->frames_per_second, "Frames a second")
         ->capture_default_str()
         ->check(number_between(1e-6, 1e6));

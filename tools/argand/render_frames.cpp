@@ -1,9 +1,12 @@
 #include "render_frames.hpp"
 
+#include "base/atomic_write.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
+#include "frame_outputs.hpp"
 #include "frames.hpp"
+#include "image/files.hpp"
 #include "method_options.hpp"
 #include "scene/pose.hpp"
 
@@ -14,15 +17,6 @@
 namespace argand {
 
 namespace {
-
-std::vector<std::string> names_of(const std::vector<std::string>& patterns, std::uint64_t frame) {
-    std::vector<std::string> names;
-    names.reserve(patterns.size());
-    for (const std::string& pattern : patterns) {
-        names.push_back(frame_name(pattern, frame));
-    }
-    return names;
-}
 
 bool all_exist(const std::vector<std::string>& files) {
     return std::all_of(files.begin(), files.end(),
@@ -86,12 +80,29 @@ void check_frames(const RenderOptions& options, const CLI::App& command) {
                          "of the two out");
     }
     for (const std::string& output : options.outputs) {
-        check_frame_pattern(output);
+        if (!is_film(output)) {
+            check_frame_pattern(output);
+        } else if (options.continues) {
+            throw UsageError(fmt::format("reading --continue: the film '{}' cannot be continued; "
+                                         "write frame_%04d.png and --continue those",
+                                         output));
+        }
     }
 }
 
-std::string first_name(const RenderOptions& options, const std::string& pattern) {
-    return frame_name(pattern, parse_frame_range(options.frames).first);
+void check_output(const RenderOptions& options, const std::string& output) {
+    if (options.frames.empty() && is_film(output)) {
+        throw UsageError(fmt::format("cannot write '{}': the extension '{}' is not that of a known "
+                                     "picture format; use .exr or .png, or --frames A:B for a film",
+                                     output, lower_extension(output)));
+    }
+    if (options.frames.empty()) {
+        check_image_writable(output);
+    } else if (is_film(output)) {
+        check_writable(output);
+    } else {
+        check_image_writable(frame_name(output, parse_frame_range(options.frames).first));
+    }
 }
 
 void render_frames(const RenderOptions& options, const CLI::App& command) {
@@ -101,10 +112,11 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
     };
     const bool blurs = !options.shutter.empty();
     const Shutter shares = blurs ? parse_shutter(options.shutter) : Shutter();
+    FrameOutputs files(options);
     RenderJob job = open_job(options, command, seconds_of(range.first));
     FrameReports reports(options.report, options.continues);
     for (std::uint64_t frame = range.first; frame < range.end; ++frame) {
-        const std::vector<std::string> outputs = names_of(options.outputs, frame);
+        const std::vector<std::string> outputs = files.names(frame);
         if (options.continues && all_exist(outputs)) {
             continue;
         }
@@ -124,12 +136,13 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
             render_picture(job, fmt::format("frame {} of {}", frame, options.frames));
         // The signal may have ended the work of a witness, and left the picture itself whole.
         if (rendered.result.statistics.interrupted || interrupted()) {
-            fail(
-                "rendering '{}': interrupted in frame {}, which is not written; --continue resumes "
-                "there",
-                options.scene, frame);
+            fail("rendering '{}': interrupted in frame {}, which is not written; {}", options.scene,
+                 frame,
+                 files.has_films() ? "nor are films, which --continue cannot resume: for that, "
+                                     "write frame_%04d.png"
+                                   : "--continue resumes there");
         }
-        write_picture(job, rendered, outputs);
+        files.write(job, rendered, frame);
         nlohmann::ordered_json report{{"frame", frame}};
         report.update(report_on(job, rendered, outputs));
         if (blurs) {
@@ -137,12 +150,13 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
             report["parameters"]["shutter"] = {job.shutter->open, job.shutter->close};
         }
         reports.add(report);
-        tell_of(job, rendered, outputs, seconds_since(start));
+        tell_of(job, rendered, files.names_to_tell(frame), seconds_since(start));
         job.times.load = job.times.open = 0; // they are the first frame's
         if (options.keep == "none") {
             job.session.reset();
         }
     }
+    files.finish();
 }
 
 } // namespace argand

@@ -1,0 +1,61 @@
+#include "frame_outputs.hpp"
+
+#include "base/clock.hpp"
+#include "frames.hpp"
+#include "image/files.hpp"
+#include "image/png.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+FrameOutputs::FrameOutputs(const RenderOptions& options) : outputs_(options.outputs) {
+    for (const std::string& output : outputs_) {
+        if (is_film(output)) {
+            films_.push_back(std::make_unique<FilmWriter>(output, parse_picture_size(options.size),
+                                                          options.frames_per_second));
+        }
+    }
+}
+
+std::vector<std::string> FrameOutputs::names(std::uint64_t frame) const {
+    std::vector<std::string> names;
+    for (const std::string& output : outputs_) {
+        names.push_back(is_film(output) ? output : frame_name(output, frame));
+    }
+    return names;
+}
+
+std::vector<std::string> FrameOutputs::names_to_tell(std::uint64_t frame) const {
+    std::vector<std::string> told = names(frame);
+    for (std::string& name : told) {
+        if (is_film(name)) {
+            name += fmt::format(" (frame {})", frame);
+        }
+    }
+    return told;
+}
+
+void FrameOutputs::write(RenderJob& job, const Rendered& rendered, std::uint64_t frame) {
+    std::vector<std::string> pictures = names(frame);
+    pictures.erase(std::remove_if(pictures.begin(), pictures.end(), is_film), pictures.end());
+    write_picture(job, rendered, pictures);
+    if (films_.empty()) {
+        return;
+    }
+    const Clock::time_point start = Clock::now();
+    const std::vector<std::uint8_t> pixels =
+        srgb_bytes(whole_picture(rendered.result.layers), job.options.exposure);
+    for (const std::unique_ptr<FilmWriter>& film : films_) {
+        film->add(pixels);
+    }
+    job.times.write += seconds_since(start);
+}
+
+void FrameOutputs::finish() {
+    for (const std::unique_ptr<FilmWriter>& film : films_) {
+        film->finish();
+    }
+}
+
+} // namespace argand
