@@ -1,5 +1,9 @@
 #include "base/machine.hpp"
 
+#include "base/fingerprint.hpp"
+#include "base/read_file.hpp"
+#include <fmt/format.h>
+
 #include <fstream>
 
 #ifdef _WIN32
@@ -47,6 +51,11 @@ std::filesystem::path program_file() {
 #else
     return "/proc/self/exe";
 #endif
+}
+
+std::string program_fingerprint() {
+    const std::vector<std::uint8_t> program = read_file(program_file());
+    return fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(program))));
 }
 
 } // namespace argand

@@ -15,4 +15,7 @@ std::string processor_name();
 /// Path of the running program's executable file.
 std::filesystem::path program_file();
 
+/// Fingerprint of that file in hexadecimal: another build may render other pictures.
+std::string program_fingerprint();
+
 } // namespace argand

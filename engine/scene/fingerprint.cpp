@@ -1,6 +1,17 @@
 #include "scene/fingerprint.hpp"
 
+#include "scene/material_record.hpp"
+#include "shared/material_record.h"
+
 namespace argand {
+
+namespace {
+
+template <class T> std::uint64_t with(std::uint64_t before, const T& value) {
+    return fingerprint(std::as_bytes(std::span(&value, 1)), before);
+}
+
+} // namespace
 
 std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
     std::uint64_t hash = before;
@@ -12,6 +23,21 @@ std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
     add(scene.triangles);
     add(scene.triangle_material);
     return hash;
+}
+
+std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
+    std::uint64_t hash = fingerprint(scene);
+    for (const Material& material : scene.materials) {
+        hash = with(hash, material_record(material));
+    }
+    for (const Light& light : scene.lights) {
+        hash = with(with(with(hash, light.kind), light.position), light.direction);
+        hash =
+            with(with(with(hash, light.intensity), light.inner_cone_angle), light.outer_cone_angle);
+    }
+    const Camera& c = scene.cameras[camera];
+    hash = with(with(with(with(with(hash, c.kind), c.position), c.right), c.up), c.forward);
+    return with(with(hash, c.vertical_angle), c.vertical_extent);
 }
 
 } // namespace argand

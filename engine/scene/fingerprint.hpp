@@ -9,4 +9,7 @@ namespace argand {
 /// fingerprint to continue from.
 std::uint64_t fingerprint(const Scene& scene, std::uint64_t before = empty_fingerprint);
 
+/// Fingerprint of all of a scene that a picture by one of its cameras shows.
+std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera);
+
 } // namespace argand

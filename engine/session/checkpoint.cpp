@@ -6,8 +6,6 @@
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "scene/fingerprint.hpp"
-#include "scene/material_record.hpp"
-#include "shared/material_record.h"
 
 #include <algorithm>
 #include <array>
@@ -27,34 +25,6 @@ struct Header {
     std::uint64_t length = 0;   ///< of what follows, in bytes
     std::uint64_t checksum = 0; ///< of what follows
 };
-
-template <class T> std::uint64_t with(std::uint64_t before, const T& value) {
-    return fingerprint(std::as_bytes(std::span(&value, 1)), before);
-}
-
-/// Fingerprint of all of the scene that a picture shows.
-std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
-    std::uint64_t hash = fingerprint(scene);
-    for (const Material& material : scene.materials) {
-        hash = with(hash, material_record(material));
-    }
-    for (const Light& light : scene.lights) {
-        hash = with(with(with(hash, light.kind), light.position), light.direction);
-        hash =
-            with(with(with(hash, light.intensity), light.inner_cone_angle), light.outer_cone_angle);
-    }
-    const Camera& c = scene.cameras[camera];
-    hash = with(with(with(with(with(hash, c.kind), c.position), c.right), c.up), c.forward);
-    return with(with(hash, c.vertical_angle), c.vertical_extent);
-}
-
-std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
-
-/// Fingerprint of the program that runs.
-std::string build_name() {
-    const std::vector<std::uint8_t> program = read_file(program_file());
-    return hexadecimal(fingerprint(std::as_bytes(std::span(program))));
-}
 
 std::string name_of(const fs::path& path) { return one_line(path.string()); }
 
@@ -121,9 +91,9 @@ std::vector<std::uint8_t> state_of(const fs::path& path, std::span<const std::ui
 CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
                              const MethodInfo& method, const DeviceInfo& device) {
     CheckpointKey key{
-        {"build", build_name()},
-        {"scene", fmt::format("{} ({})", scene.name,
-                              hexadecimal(picture_fingerprint(scene, settings.camera)))},
+        {"build", program_fingerprint()},
+        {"scene",
+         fmt::format("{} ({:016x})", scene.name, picture_fingerprint(scene, settings.camera))},
         {"method", settings.method},
         {"size", fmt::format("{}x{}", settings.width, settings.height)},
         {"seed", fmt::format("{}", settings.seed)},

@@ -2,8 +2,10 @@
 
 #include "backend_options.hpp"
 #include "base/error.hpp"
+#include "base/interrupt.hpp"
 #include "base/json.hpp"
 #include "bench/bench.hpp"
+#include "bench/bench_dynamic.hpp"
 #include "bench/bench_photons.hpp"
 #include "bench/bench_rays.hpp"
 #include "bench/fd09.hpp"
@@ -22,6 +24,8 @@ struct BenchOptions {
     std::string device;
     std::string paper;
     Fd09Settings fd09;
+    bool is_dynamic = false;
+    DynamicOptions dynamic;
     bool json = false;
 };
 
@@ -80,6 +84,12 @@ void run_paper(const BenchOptions& options) {
 }
 
 void run(const BenchOptions& options) {
+    if (options.is_dynamic) {
+        catch_interrupts();
+        bench_dynamic([&] { return open_backend(options.backend, options.device, true); },
+                      options.dynamic);
+        return;
+    }
     if (!options.paper.empty()) {
         run_paper(options);
         return;
@@ -170,6 +180,30 @@ void add_bench_command(CLI::App& app) {
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 101));
+    DynamicOptions& dynamic = options->dynamic;
+    CLI::Option* is_dynamic =
+        command
+            ->add_flag("--dynamic", options->is_dynamic,
+                       "Measure time and error of the frames of films in which lights, objects and "
+                       "the camera move, by every method; an interrupted measurement resumes")
+            ->excludes(paper);
+    command
+        ->add_option("--film", dynamic.films,
+                     "With --dynamic: names of films, such as dynamic_shi (default: all)")
+        ->needs(is_dynamic);
+    command
+        ->add_option("--scenes", dynamic.scenes, "With --dynamic: folder of this project's scenes")
+        ->needs(is_dynamic)
+        ->capture_default_str();
+    command
+        ->add_option("-o,--output", dynamic.folder,
+                     "With --dynamic: folder for dynamic.csv, FILM.json and the references")
+        ->needs(is_dynamic)
+        ->capture_default_str();
+    command
+        ->add_flag("--quick", dynamic.quick,
+                   "With --dynamic: small pictures, few photons and two seeds, for a few minutes")
+        ->needs(is_dynamic);
     command->add_flag("--json", options->json, "Print JSON, one object per measurement");
     command->footer("Rates are items per second of device time, the median of several runs. The "
                     "bound is the rate that memory\n"

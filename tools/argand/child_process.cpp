@@ -89,6 +89,7 @@ pid_t start(std::vector<std::string>& command, const Descriptor& input, const De
     throw_if_code(::posix_spawnattr_setflags(&attributes.list,
                                              POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF));
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& argument : command) {
         arguments.push_back(argument.data());
     }

@@ -20,6 +20,7 @@ FrameOutputs::FrameOutputs(const RenderOptions& options) : outputs_(options.outp
 
 std::vector<std::string> FrameOutputs::names(std::uint64_t frame) const {
     std::vector<std::string> names;
+    names.reserve(outputs_.size());
     for (const std::string& output : outputs_) {
         names.push_back(is_film(output) ? output : frame_name(output, frame));
     }

@@ -60,12 +60,6 @@ void summarise(const Results& results, const std::filesystem::path& folder) {
                (folder / "tradeoff.html").string(), results.measurements.size());
 }
 
-/// Identifies this build of the program: another one may render other pictures.
-std::string build_name() {
-    const std::vector<std::uint8_t> program = read_file(program_file());
-    return fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(program))));
-}
-
 /// Completes the request with everything that follows from the options.
 void read_request(TradeoffOptions& options) {
     TradeoffRequest& request = options.request;
@@ -135,7 +129,7 @@ void run(TradeoffOptions& options) {
     const std::uint64_t contents = fingerprint(scene, fingerprint(std::as_bytes(std::span(file))));
     const DeviceInfo device = open_backend(options.backend, options.device, options.quiet)->info();
     request.run = {{"scene", scene.name},       {"contents", fmt::format("{:016x}", contents)},
-                   {"argand", ARGAND_VERSION},  {"build", build_name()},
+                   {"argand", ARGAND_VERSION},  {"build", program_fingerprint()},
                    {"backend", device.backend}, {"device", device.name},
                    {"driver", device.driver}};
     const Results results = measure(options, scene);

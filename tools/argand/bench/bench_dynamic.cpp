@@ -1,0 +1,241 @@
+#include "bench_dynamic.hpp"
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "base/interrupt.hpp"
+#include "base/json.hpp"
+#include "base/machine.hpp"
+#include "base/progress.hpp"
+#include "methods/method_info.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <set>
+
+namespace argand {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Sizes of a measurement.
+struct DynamicSizes {
+    int side = 128; ///< of the pictures, in pixels
+    std::uint32_t samples = 8, reference_samples = 4096;
+    std::uint64_t photons = 200'000;
+    std::vector<std::uint32_t> seeds{1, 2, 3, 4};
+};
+
+DynamicSizes sizes(bool quick) {
+    return quick ? DynamicSizes{.side = 48,
+                                .samples = 4,
+                                .reference_samples = 256,
+                                .photons = 20'000,
+                                .seeds = {1, 2}}
+                 : DynamicSizes();
+}
+
+/// What the results of a film depend on.
+Json run_of(const DynamicScene& film, const DynamicSizes& sizes, const DeviceInfo& device,
+            MethodTable methods) {
+    return {{"film", film.name},
+            {"frames", film.frames},
+            {"side", sizes.side},
+            {"samples", sizes.samples},
+            {"photons", sizes.photons},
+            {"reference_samples", sizes.reference_samples},
+            {"seeds", sizes.seeds},
+            {"methods", methods.names()},
+            {"build", program_fingerprint()},
+            {"backend", device.backend},
+            {"device", device.name}};
+}
+
+Json to_json(const std::string& film, const std::string& method, const MeasuredFrame& frame) {
+    Json row{{"film", film},
+             {"method", method},
+             {"frame", frame.frame},
+             {"seconds", frame.seconds},
+             {"update_seconds", frame.update_seconds},
+             {"peak_bytes", frame.peak_bytes},
+             {"photons_emitted", frame.photons_emitted},
+             {"photons_stored", frame.photons_stored},
+             {"rel_mse", Json()},
+             {"squared_bias", Json()},
+             {"variance", Json()},
+             {"flicker", Json()},
+             {"lag", Json()}};
+    if (frame.errors) {
+        row["rel_mse"] = frame.errors->rel_mse;
+        row["squared_bias"] = frame.errors->squared_bias;
+        row["variance"] = frame.errors->variance;
+        row["lag"] = frame.errors->lag;
+        if (frame.errors->flicker) {
+            row["flicker"] = *frame.errors->flicker;
+        }
+    }
+    for (const auto& [stage, seconds] : frame.stage_seconds) {
+        row["stage: " + stage] = seconds;
+    }
+    return row;
+}
+
+/// The rows of a film that was measured by the same run; nothing if there is none.
+std::optional<Json> read_rows(const std::filesystem::path& file, const Json& run) {
+    std::ifstream in(file);
+    const Json kept = Json::parse(in, nullptr, false);
+    if (!in || kept.is_discarded() || !kept.is_object() || kept.value("run", Json()) != run ||
+        !kept.contains("rows")) {
+        return std::nullopt;
+    }
+    return kept["rows"];
+}
+
+std::string csv_of(const Json& rows) {
+    std::vector<std::string> columns;
+    for (const Json& row : rows) {
+        for (const auto& [name, value] : row.items()) {
+            if (std::find(columns.begin(), columns.end(), name) == columns.end()) {
+                columns.push_back(name);
+            }
+        }
+    }
+    std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+    for (const Json& row : rows) {
+        std::vector<std::string> cells;
+        cells.reserve(columns.size());
+        for (const std::string& column : columns) {
+            const Json value = row.value(column, Json());
+            cells.push_back(value.is_null()     ? ""
+                            : value.is_string() ? value.get<std::string>()
+                                                : value.dump());
+        }
+        text += fmt::format("{}\n", fmt::join(cells, ","));
+    }
+    return text;
+}
+
+[[noreturn]] void fail_interrupted(const DynamicScene& film) {
+    fail("measuring '{}': interrupted; the same command goes on with this film", film.name);
+}
+
+Json measure(const OpenDevice& open, const DynamicScene& film, const DynamicSizes& sizes,
+             const DynamicOptions& options, MethodTable methods) {
+    const auto go_on = [] { return !interrupted(); };
+    RenderSettings settings;
+    settings.width = settings.height = sizes.side;
+    settings.samples = sizes.samples;
+    settings.photons = sizes.photons;
+    const std::filesystem::path folder = options.folder;
+    std::optional<Progress> progress;
+    progress.emplace("references of " + film.name, options.quiet);
+    progress->update(0);
+    const std::optional<FilmReferences> references = film_references(
+        open, film, settings, sizes.reference_samples, folder / "references", go_on, methods);
+    if (!references) {
+        fail_interrupted(film);
+    }
+    Json rows = Json::array();
+    for (const MethodInfo& method : methods) {
+        progress.emplace(film.name + " by " + method.name, options.quiet);
+        progress->update(0);
+        settings.method = method.name;
+        const auto frames =
+            measure_film(open, film, settings, sizes.seeds, *references, go_on, methods);
+        if (!frames) {
+            fail_interrupted(film);
+        }
+        for (const MeasuredFrame& frame : *frames) {
+            rows.push_back(to_json(film.name, method.name, frame));
+        }
+    }
+    return rows;
+}
+
+/// Frames 0 to `end` - 1.
+std::vector<std::uint64_t> all_frames(std::uint64_t end) {
+    std::vector<std::uint64_t> frames(end);
+    std::iota(frames.begin(), frames.end(), 0);
+    return frames;
+}
+
+/// Eight frames in four pairs, for flicker, evenly over a film; all of a film of up to eight.
+std::vector<std::uint64_t> frames_with_references(std::uint64_t frames) {
+    if (frames <= 8) {
+        return all_frames(frames);
+    }
+    std::vector<std::uint64_t> chosen;
+    for (std::uint64_t pair = 0; pair < 4; ++pair) {
+        const std::uint64_t second = std::max<std::uint64_t>((pair + 1) * frames / 4 - 1, 1);
+        chosen.push_back(second - 1);
+        chosen.push_back(second);
+    }
+    return chosen;
+}
+
+} // namespace
+
+std::vector<DynamicScene> dynamic_scenes(const std::string& folder, bool quick) {
+    std::vector<DynamicScene> films;
+    const auto add = [&](const char* name, std::uint64_t frames) {
+        films.push_back({.name = name,
+                         .file = std::filesystem::path(folder) / (std::string(name) + ".glb"),
+                         .frames = frames,
+                         .references = frames_with_references(frames)});
+    };
+    add("cornell_glass", quick ? 2 : 8); // nothing moves
+    add("dynamic_shi", 7);
+    add("dynamic_slow_light", quick ? 8 : 64);
+    add("dynamic_switch", 12);
+    add("dynamic_block", quick ? 8 : 16);
+    add("dynamic_occluder", quick ? 8 : 16);
+    add("dynamic_water", quick ? 8 : 16);
+    add("dynamic_camera", quick ? 8 : 16);
+    return films;
+}
+
+void bench_dynamic(const OpenDevice& open, const DynamicOptions& options, MethodTable methods) {
+    std::vector<DynamicScene> films = dynamic_scenes(options.scenes, options.quick);
+    for (const std::string& name : options.films) {
+        if (std::none_of(films.begin(), films.end(),
+                         [&](const DynamicScene& film) { return film.name == name; })) {
+            throw UsageError(fmt::format("measuring '{}': there is no such film", name));
+        }
+    }
+    if (!options.films.empty()) {
+        std::erase_if(films, [&](const DynamicScene& film) {
+            return std::find(options.films.begin(), options.films.end(), film.name) ==
+                   options.films.end();
+        });
+    }
+    for (const DynamicScene& film : films) {
+        if (!std::filesystem::exists(film.file)) {
+            fail("measuring '{}': there is no file '{}'; name the folder of this project's scenes "
+                 "with --scenes",
+                 film.name, film.file.string());
+        }
+    }
+    const std::filesystem::path folder = options.folder;
+    std::filesystem::create_directories(folder / "references");
+    const DynamicSizes of_run = sizes(options.quick);
+    const DeviceInfo device = open()->info();
+    Json all = Json::array();
+    for (const DynamicScene& film : films) {
+        const std::filesystem::path file = folder / (film.name + ".json");
+        const Json run = run_of(film, of_run, device, methods);
+        std::optional<Json> rows = read_rows(file, run);
+        if (!rows) {
+            rows = measure(open, film, of_run, options, methods);
+            write_json(file, {{"run", run}, {"rows", *rows}});
+        }
+        all.insert(all.end(), rows->begin(), rows->end());
+        write_atomically(folder / "dynamic.csv", csv_of(all));
+    }
+    if (!options.quiet) {
+        fmt::print("{}: {} frames of {} films\n", (folder / "dynamic.csv").string(), all.size(),
+                   films.size());
+    }
+}
+
+} // namespace argand
