@@ -6,7 +6,9 @@
 #include "compare/paired_device.hpp"
 #include "image/metrics.hpp"
 #include "scene/fingerprint.hpp"
+#include "scene/pose.hpp"
 #include "session/render.hpp"
+#include "world/world.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,11 +18,19 @@ namespace argand {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> exact_stages{
+constexpr std::array<std::string_view, 18> exact_stages{
     sort_stage,       scan_stage,     segmented_scan_stage, reduce_stage,    reduce_box_stage,
     compact_stage,    "lbvh_codes",   "code_distances",     "lbvh_fit",      "wide_roots",
     "triangle_boxes", "photon_codes", "photon_count",       "photon_leaves", "photon_order",
-    "photon_tally",   "query_owners"};
+    "photon_tally",   "query_owners", "ray_refit"};
+
+double longest_animation(const Scene& scene) {
+    double seconds = 0;
+    for (const Animation& animation : scene.animations) {
+        seconds = std::max(seconds, animation.seconds);
+    }
+    return seconds;
+}
 
 RenderResult render_with(Device& device, const Scene& scene, const RenderSettings& settings,
                          MethodTable methods) {
@@ -37,11 +47,31 @@ RenderResult render_timed(Device& device, const Scene& scene, const RenderSettin
     return result;
 }
 
+/// Renders the scene and, if meshes move in it, another moment in the same world, which refits the
+/// tree.
+void render_moments(Device& device, const Scene& at_first, const RenderSettings& settings,
+                    MethodTable methods) {
+    Scene scene = at_first;
+    World world(device, scene);
+    Session session(world, scene, settings, methods);
+    const auto render_moment = [&] {
+        session.begin_frame(settings.seed);
+        finish(session, [](double) { return true; });
+    };
+    render_moment();
+    if (!scene.motion.meshes.empty()) {
+        constexpr double share_of_animation = 0.4;
+        move_to(share_of_animation * longest_animation(scene), scene);
+        world.update(scene);
+        render_moment();
+    }
+}
+
 std::vector<StageComparison> compare_stages(Device& a, Device& b, const Scene& scene,
                                             const RenderSettings& settings, MethodTable methods,
                                             Pairing pairing) {
     PairedDevice pair(a, b, pairing);
-    render_with(pair, scene, settings, methods);
+    render_moments(pair, scene, settings, methods);
     return pair.comparisons();
 }
 
