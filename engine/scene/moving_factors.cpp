@@ -85,6 +85,21 @@ const MovingMaterial* moving_material(const Motion& motion, std::size_t index) {
     return found != motion.materials.end() && found->index == index ? &*found : nullptr;
 }
 
+std::vector<double> key_times(const MaterialKeys& keys) {
+    std::vector<double> times;
+    for (const OptionalKeys* property :
+         {&keys.base_color, &keys.metallic, &keys.roughness, &keys.alpha_cutoff, &keys.emissive,
+          &keys.emissive_strength, &keys.specular, &keys.specular_color, &keys.transmission,
+          &keys.ior, &keys.thickness}) {
+        if (*property) {
+            times.insert(times.end(), (*property)->times.begin(), (*property)->times.end());
+        }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
 bool may_be_visible(const Scene& scene, std::size_t material) {
     const MovingMaterial* moving = moving_material(scene.motion, material);
     return scene.materials[material].coverage > 0 || (moving && moving->keys.moves_alpha());

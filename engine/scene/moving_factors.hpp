@@ -16,6 +16,9 @@ void set_view(const CameraKeys& keys, double seconds, Camera& camera);
 /// What moves of material `index` of the scene; null: nothing.
 const MovingMaterial* moving_material(const Motion& motion, std::size_t index);
 
+/// The times of all keys of a material's properties, rising.
+std::vector<double> key_times(const MaterialKeys& keys);
+
 /// Whether the material is visible at rest, or its alpha moves.
 bool may_be_visible(const Scene& scene, std::size_t material);
 
