@@ -1,5 +1,7 @@
 #include "methods/plan_render.hpp"
 
+#include "methods/method_info.hpp"
+
 namespace argand {
 
 namespace {

@@ -168,14 +168,14 @@ KeyTarget pointer_target(const GltfSource& source, std::string_view pointer, Fil
     }
     if (const auto at = pointed(pointer, "/cameras/")) {
         const json* camera = find_element(source, "cameras", at->index);
-        const KeyTarget target =
+        KeyTarget target =
             property_target(source, camera_properties, *at, keys.cameras, "camera", camera, what);
         check_kind(source, target, camera, *at, what);
         return target;
     }
     if (const auto at = pointed(pointer, "/extensions/KHR_lights_punctual/lights/")) {
         const json* light = find_light(source, at->index);
-        const KeyTarget target =
+        KeyTarget target =
             property_target(source, light_properties, *at, keys.lights, "light", light, what);
         check_kind(source, target, light, *at, what);
         return target;
