@@ -1,14 +1,24 @@
 #include "methods/plan_render.hpp"
 
+#include "methods/method_info.hpp"
+
 namespace argand {
 
-Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable methods) {
+namespace {
+
+PlanRequest request_of(const RenderSettings& settings, MethodTable methods) {
     const Abilities& abilities = methods.at(settings.method).abilities;
-    return make_plan(scene, {.follow_roughness = settings.follow_roughness,
-                             .photon_map = abilities.photon_map,
-                             .footprints = abilities.footprints,
-                             .final_gather = settings.final_gather,
-                             .everything = settings.everything});
+    return {.follow_roughness = settings.follow_roughness,
+            .photon_map = abilities.photon_map,
+            .footprints = abilities.footprints,
+            .final_gather = settings.final_gather,
+            .everything = settings.everything};
+}
+
+} // namespace
+
+Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable methods) {
+    return make_plan(scene, request_of(settings, methods));
 }
 
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
@@ -20,7 +30,9 @@ const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
     }
     RenderSettings by_other = settings;
     by_other.method = other->name;
-    return plan_render(scene, by_other, methods).needs(Feature::caustics) ? *first : *other;
+    PlanRequest request = request_of(by_other, methods);
+    request.at_any_time = true; // one method for all frames of a film, and for --at
+    return make_plan(scene, request).needs(Feature::caustics) ? *first : *other;
 }
 
 } // namespace argand

@@ -11,7 +11,8 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings,
                  MethodTable methods = builtin_methods());
 
 /// The method for a scene if the user names none: the table's first, `footprints`, where there may
-/// be caustics, else the one that autotuning tries first, `photons` (docs/photon-map.md).
+/// be caustics at any time, else the one that autotuning tries first, `photons`
+/// (docs/photon-map.md).
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
                              MethodTable methods = builtin_methods());
 

@@ -1,6 +1,7 @@
 #include "plan/plan.hpp"
 
 #include "scene/material_record.hpp"
+#include "scene/moving_factors.hpp"
 #include "shared/follow.h"
 #include "shared/light_record.h"
 
@@ -74,6 +75,18 @@ bool add_material(Requirements& requirements, const Material& material, const st
     return estimated != 0;
 }
 
+/// Calls `add` with a material as it is at rest and at each of its keys.
+template <class Add>
+void for_each_key(const MovingMaterial& moving, const Material& now, const Add& add) {
+    Material material = now;
+    set_factors(moving.factors, material);
+    add(material);
+    for (const double time : key_times(moving.keys)) {
+        set_factors(factors_at(moving, time), material);
+        add(material);
+    }
+}
+
 bool is_smooth(const Scene& scene, std::size_t triangle) {
     const glm::uvec3& t = scene.triangles[triangle];
     const glm::vec3 none(0);
@@ -81,7 +94,7 @@ bool is_smooth(const Scene& scene, std::size_t triangle) {
 }
 
 /// Adds the features that surfaces require. Returns whether any has estimated lobes.
-bool add_surfaces(Requirements& requirements, const Scene& scene, float follow_roughness) {
+bool add_surfaces(Requirements& requirements, const Scene& scene, const PlanRequest& request) {
     std::vector<bool> seen(scene.materials.size(), false);
     bool estimated = false;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -89,9 +102,19 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, float follow_r
         const Material& material = scene.materials[index];
         if (!seen[index]) {
             seen[index] = true;
-            const bool has_estimated = add_material(
-                requirements, material, named("material", material.name, index), follow_roughness);
-            estimated = estimated || has_estimated;
+            const std::string by = named("material", material.name, index);
+            const auto add = [&](const Material& at_a_time) {
+                const bool has_estimated =
+                    add_material(requirements, at_a_time, by, request.follow_roughness);
+                estimated = estimated || has_estimated;
+            };
+            const MovingMaterial* moving =
+                request.at_any_time ? moving_material(scene.motion, index) : nullptr;
+            if (moving) {
+                for_each_key(*moving, material, add);
+            } else {
+                add(material);
+            }
         }
         if (is_smooth(scene, i)) {
             requirements.add(Feature::smooth_normals,
@@ -168,7 +191,7 @@ std::uint32_t Plan::light_kinds() const { return bits_of(*this, light_bits); }
 
 Plan make_plan(const Scene& scene, const PlanRequest& request) {
     Requirements found;
-    const bool estimated = add_surfaces(found, scene, request.follow_roughness);
+    const bool estimated = add_surfaces(found, scene, request);
     add_lights(found, scene);
     const std::string light = first_light(found);
     const auto has = [&](Feature feature) { return !found.by(feature).empty(); };

@@ -45,6 +45,9 @@ struct PlanRequest {
     bool photon_map = true;
     bool footprints = true; ///< photons have footprints
     bool final_gather = false;
+    /// Count what materials require at rest and at their keys, instead of now, so that it is the
+    /// same at all times.
+    bool at_any_time = false;
     /// Require all features regardless of the scene, to measure and test the effect of leaving
     /// features out.
     bool everything = false;

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "scene/gltf_source.hpp"
-#include "scene/motion.hpp"
-#include <vector>
+#include "scene/gltf_target.hpp"
 
 namespace argand {
 
-/// Reads the animations, lists them in the scene, and returns the keys of each node. Where several
-/// animations move one property, the first one does. Throws Error if an animation is malformed.
-std::vector<NodeKeys> read_animations(const GltfSource& source, Scene& scene);
+/// Reads the animations, lists them in the scene, and returns the keys of each object. Where
+/// several animations move one property, the first one does. Notes what pointers of
+/// KHR_animation_pointer are not supported. Throws Error if an animation is malformed.
+FileKeys read_animations(const GltfSource& source, Scene& scene);
 
 } // namespace argand

@@ -1,8 +1,10 @@
 #include "scene/gltf_camera.hpp"
 
+#include "scene/gltf_shared_keys.hpp"
 #include "scene/placement.hpp"
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -39,7 +41,9 @@ Camera read_camera(const GltfSource& source, const tinygltf::Camera& from,
 
 } // namespace
 
-void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
+void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes,
+                 std::vector<CameraKeys> keys, Scene& scene) {
+    SharedKeys table(std::move(keys));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const GltfNode& node = nodes[i];
         const tinygltf::Node& carrier = source.model.nodes[std::size_t(node.index)];
@@ -57,17 +61,20 @@ void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes, S
         const Camera in_object_space = camera;
         const bool has_direction = place(node.to_world, camera);
         check_position(source, camera.position, what);
-        if (node.moves) {
-            scene.motion.cameras.push_back(
-                {static_cast<std::uint32_t>(i), scene.cameras.size(), in_object_space});
-        }
-        if (has_direction || node.moves) {
-            scene.cameras.push_back(camera);
-        } else {
+        if (!has_direction && !node.moves) {
             add_note(
                 scene,
                 fmt::format("{} is left out: its node's transform leaves it no direction", what));
+            continue;
         }
+        const int key_index = table.add(std::size_t(carrier.camera), scene.motion.camera_keys);
+        if (node.moves || key_index >= 0) {
+            scene.motion.cameras.push_back({.node = static_cast<std::uint32_t>(i),
+                                            .index = scene.cameras.size(),
+                                            .camera = in_object_space,
+                                            .keys = key_index});
+        }
+        scene.cameras.push_back(camera);
     }
 }
 

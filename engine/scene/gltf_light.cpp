@@ -1,11 +1,13 @@
 #include "scene/gltf_light.hpp"
 
+#include "scene/gltf_shared_keys.hpp"
 #include "scene/gltf_value.hpp"
 #include "scene/placement.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -28,11 +30,11 @@ LightKind kind_of(const GltfSource& source, const json* object, const std::strin
     source.fail("{} is neither a point, nor a spot, nor a directional light", what);
 }
 
-void read_cone(const GltfSource& source, const json* spot, Light& light, const std::string& what,
-               Scene& scene) {
+void read_cone(const GltfSource& source, const json* spot, LightFactors& factors,
+               const std::string& what, Scene& scene) {
     constexpr double right_angle = std::numbers::pi / 2;
-    const double outer = number_of(source, spot, "outerConeAngle", std::numbers::pi / 4, what);
-    const double inner = number_of(source, spot, "innerConeAngle", 0, what);
+    const double outer = number_of(source, spot, "outerConeAngle", factors.outer_cone_angle, what);
+    const double inner = number_of(source, spot, "innerConeAngle", factors.inner_cone_angle, what);
     if (!(outer > 0) || inner < 0) {
         source.fail(
             "{} has cone angles of {} and {}; the outer must be above 0, the inner not below", what,
@@ -45,16 +47,16 @@ void read_cone(const GltfSource& source, const json* spot, Light& light, const s
                  fmt::format("{} has cone angles out of range; {} (outer) and {} (inner) are used",
                              what, outer_used, inner_used));
     }
-    light.outer_cone_angle = static_cast<float>(outer_used);
-    light.inner_cone_angle = std::min(static_cast<float>(inner_used), light.outer_cone_angle);
+    factors.outer_cone_angle = outer;
+    factors.inner_cone_angle = inner;
 }
 
-Light read_light(const GltfSource& source, const json* object, const std::string& what,
-                 Scene& scene) {
-    Light light;
-    light.kind = kind_of(source, object, what);
-    const glm::dvec3 color = vector_of(source, object, "color", glm::dvec3(1), what);
-    const glm::dvec3 intensity = color * number_of(source, object, "intensity", 1, what);
+LightFactors read_factors(const GltfSource& source, const json* object, LightKind kind,
+                          const std::string& what, Scene& scene) {
+    LightFactors factors;
+    factors.color = vector_of(source, object, "color", glm::dvec3(1), what);
+    factors.intensity = number_of(source, object, "intensity", 1, what);
+    const glm::dvec3 intensity = factors.color * factors.intensity;
     for (int channel = 0; channel < 3; ++channel) {
         if (!(intensity[channel] >= 0) ||
             !(intensity[channel] <= std::numeric_limits<float>::max())) {
@@ -62,21 +64,43 @@ Light read_light(const GltfSource& source, const json* object, const std::string
                         what, intensity[channel]);
         }
     }
-    light.intensity = glm::vec3(intensity);
-    if (light.kind == LightKind::spot) {
-        read_cone(source, find_member(object, "spot"), light, what, scene);
+    if (kind == LightKind::spot) {
+        read_cone(source, find_member(object, "spot"), factors, what, scene);
     }
     if (find_member(object, "range")) {
         add_note(scene, "the range of lights is ignored: intensity falls off with the square of "
                         "the distance");
     }
-    return light;
+    return factors;
+}
+
+/// The index of the light to which a node refers.
+std::size_t light_of(const GltfSource& source, const json* reference, const std::string& node) {
+    const json* number = find_member(reference, "light");
+    const bool exists =
+        number && number->is_number_unsigned() && find_light(source, number->get<std::size_t>());
+    if (!exists) {
+        source.fail("{} refers to a light that does not exist", node);
+    }
+    return number->get<std::size_t>();
 }
 
 } // namespace
 
-void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes, Scene& scene) {
+std::size_t light_count(const GltfSource& source) {
     const json* lights = find_member(find_extension(&source.root, extension_name), "lights");
+    return lights && lights->is_array() ? lights->size() : 0;
+}
+
+const json* find_light(const GltfSource& source, std::size_t index) {
+    return index < light_count(source)
+               ? &(*find_member(find_extension(&source.root, extension_name), "lights"))[index]
+               : nullptr;
+}
+
+void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes,
+                std::vector<LightKeys> keys, Scene& scene) {
+    SharedKeys table(std::move(keys));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const GltfNode& node = nodes[i];
         const json* reference =
@@ -84,38 +108,37 @@ void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         if (!reference) {
             continue;
         }
-        const tinygltf::Node& carrier = source.model.nodes[std::size_t(node.index)];
-        const json* number = find_member(reference, "light");
-        const bool exists = number && number->is_number_unsigned() && lights &&
-                            lights->is_array() && number->get<std::size_t>() < lights->size();
-        if (!exists) {
-            source.fail("{} refers to a light that does not exist",
-                        label("node", node.index, carrier.name));
-        }
-        const std::size_t index = number->get<std::size_t>();
-        const json* object = &(*lights)[index];
-        const json* name = find_member(object, "name");
-        const std::string own_name = name && name->is_string() ? name->get<std::string>() : "";
+        const std::string& carrier = source.model.nodes[std::size_t(node.index)].name;
+        const std::size_t index = light_of(source, reference, label("node", node.index, carrier));
+        const json* object = find_light(source, index);
+        const std::string own_name = name_of(object);
         const std::string what = label("light", static_cast<int>(index), own_name);
-        Light light = read_light(source, object, what, scene);
-        light.name = one_line(own_name.empty() ? carrier.name : own_name);
+        Light light;
+        light.kind = kind_of(source, object, what);
+        light.name = one_line(own_name.empty() ? carrier : own_name);
+        const LightFactors factors = read_factors(source, object, light.kind, what, scene);
+        set_factors(factors, light);
         const Light in_object_space = light;
         const bool has_direction = place(node.to_world, light);
-        if (!has_direction) {
-            light.intensity = glm::vec3(0); // until it moves
-        }
         check_position(source, light.position, what);
-        if (node.moves) {
-            scene.motion.lights.push_back(
-                {static_cast<std::uint32_t>(i), scene.lights.size(), in_object_space});
-        }
-        if (has_direction || node.moves) {
-            scene.lights.push_back(light);
-        } else {
+        if (!has_direction && !node.moves) {
             add_note(
                 scene,
                 fmt::format("{} is left out: its node's transform leaves it no direction", what));
+            continue;
         }
+        if (!has_direction) {
+            light.intensity = glm::vec3(0); // until it moves
+        }
+        const int key_index = table.add(index, scene.motion.light_keys);
+        if (node.moves || key_index >= 0) {
+            scene.motion.lights.push_back({.node = static_cast<std::uint32_t>(i),
+                                           .index = scene.lights.size(),
+                                           .light = in_object_space,
+                                           .keys = key_index,
+                                           .factors = factors});
+        }
+        scene.lights.push_back(light);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "scene/gltf_material.hpp"
 #include "scene/gltf_mesh.hpp"
 #include "scene/gltf_node.hpp"
+#include "scene/moving_factors.hpp"
 #include "scene/pose.hpp"
 #include <algorithm>
 #include <utility>
@@ -19,7 +20,7 @@ namespace {
 void add_missing_light(Scene& scene) {
     const bool emissive =
         std::any_of(scene.triangle_material.begin(), scene.triangle_material.end(),
-                    [&](std::uint32_t material) { return emits(scene.materials[material]); });
+                    [&](std::uint32_t material) { return may_emit(scene, material); });
     if (scene.lights.empty() && !emissive) {
         scene.sky = glm::vec3(1);
         add_note(scene, "there is no light: a uniform white sky of radiance 1 is added");
@@ -38,7 +39,8 @@ bool has_area(const Scene& scene) {
 /// Keeps nodes and skins only if something moves.
 void forget_what_rests(Scene& scene) {
     const Motion& motion = scene.motion;
-    if (motion.meshes.empty() && motion.lights.empty() && motion.cameras.empty()) {
+    if (motion.meshes.empty() && motion.lights.empty() && motion.cameras.empty() &&
+        motion.materials.empty()) {
         scene.motion = {};
     }
 }
@@ -67,14 +69,14 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     scene.name = one_line(path.filename().string());
     scene.seconds = seconds;
     add_extensions(source, scene);
-    std::vector<NodeKeys> keys = read_animations(source, scene);
+    FileKeys keys = read_animations(source, scene);
     if (seconds && scene.animations.empty()) {
         add_note(scene, "there is no animation: the scene is the same at any time");
     }
-    const std::vector<GltfNode> nodes = read_nodes(source, std::move(keys), scene);
-    add_materials(source, scene);
-    add_lights(source, nodes, scene);
-    add_cameras(source, nodes, scene);
+    const std::vector<GltfNode> nodes = read_nodes(source, std::move(keys.nodes), scene);
+    add_materials(source, std::move(keys.materials), scene);
+    add_lights(source, nodes, std::move(keys.lights), scene);
+    add_cameras(source, nodes, std::move(keys.cameras), scene);
     add_meshes(source, nodes, scene);
     add_missing_light(scene);
     forget_what_rests(scene);

@@ -1,8 +1,10 @@
 #include "scene/gltf_material.hpp"
 
+#include "scene/factors.hpp"
 #include "scene/gltf_value.hpp"
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -48,80 +50,92 @@ bool uses_texture(const json& value) {
     return false;
 }
 
-/// Alpha as the material's alphaMode interprets it.
-float coverage_of(const FactorReader& read, const tinygltf::Material& from) {
+void read_alpha(const FactorReader& read, const tinygltf::Material& from,
+                MaterialFactors& factors) {
     if (from.alphaMode == "OPAQUE") {
-        return 1;
+        return;
     }
-    const float alpha = read.in_range(from.pbrMetallicRoughness.baseColorFactor[3], 0, 1, "alpha");
+    const double alpha = from.pbrMetallicRoughness.baseColorFactor[3];
+    factors.base_color.a = read.in_range(alpha, 0, 1, "alpha");
     if (from.alphaMode == "BLEND") {
-        return alpha;
+        factors.alpha_mode = AlphaMode::blend;
+    } else if (from.alphaMode == "MASK") {
+        factors.alpha_mode = AlphaMode::mask;
+        factors.alpha_cutoff = read.in_range(from.alphaCutoff, 0, unlimited, "alphaCutoff");
+    } else {
+        read.source.fail("{} has the alphaMode \"{}\"; it must be OPAQUE, MASK or BLEND", read.what,
+                         one_line(from.alphaMode, 60));
     }
-    if (from.alphaMode == "MASK") {
-        return alpha >= read.in_range(from.alphaCutoff, 0, unlimited, "alphaCutoff") ? 1.0f : 0.0f;
-    }
-    read.source.fail("{} has the alphaMode \"{}\"; it must be OPAQUE, MASK or BLEND", read.what,
-                     one_line(from.alphaMode, 60));
 }
 
-void read_core(const FactorReader& read, const tinygltf::Material& from, Material& material) {
+void read_core(const FactorReader& read, const tinygltf::Material& from, MaterialFactors& factors) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     // Tinygltf ensures that it has 4 elements.
     const std::vector<double>& color = pbr.baseColorFactor;
-    material.base_color =
-        read.in_range(glm::dvec3(color[0], color[1], color[2]), 1, "baseColorFactor");
-    material.metallic = read.in_range(pbr.metallicFactor, 0, 1, "metallicFactor");
-    material.roughness = read.in_range(pbr.roughnessFactor, 0, 1, "roughnessFactor");
-    material.double_sided = from.doubleSided;
-    material.coverage = coverage_of(read, from);
+    factors.base_color = glm::dvec4(
+        read.in_range(glm::dvec3(color[0], color[1], color[2]), 1, "baseColorFactor"), 1);
+    factors.metallic = read.in_range(pbr.metallicFactor, 0, 1, "metallicFactor");
+    factors.roughness = read.in_range(pbr.roughnessFactor, 0, 1, "roughnessFactor");
+    read_alpha(read, from, factors);
 }
 
 void read_emission(const FactorReader& read, const tinygltf::Material& from, const json* object,
-                   Material& material) {
-    const double strength = read.number(find_extension(object, "KHR_materials_emissive_strength"),
-                                        "emissiveStrength", 1, unlimited);
+                   MaterialFactors& factors) {
+    factors.emissive_strength =
+        read.number(find_extension(object, "KHR_materials_emissive_strength"), "emissiveStrength",
+                    1, unlimited);
     const glm::dvec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
-    material.emission =
-        read.in_range(glm::dvec3(read.in_range(factor, unlimited, "emissiveFactor")) * strength,
-                      unlimited, "emission");
-    material.emission *= material.coverage;
-    if (from.emissiveTexture.index >= 0 && emits(material)) {
-        // Such textures are black nearly everywhere; with the factor alone, whole objects would
-        // glow.
-        add_note(read.scene,
-                 "emissive textures are not read yet: surfaces that have one do not emit");
-        material.emission = glm::vec3(0);
+    factors.emissive = read.in_range(factor, unlimited, "emissiveFactor");
+    read.in_range(factors.emissive * factors.emissive_strength, unlimited, "emission"); // its note
+}
+
+/// Throws Error for an index of refraction that is neither 0 nor at least 1.
+void read_extensions(const FactorReader& read, const json* object, MaterialFactors& factors) {
+    const json* specular = find_extension(object, "KHR_materials_specular");
+    factors.specular = read.number(specular, "specularFactor", 1, 1);
+    factors.specular_color = read.in_range(
+        vector_of(read.source, specular, "specularColorFactor", glm::dvec3(1), read.what),
+        unlimited, "specularColorFactor");
+    factors.transmission = read.number(find_extension(object, "KHR_materials_transmission"),
+                                       "transmissionFactor", 0, 1);
+    factors.thickness = read.number(find_extension(object, "KHR_materials_volume"),
+                                    "thicknessFactor", 0, unlimited);
+    factors.ior =
+        number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
+    // In glTF an index of 0 means that the Fresnel term is 1.
+    if (factors.ior != 0 && !(factors.ior >= 1 && factors.ior <= unlimited)) {
+        read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1",
+                         read.what, factors.ior);
     }
 }
 
-void read_extensions(const FactorReader& read, const json* object, Material& material) {
-    const json* specular = find_extension(object, "KHR_materials_specular");
-    material.specular = read.number(specular, "specularFactor", 1, 1);
-    material.specular_color = read.in_range(
-        vector_of(read.source, specular, "specularColorFactor", glm::dvec3(1), read.what),
-        unlimited, "specularColorFactor");
-
-    material.transmission = read.number(find_extension(object, "KHR_materials_transmission"),
-                                        "transmissionFactor", 0, 1);
+/// Notes what the material, now or as its keys move it, asks for in vain.
+void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, const json* object,
+                      Scene& scene) {
     const json* volume = find_extension(object, "KHR_materials_volume");
-    material.thickness = read.number(volume, "thicknessFactor", 0, unlimited);
-    if (material.thickness > 0 && find_member(volume, "attenuationDistance")) {
-        add_note(read.scene,
+    if ((factors.thickness > 0 || keys.thickness) && find_member(volume, "attenuationDistance")) {
+        add_note(scene,
                  "the attenuation of KHR_materials_volume is not supported yet: volumes are clear");
     }
-    if (material.transmission > 0 && material.metallic < 1 && material.roughness > 0) {
-        add_note(read.scene,
+    if ((factors.transmission > 0 || keys.transmission) &&
+        (factors.metallic < 1 || keys.metallic) && (factors.roughness > 0 || keys.roughness)) {
+        add_note(scene,
                  "rough transmission is not supported yet: such surfaces are rendered smooth");
     }
+}
 
-    const double ior =
-        number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
-    // In glTF an index of 0 means that the Fresnel term is 1.
-    if (ior != 0 && !(ior >= 1 && ior <= unlimited)) {
-        read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1",
-                         read.what, ior);
+/// Emissive textures are black nearly everywhere; with the factor alone, whole objects would glow.
+void forget_textured_emission(const tinygltf::Material& from, MaterialFactors& factors,
+                              MaterialKeys& keys, Scene& scene) {
+    if (from.emissiveTexture.index < 0) {
+        return;
     }
-    material.ior = static_cast<float>(ior);
+    if (factors.emissive * factors.emissive_strength != glm::dvec3(0) || keys.emissive ||
+        keys.emissive_strength) {
+        add_note(scene, "emissive textures are not read yet: surfaces that have one do not emit");
+    }
+    factors.emissive = glm::dvec3(0);
+    keys.emissive.reset();
 }
 
 /// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}; both members are required.
@@ -158,19 +172,27 @@ void read_phong(const FactorReader& read, const json* object, Material& material
 
 } // namespace
 
-void add_materials(const GltfSource& source, Scene& scene) {
+void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Scene& scene) {
     bool textured = false;
     for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
         const tinygltf::Material& from = source.model.materials[i];
         const json* object = find_element(source, "materials", i);
         const FactorReader read{source, scene, label("material", static_cast<int>(i), from.name)};
+        MaterialFactors factors;
+        read_core(read, from, factors);
+        read_emission(read, from, object, factors);
+        read_extensions(read, object, factors);
+        note_unsupported(factors, keys[i], object, scene);
+        forget_textured_emission(from, factors, keys[i], scene);
         Material material;
         material.name = one_line(from.name);
-        read_core(read, from, material);
-        read_emission(read, from, object, material);
-        read_extensions(read, object, material);
+        material.double_sided = from.doubleSided;
+        set_factors(factors, material);
         read_phong(read, object, material);
         scene.materials.push_back(material);
+        if (keys[i].moves()) {
+            scene.motion.materials.push_back({i, factors, std::move(keys[i])});
+        }
         textured = textured || (object && uses_texture(*object));
     }
     if (textured) {

@@ -4,6 +4,7 @@
 #include "scene/gltf_morph.hpp"
 #include "scene/gltf_skin.hpp"
 #include "scene/gltf_surface.hpp"
+#include "scene/moving_factors.hpp"
 #include "scene/placement.hpp"
 #include "scene/pose.hpp"
 #include <algorithm>
@@ -283,7 +284,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
             }
             note_ignored_features(primitive, scene);
             const std::uint32_t material = material_of(source, primitive, name, scene);
-            if (!(scene.materials[material].coverage > 0)) {
+            if (!may_be_visible(scene, material)) {
                 adder.count_invisible();
                 continue;
             }

@@ -28,6 +28,12 @@ inline const nlohmann::json* find_extension(const nlohmann::json* owner, const c
     return extension && extension->is_object() ? extension : nullptr;
 }
 
+/// The name of an object, or "".
+inline std::string name_of(const nlohmann::json* object) {
+    const nlohmann::json* name = find_member(object, "name");
+    return name && name->is_string() ? name->get<std::string>() : "";
+}
+
 /// A number, or `otherwise` if it is absent. `what` names the object in messages.
 inline double number_of(const GltfSource& source, const nlohmann::json* object, const char* key,
                         double otherwise, const std::string& what) {

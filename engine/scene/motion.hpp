@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/camera.hpp"
+#include "scene/factors.hpp"
 #include "scene/key_frames.hpp"
 #include "scene/light.hpp"
 
@@ -66,18 +67,53 @@ struct MovingMesh {
     std::vector<MorphTarget> targets;
 };
 
-/// A light that a moving node carries.
+/// The properties of a light that animations move.
+struct LightKeys {
+    std::optional<KeyFrames> color, intensity, inner_cone_angle, outer_cone_angle;
+    bool moves() const { return color || intensity || inner_cone_angle || outer_cone_angle; }
+};
+
+/// A light that a moving node carries, or whose properties move.
 struct MovingLight {
     std::uint32_t node = 0;
     std::size_t index = 0; ///< into Scene::lights
     Light light;           ///< in object space
+    int keys = -1;         ///< index into Motion::light_keys; -1: its properties rest
+    LightFactors factors;  ///< at rest; they count if it has keys
 };
 
-/// A camera that a moving node carries.
+/// The properties of a camera that animations move.
+struct CameraKeys {
+    std::optional<KeyFrames> vertical_angle, vertical_extent;
+    bool moves() const { return vertical_angle || vertical_extent; }
+};
+
+/// A camera that a moving node carries, or whose properties move.
 struct MovingCamera {
     std::uint32_t node = 0;
     std::size_t index = 0; ///< into Scene::cameras
     Camera camera;         ///< in object space
+    int keys = -1;         ///< index into Motion::camera_keys; -1: its properties rest
+};
+
+/// The properties of a material that animations move.
+struct MaterialKeys {
+    std::optional<KeyFrames> base_color, metallic, roughness, alpha_cutoff;
+    std::optional<KeyFrames> emissive, emissive_strength;
+    std::optional<KeyFrames> specular, specular_color;
+    std::optional<KeyFrames> transmission, ior, thickness;
+    bool moves_alpha() const { return base_color || alpha_cutoff; }
+    bool moves() const {
+        return moves_alpha() || metallic || roughness || emissive || emissive_strength ||
+               specular || specular_color || transmission || ior || thickness;
+    }
+};
+
+/// A material whose properties move.
+struct MovingMaterial {
+    std::size_t index = 0;   ///< into Scene::materials
+    MaterialFactors factors; ///< at rest
+    MaterialKeys keys;
 };
 
 /// What moves in a scene, as its file states it. Everything is empty if nothing moves.
@@ -87,6 +123,10 @@ struct Motion {
     std::vector<MovingMesh> meshes;
     std::vector<MovingLight> lights;
     std::vector<MovingCamera> cameras;
+    // Several nodes may carry one light or camera of the file.
+    std::vector<LightKeys> light_keys;
+    std::vector<CameraKeys> camera_keys;
+    std::vector<MovingMaterial> materials; ///< by rising index
 };
 
 } // namespace argand

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "scene/direction.hpp"
+#include "scene/moving_factors.hpp"
 #include "scene/placement.hpp"
 
 #include <utility>
@@ -153,6 +154,10 @@ void move_to(double seconds, Scene& scene) {
     }
     for (const MovingLight& moving : scene.motion.lights) {
         Light& light = scene.lights[moving.index] = moving.light;
+        if (moving.keys >= 0) {
+            const LightKeys& keys = scene.motion.light_keys[std::size_t(moving.keys)];
+            set_factors(factors_at(keys, moving.factors, seconds), light);
+        }
         if (!place(pose.world_from_node[moving.node], light)) {
             light.intensity = glm::vec3(0);
         }
@@ -160,8 +165,14 @@ void move_to(double seconds, Scene& scene) {
     }
     for (const MovingCamera& moving : scene.motion.cameras) {
         Camera& camera = scene.cameras[moving.index] = moving.camera;
+        if (moving.keys >= 0) {
+            set_view(scene.motion.camera_keys[std::size_t(moving.keys)], seconds, camera);
+        }
         place(pose.world_from_node[moving.node], camera);
         check_position(camera.position, "camera", camera.name, scene);
+    }
+    for (const MovingMaterial& moving : scene.motion.materials) {
+        set_factors(factors_at(moving, seconds), scene.materials[moving.index]);
     }
     scene.seconds = seconds;
 }

@@ -24,9 +24,9 @@ std::vector<bool> moving_nodes(const Motion& motion);
 /// triangles where the node mirrors. Throws Error if a position is not finite.
 void place(MovingMesh& mesh, const Pose& pose, Scene& scene);
 
-/// Moves the scene's meshes, lights and cameras to a moment. Nothing else changes. A light that its
-/// node leaves no direction is dark, a camera looks along −Z. Throws Error if a position is not
-/// finite.
+/// Moves the scene's meshes, lights, cameras and materials to a moment. Nothing else changes. A
+/// light that its node leaves no direction is dark, a camera looks along −Z. Values beyond the
+/// range of their property are clamped to it. Throws Error if a position is not finite.
 void move_to(double seconds, Scene& scene);
 
 } // namespace argand

@@ -213,13 +213,15 @@ json motion_json(const Motion& motion) {
     return {{"vertices", vertices},
             {"skins", motion.skins.size()},
             {"lights", motion.lights.size()},
-            {"cameras", motion.cameras.size()}};
+            {"cameras", motion.cameras.size()},
+            {"materials", motion.materials.size()}};
 }
 
 std::string motion_line(const json& motion) {
-    return fmt::format("{} vertices, {} skins, {} lights, {} cameras",
+    return fmt::format("{} vertices, {} skins, {} lights, {} cameras, {} materials",
                        motion["vertices"].get<std::size_t>(), motion["skins"].get<std::size_t>(),
-                       motion["lights"].get<std::size_t>(), motion["cameras"].get<std::size_t>());
+                       motion["lights"].get<std::size_t>(), motion["cameras"].get<std::size_t>(),
+                       motion["materials"].get<std::size_t>());
 }
 
 template <class Line>

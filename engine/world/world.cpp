@@ -1,9 +1,11 @@
 #include "world/world.hpp"
 
 #include "scene/material_record.hpp"
-#include "shared/material_record.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -51,6 +53,12 @@ bool is_same(std::span<const glm::vec3> a, const std::vector<glm::vec3>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
+/// Whether records have the same bits.
+bool is_same(const MaterialRecord& a, const MaterialRecord& b) {
+    using Words = std::array<std::uint32_t, sizeof(MaterialRecord) / sizeof(std::uint32_t)>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
+}
+
 /// Uploads elements from index `first` on.
 template <class T>
 std::uint64_t upload_part(Device& device, const Buffer& to, std::size_t first,
@@ -66,7 +74,8 @@ World::World(Device& device, const Scene& scene) : device_(device) {
     const StageScope stage(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
-    materials_ = upload(device, "materials", material_records(scene));
+    uploaded_materials_ = material_records(scene);
+    materials_ = upload(device, "materials", uploaded_materials_);
     for (const MovingMesh& mesh : scene.motion.meshes) {
         const auto positions = part_of(scene.positions, mesh),
                    normals = part_of(scene.normals, mesh);
@@ -115,9 +124,22 @@ bool World::upload_moved(const Scene& scene, std::size_t mesh, WorldUpdate& upda
     return moved || turned;
 }
 
+void World::upload_changed_materials(const Scene& scene, WorldUpdate& update) {
+    const std::vector<MaterialRecord> records = material_records(scene);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (is_same(records[i], uploaded_materials_[i])) {
+            continue;
+        }
+        uploaded_materials_[i] = records[i];
+        update.uploaded_bytes += upload_part(device_, materials_, i, std::vector{records[i]});
+        ++update.changed_materials;
+    }
+}
+
 WorldUpdate World::update(const Scene& scene) {
     const StageScope stage(device_, "update scene");
     WorldUpdate update;
+    upload_changed_materials(scene, update);
     for (std::size_t i = 0; i < scene.motion.meshes.size(); ++i) {
         update.refitted = upload_moved(scene, i, update) || update.refitted;
     }

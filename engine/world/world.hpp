@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shared/material_record.h"
 #include "world/device_scene.hpp"
 
 #include <cstddef>
@@ -12,6 +13,7 @@ namespace argand {
 /// What World::update() did.
 struct WorldUpdate {
     std::size_t moved_meshes = 0;
+    std::size_t changed_materials = 0; ///< uploaded because a property has changed
     std::uint64_t uploaded_bytes = 0;
     bool refitted = false, rebuilt = false; ///< the tree; at most one of them
 };
@@ -23,10 +25,10 @@ public:
     /// Uploads the scene and builds the tree. Keeps a reference to the device. Records only.
     World(Device& device, const Scene& scene);
 
-    /// Follows the scene to which move_to() has been applied: uploads the meshes that have moved,
-    /// and refits the tree, or rebuilds it once its cost is 1.3 times that after the last build.
-    /// The scene must be the one of the constructor but for that. Waits for the device if anything
-    /// has moved.
+    /// Follows the scene to which move_to() has been applied: uploads the materials that have
+    /// changed and the meshes that have moved, and refits the tree, or rebuilds it once its cost is
+    /// 1.3 times that after the last build. The scene must be the one of the constructor but for
+    /// that. Waits for the device if a mesh has moved.
     WorldUpdate update(const Scene& scene);
 
     /// The scene as a render with this plan needs it. It shares this world's buffers: update()
@@ -38,6 +40,7 @@ public:
 private:
     void build_tree(const Scene& scene);
     bool upload_moved(const Scene& scene, std::size_t mesh, WorldUpdate& update);
+    void upload_changed_materials(const Scene& scene, WorldUpdate& update);
 
     Device& device_;
     Buffer positions_, triangles_, materials_;
@@ -51,6 +54,7 @@ private:
         bool mirrored = false;
     };
     std::vector<Uploaded> uploaded_;
+    std::vector<MaterialRecord> uploaded_materials_;
 };
 
 /// A scene on a device for one render. Records only.

@@ -13,6 +13,34 @@ inline KeyFrames between(const glm::dvec3& from, const glm::dvec3& to) {
     return {.times = {0, 1}, .values = {from.x, from.y, from.z, to.x, to.y, to.z}, .width = 3};
 }
 
+inline KeyFrames between(double from, double to) { return {.times = {0, 1}, .values = {from, to}}; }
+
+/// A room that is dark at 0 s. Until 1 s its lamp and a wall begin to shine, another wall changes
+/// its colour, and the block becomes glass.
+inline Scene changing_scene() {
+    Scene scene = room_scene();
+    scene.name = "changing";
+    scene.motion.nodes.resize(1);
+    scene.motion.nodes[0].rest.translation = glm::dvec3(scene.lights[0].position);
+    scene.motion.light_keys.push_back({.intensity = between(0, 1)});
+    Light lamp = scene.lights[0];
+    lamp.position = glm::vec3(0);
+    scene.motion.lights.push_back(
+        {.light = lamp, .keys = 0, .factors = {.color = glm::dvec3(1, 0.9, 0.7)}});
+    MaterialKeys keys[3];
+    keys[0].emissive = between({0, 0, 0}, {0.5, 0.25, 0});
+    keys[1].base_color =
+        KeyFrames{.times = {0, 1}, .values = {0.2, 0.6, 0.2, 1, 0.8, 0.1, 0.1, 1}, .width = 4};
+    keys[2].transmission = between(0, 1);
+    for (std::size_t i = 0; i < 3; ++i) {
+        MaterialFactors factors{.metallic = 0, .specular = 0, .thickness = 1};
+        factors.base_color = glm::dvec4(scene.materials[i].base_color, 1);
+        scene.motion.materials.push_back({i, factors, keys[i]});
+    }
+    move_to(0, scene);
+    return scene;
+}
+
 /// A room with a smooth, moving fan of triangles, a mirrored one, and a moving lamp beside those
 /// that stand still.
 inline Scene moving_scene(std::uint32_t triangles = 50) {

@@ -17,6 +17,25 @@ protected:
         return settings;
     }
 
+    void expect_frames_of_fresh_renders(Scene scene) {
+        World world(device(), scene);
+        Session session(world, scene, settings());
+        std::uint32_t seed = 0;
+        for (const double time : {0.0, 0.25, 1.0, 0.0}) {
+            move_to(time, scene);
+            world.update(scene);
+            RenderSettings fresh = settings();
+            fresh.seed = seed++ % 3;
+            session.begin_frame(fresh.seed);
+            const RenderResult frame = finish(session, go_on), expected = render(scene, fresh);
+            EXPECT_TRUE(same_bits(frame, expected)) << time;
+            EXPECT_EQ(frame.statistics.samples, expected.statistics.samples);
+            EXPECT_EQ(frame.statistics.photons_emitted, expected.statistics.photons_emitted);
+            EXPECT_EQ(frame.statistics.photons_stored, expected.statistics.photons_stored);
+            EXPECT_EQ(frame.statistics.flux.emitted, expected.statistics.flux.emitted);
+        }
+    }
+
     /// Resumes a render of eight passes after some of them, and compares the next pass.
     void expect_same_bits_after_resuming(const Scene& scene) {
         SCOPED_TRACE(scene.name);
@@ -57,23 +76,11 @@ protected:
 };
 
 TEST_P(Sessions, EveryFrameHasThePictureOfAFreshRender) {
-    Scene scene = moving_scene();
-    World world(device(), scene);
-    Session session(world, scene, settings());
-    std::uint32_t seed = 0;
-    for (const double time : {0.0, 0.25, 1.0, 0.0}) {
-        move_to(time, scene);
-        world.update(scene);
-        RenderSettings fresh = settings();
-        fresh.seed = seed++ % 3;
-        session.begin_frame(fresh.seed);
-        const RenderResult frame = finish(session, go_on), expected = render(scene, fresh);
-        EXPECT_TRUE(same_bits(frame, expected)) << time;
-        EXPECT_EQ(frame.statistics.samples, expected.statistics.samples);
-        EXPECT_EQ(frame.statistics.photons_emitted, expected.statistics.photons_emitted);
-        EXPECT_EQ(frame.statistics.photons_stored, expected.statistics.photons_stored);
-        EXPECT_EQ(frame.statistics.flux.emitted, expected.statistics.flux.emitted);
-    }
+    expect_frames_of_fresh_renders(moving_scene());
+}
+
+TEST_P(Sessions, EveryFrameHasTheLightsAndMaterialsOfItsTime) {
+    expect_frames_of_fresh_renders(changing_scene());
 }
 
 TEST_P(Sessions, FollowAScenesLightsThatComeAndGo) {

@@ -11,22 +11,30 @@ RenderResult render_in(World& world, const Scene& scene, const RenderSettings& s
     return argand::render(world, scene, settings, [](double) { return true; });
 }
 
-class MovingWorld : public EveryMethod {};
+class MovingWorld : public EveryMethod {
+protected:
+    void expect_pictures_of_fresh_worlds(Scene scene) {
+        RenderSettings settings = settings_of(GetParam(), 16, 2);
+        settings.photons = 5'000;
+        World world(device(), scene);
+        RenderResult before;
+        for (const double time : {0.0, 0.25, 1.0, 0.5, 0.0}) {
+            move_to(time, scene);
+            world.update(scene);
+            const RenderResult result = render_in(world, scene, settings);
+            EXPECT_TRUE(same_bits(result, render(scene, settings))) << time;
+            EXPECT_FALSE(same_bits(result, before)) << time;
+            before = result;
+        }
+    }
+};
 
 TEST_P(MovingWorld, EveryMomentHasThePictureOfAFreshWorld) {
-    RenderSettings settings = settings_of(GetParam(), 16, 2);
-    settings.photons = 5'000;
-    Scene scene = moving_scene();
-    World world(device(), scene);
-    RenderResult before;
-    for (const double time : {0.0, 0.25, 1.0, 0.5, 0.0}) {
-        move_to(time, scene);
-        world.update(scene);
-        const RenderResult result = render_in(world, scene, settings);
-        EXPECT_TRUE(same_bits(result, render(scene, settings))) << time;
-        EXPECT_FALSE(same_bits(result, before)) << time;
-        before = result;
-    }
+    expect_pictures_of_fresh_worlds(moving_scene());
+}
+
+TEST_P(MovingWorld, LightsAndMaterialsThatChangeDoSoOnTheDevice) {
+    expect_pictures_of_fresh_worlds(changing_scene());
 }
 
 INSTANTIATE_METHODS(MovingWorld);
@@ -69,6 +77,27 @@ TEST_F(WorldUpdates, TouchOnlyWhatHasChanged) {
     const MovingMesh& mirrored = scene_.motion.meshes[1];
     EXPECT_EQ(update.moved_meshes, 1u);
     EXPECT_EQ(update.uploaded_bytes, 16 * (mirrored.positions.size() + mirrored.triangles));
+}
+
+TEST_F(WorldUpdates, UploadOnlyTheMaterialsThatHaveChanged) {
+    scene_ = changing_scene();
+    World world(device(), scene_);
+    WorldUpdate update = world.update(scene_);
+    EXPECT_EQ(update.changed_materials, 0u);
+    EXPECT_EQ(update.uploaded_bytes, 0u);
+    move_to(0.5, scene_);
+    update = world.update(scene_);
+    EXPECT_EQ(update.changed_materials, 3u);
+    EXPECT_EQ(update.uploaded_bytes, 3 * sizeof(MaterialRecord));
+    EXPECT_FALSE(update.refitted || update.rebuilt);
+    scene_.motion.materials.pop_back();
+    scene_.motion.materials.erase(scene_.motion.materials.begin());
+    move_to(0.75, scene_);
+    update = world.update(scene_);
+    EXPECT_EQ(update.changed_materials, 1u);
+    EXPECT_EQ(update.uploaded_bytes, sizeof(MaterialRecord));
+    move_to(0.75, scene_);
+    EXPECT_EQ(world.update(scene_).changed_materials, 0u);
 }
 
 TEST_F(WorldUpdates, RebuildTheTreeOnceRaysWouldVisitManyMoreNodes) {

@@ -1,7 +1,9 @@
 // Tests which features a scene requires.
 #include "plan/plan.hpp"
 
-#include "methods/scenes.hpp"
+#include "methods/method_info.hpp"
+#include "methods/moving_scene.hpp"
+#include "methods/plan_render.hpp"
 #include "scene/gltf.hpp"
 
 #include <gmock/gmock.h>
@@ -60,6 +62,26 @@ TEST(Plan, GlassSphereAddsItsFeatures) {
     Scene smooth = room_scene();
     add_sphere(smooth, glm::vec3(0), 0.2f, 4, true, add_material(smooth, glass(1.5f, true)));
     EXPECT_THAT(added(scene, smooth), UnorderedElementsAre(Feature::smooth_normals));
+}
+
+TEST(Plan, FollowsWhatAMaterialBecomes) {
+    Scene scene = changing_scene(); // its block becomes glass, and one of its walls shines
+    const auto now = features(scene);
+    EXPECT_FALSE(now.count(Feature::refraction) || now.count(Feature::emissive_triangles));
+    PlanRequest any_time;
+    any_time.at_any_time = true;
+    RenderSettings settings;
+    const std::string method = method_for(scene, settings).name;
+    EXPECT_NE(method, method_for(room_scene(), settings).name);
+    for (const double time : {0.5, 1.0, 0.0}) {
+        move_to(time, scene);
+        EXPECT_EQ(features(scene).count(Feature::refraction), time > 0 ? 1u : 0u) << time;
+        EXPECT_EQ(features(scene).count(Feature::emissive_triangles), time > 0 ? 1u : 0u) << time;
+        const auto ever = features(scene, any_time);
+        EXPECT_TRUE(ever.count(Feature::refraction) && ever.count(Feature::caustics)) << time;
+        EXPECT_TRUE(ever.count(Feature::diffuse)) << time; // the block at rest
+        EXPECT_EQ(method_for(scene, settings).name, method) << time;
+    }
 }
 
 TEST(Plan, EachMaterialAddsItsFeatures) {

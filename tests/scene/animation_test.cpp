@@ -161,16 +161,6 @@ TEST(Animation, ReadsNormalisedIntegersAndSteps) {
     EXPECT_THAT(file.builder.problem(), HasSubstr("neither floating-point nor normalised"));
 }
 
-TEST(Animation, ThatMovesWhatIsNotSupportedIsNoted) {
-    Animated file = moving_triangle();
-    file.builder.root["animations"][0]["channels"][0]["target"] = {
-        {"path", "pointer"},
-        {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/translation"}}}}}};
-    EXPECT_EQ(corners_of(file.load(2.0), 0)[0], glm::vec3(9, 9, 9));
-    EXPECT_THAT(file.load(2.0).notes, ::testing::Contains(HasSubstr("KHR_animation_pointer")));
-    EXPECT_FALSE(has_note(file.load(2.0), "not quite valid"));
-}
-
 TEST(Animation, TurnsTrianglesWhereANodeMirrors) {
     Animated file;
     const int node = file.builder.add_triangles(right_triangle());

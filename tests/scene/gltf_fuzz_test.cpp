@@ -37,6 +37,14 @@ Bytes small_glb() {
                       {"camera", 0},
                       {"rotation", {0, 0, 0, 1}},
                       {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const int times =
+        builder.add_accessor(builder.add_view(std::vector<float>{0, 1}), float_type, "SCALAR", 2);
+    const json target{{"path", "pointer"},
+                      {"extensions",
+                       {{"KHR_animation_pointer",
+                         {{"pointer", "/extensions/KHR_lights_punctual/lights/0/intensity"}}}}}};
+    builder.root["animations"] = {{{"channels", {{{"sampler", 0}, {"target", target}}}},
+                                   {"samplers", {{{"input", times}, {"output", times}}}}}};
     return builder.glb();
 }
 

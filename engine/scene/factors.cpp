@@ -1,0 +1,66 @@
+#include "scene/factors.hpp"
+
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace argand {
+namespace {
+
+constexpr double largest_float = std::numeric_limits<float>::max();
+constexpr double smallest_float = std::numeric_limits<float>::min(); // above 0
+
+float clamped(double value, double high) {
+    return static_cast<float>(std::clamp(value, 0.0, high));
+}
+
+glm::vec3 clamped(const glm::dvec3& value, double high) {
+    return {clamped(value.x, high), clamped(value.y, high), clamped(value.z, high)};
+}
+
+/// Alpha as the mode interprets it.
+float coverage_of(const MaterialFactors& factors) {
+    const float alpha = clamped(factors.base_color.a, 1);
+    switch (factors.alpha_mode) {
+    case AlphaMode::opaque:
+        return 1;
+    case AlphaMode::mask:
+        return alpha >= clamped(factors.alpha_cutoff, largest_float) ? 1.0f : 0.0f;
+    case AlphaMode::blend:
+        break;
+    }
+    return alpha;
+}
+
+} // namespace
+
+void set_factors(const MaterialFactors& factors, Material& material) {
+    material.base_color = clamped(glm::dvec3(factors.base_color), 1);
+    if (material.phong) {
+        // Together they reflect at most all light.
+        material.base_color = glm::min(material.base_color, 1.0f - material.phong->specular);
+    }
+    material.metallic = clamped(factors.metallic, 1);
+    material.roughness = clamped(factors.roughness, 1);
+    material.coverage = coverage_of(factors);
+    const glm::dvec3 emissive(glm::max(factors.emissive, glm::dvec3(0)));
+    material.emission = clamped(emissive * std::max(factors.emissive_strength, 0.0), largest_float);
+    material.emission *= material.coverage;
+    material.specular = clamped(factors.specular, 1);
+    material.specular_color = clamped(factors.specular_color, largest_float);
+    material.transmission = clamped(factors.transmission, 1);
+    material.ior =
+        factors.ior == 0 ? 0.0f : static_cast<float>(std::clamp(factors.ior, 1.0, largest_float));
+    material.thickness = clamped(factors.thickness, largest_float);
+}
+
+void set_factors(const LightFactors& factors, Light& light) {
+    light.intensity = clamped(factors.color * factors.intensity, largest_float);
+    const double outer = std::clamp(factors.outer_cone_angle, smallest_float, std::numbers::pi / 2);
+    light.outer_cone_angle = static_cast<float>(outer);
+    light.inner_cone_angle =
+        std::min(clamped(factors.inner_cone_angle, outer), light.outer_cone_angle);
+}
+
+} // namespace argand
