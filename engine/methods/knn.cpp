@@ -40,8 +40,7 @@ public:
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap& map,
                                           const Bandwidth& bandwidth) const override {
-        const double samples_per_area =
-            map.area_samples / std::max(c.on_device.sampled_area, 1e-30);
+        const double samples_per_area = map.area_samples / std::max(c.on_device.areas.area, 1e-30);
         return std::make_unique<NearestEstimator>(
             c.device, c.on_device.plan,
             NearestSettings{.neighbours = bandwidth.neighbours,

@@ -131,8 +131,9 @@ void keep_learnt(RenderContext& context, const DeviceScene& before) {
     const DeviceScene& choices = same_emitters ? before : scene;
     const std::vector<double> for_rays = choices.ray_shares, for_photons = choices.photon_shares;
     set_light_choices(context.device, scene, for_rays, for_photons);
-    if (scene.plan.needs(Feature::photon_map) && std::isfinite(before.sampled_part.reach)) {
-        sample_areas(context.device, context.scene, scene, before.sampled_part);
+    if (scene.plan.needs(Feature::photon_map) && std::isfinite(before.areas.part.reach)) {
+        scene.areas =
+            sample_areas(context.device, context.scene, *scene.photon_areas, before.areas.part);
     }
 }
 
@@ -141,7 +142,7 @@ void persist_lights(Archive& archive, RenderContext& context) {
     archive.value(learnt.record);
     archive.values(learnt.ray_shares);
     archive.values(learnt.photon_shares);
-    archive.value(learnt.sampled_part);
+    archive.value(learnt.areas.part);
     if (!archive.loads()) {
         return;
     }

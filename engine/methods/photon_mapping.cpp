@@ -207,7 +207,8 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, 
     for (const glm::vec4& query : queries) {
         distances.push_back(glm::distance(glm::vec3(query), eye));
     }
-    sample_areas(c_.device, c_.scene, c_.on_device, {eye, reach * median(std::move(distances))});
+    c_.on_device.areas = sample_areas(c_.device, c_.scene, *scene.photon_areas,
+                                      {eye, reach * median(std::move(distances))});
 }
 
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {
@@ -215,14 +216,13 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
         strategy_->footprints(image_.bandwidth, c_.settings.footprints,
                               static_cast<double>(image_.split.photons), c_.on_device.record);
     const double radius = strategy_->typical_radius(image_.bandwidth);
-    PhotonMap map =
-        build_photon_map(c_.device, c_.on_device, photons_, stored,
-                         {.area_samples = area_samples(c_.on_device.sampled_area, radius),
-                          .cover_height = disc_half_height * radius,
-                          .seed = area_seed(numbers),
-                          .leaf_size = c_.settings.leaf_size,
-                          .wide_codes = c_.settings.wide_codes,
-                          .footprints = image_.footprint_scale});
+    PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
+                                     {.area_samples = area_samples(c_.on_device.areas.area, radius),
+                                      .cover_height = disc_half_height * radius,
+                                      .seed = area_seed(numbers),
+                                      .leaf_size = c_.settings.leaf_size,
+                                      .wide_codes = c_.settings.wide_codes,
+                                      .footprints = image_.footprint_scale});
     image_.mean_footprints = map.mean_footprints;
     image_.leaf_size = map.leaf_size;
     return map;

@@ -187,7 +187,7 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     // A ninth of the samples wanted is enough. A single one cannot be: the step between two samples
     // has 32 bits.
     const std::uint64_t fitting = std::min(settings.area_samples, w.capacity - stored.slots);
-    if (fitting <= 1 || 9 * fitting < settings.area_samples || !(scene.sampled_area > 0) ||
+    if (fitting <= 1 || 9 * fitting < settings.area_samples || !(scene.areas.area > 0) ||
         stored.photons == 0) {
         return 0;
     }
@@ -199,14 +199,14 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     dispatch(device,
              kernels::area_samples{
                  .scene = scene.bindings(),
-                 .area_sums = scene.area_sums,
+                 .area_sums = scene.areas.sums,
                  .counters = w.counters,
                  .photons = w.photons,
                  .params = {.seed = settings.seed,
                             .count = samples,
                             .step = step,
-                            .area = static_cast<float>(scene.sampled_area * step / 4294967296.0),
-                            .piece_count = scene.area_pieces,
+                            .area = static_cast<float>(scene.areas.area * step / 4294967296.0),
+                            .piece_count = scene.areas.pieces,
                             .capacity = static_cast<std::uint32_t>(w.capacity),
                             .offset = static_cast<std::uint32_t>(random * step >> 32)}},
              samples);
@@ -228,7 +228,7 @@ void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& 
     params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
     constexpr double least_overlap = 4;
     params.least_area_radius = static_cast<float>(std::sqrt(
-        least_overlap * scene.sampled_area / (std::numbers::pi * std::max(map.area_samples, 1u))));
+        least_overlap * scene.areas.area / (std::numbers::pi * std::max(map.area_samples, 1u))));
     upload_word(device, w.counters, counter_area_places, 0);
     const Buffer area_places =
         device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
@@ -383,7 +383,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     map.area_samples = add_area_samples(device, scene, w, stored, settings);
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
-    map.corrected = {scene.sampled_part.center, inner_share * scene.sampled_part.reach};
+    map.corrected = {scene.areas.part.center, inner_share * scene.areas.part.reach};
     {
         const StageScope stage(device, "sort photons");
         sort_places(device, w, map.photons, settings.wide_codes);

@@ -18,31 +18,6 @@ namespace {
 
 using Corners = std::array<float, 9>;
 
-/// Area of each triangle on which photons may lie: 0 for mirrors, glass and what is black, and 0
-/// for duplicates with the same front, of which rays hit only the first.
-std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness) {
-    std::vector<bool> stores;
-    for (const Material& material : scene.materials) {
-        stores.push_back(estimated_lobes(material_record(material), follow_roughness) != 0);
-    }
-    std::vector<double> areas;
-    areas.reserve(scene.triangles.size());
-    std::unordered_set<Corners, HashFloats> there;
-    there.reserve(scene.triangles.size());
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const glm::uvec3& t = scene.triangles[i];
-        std::array<std::array<float, 3>, 3> v;
-        for (int k = 0; k < 3; ++k) {
-            const glm::vec3& p = scene.positions[t[k]];
-            v[static_cast<std::size_t>(k)] = {p.x, p.y, p.z};
-        }
-        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-        const bool is_new = there.insert(std::bit_cast<Corners>(v)).second;
-        areas.push_back(is_new && stores[scene.triangle_material[i]] ? area(scene, i) : 0);
-    }
-    return areas;
-}
-
 /// A piece of a triangle in the table.
 struct Piece {
     std::uint32_t triangle, number; ///< see shared/triangle_piece.h
@@ -99,8 +74,31 @@ private:
 
 } // namespace
 
-AreaTable make_area_table(const Scene& scene, float follow_roughness, const SampledPart& part) {
-    const std::vector<double> areas = areas_for_photons(scene, follow_roughness);
+std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness) {
+    std::vector<bool> stores;
+    for (const Material& material : scene.materials) {
+        stores.push_back(estimated_lobes(material_record(material), follow_roughness) != 0);
+    }
+    std::vector<double> areas;
+    areas.reserve(scene.triangles.size());
+    std::unordered_set<Corners, HashFloats> there;
+    there.reserve(scene.triangles.size());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const glm::uvec3& t = scene.triangles[i];
+        std::array<std::array<float, 3>, 3> v;
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3& p = scene.positions[t[k]];
+            v[static_cast<std::size_t>(k)] = {p.x, p.y, p.z};
+        }
+        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+        const bool is_new = there.insert(std::bit_cast<Corners>(v)).second;
+        areas.push_back(is_new && stores[scene.triangle_material[i]] ? area(scene, i) : 0);
+    }
+    return areas;
+}
+
+AreaTable make_area_table(const Scene& scene, const std::vector<double>& areas,
+                          const SampledPart& part) {
     Pieces pieces(scene, part);
     for (std::uint32_t i = 0; i < areas.size(); ++i) {
         if (areas[i] > 0) {

@@ -63,22 +63,16 @@ DeviceScene prepare_scene(Device& device, const Scene& scene, const Plan& plan) 
     result.lights = upload(device, "lights", result.light_table.lights);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);
-    if (plan.needs(Feature::photon_map)) {
-        sample_areas(device, scene, result, {});
-        result.surface_area = result.sampled_area;
-    } else {
-        result.area_sums = unneeded(device);
-    }
     return result;
 }
 
-void sample_areas(Device& device, const Scene& scene, DeviceScene& on_device,
-                  const SampledPart& part) {
-    const AreaTable table = make_area_table(scene, on_device.plan.request.follow_roughness, part);
-    on_device.area_sums = upload(device, "area sums", table.sums);
-    on_device.area_pieces = static_cast<std::uint32_t>(table.sums.size());
-    on_device.sampled_area = table.area;
-    on_device.sampled_part = part;
+SampledAreas sample_areas(Device& device, const Scene& scene, const std::vector<double>& areas,
+                          const SampledPart& part) {
+    const AreaTable table = make_area_table(scene, areas, part);
+    return {.sums = upload(device, "area sums", table.sums),
+            .pieces = static_cast<std::uint32_t>(table.sums.size()),
+            .area = table.area,
+            .part = part};
 }
 
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,

@@ -9,9 +9,18 @@
 #include "world/area_table.hpp"
 #include "world/light_table.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace argand {
+
+/// Where area samples lie.
+struct SampledAreas {
+    Buffer sums;              ///< AreaSumRecord per piece of a surface on which photons may lie
+    std::uint32_t pieces = 0; ///< in `sums`
+    double area = 0;          ///< of these pieces
+    SampledPart part;         ///< in which they lie; by default everywhere
+};
 
 /// A scene on a device, in the layout that shading kernels read (shaders/comp/scene_bindings.glsl).
 struct DeviceScene {
@@ -22,16 +31,15 @@ struct DeviceScene {
     Buffer materials;     ///< MaterialRecord
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
-    Buffer area_sums;     ///< AreaSumRecord per piece of a surface that stores photons
     TriangleBvh bvh;
     SceneRecord record;     ///< the host's copy of `scene`
     LightTable light_table; ///< the host's copy of `lights`, and their emitters
     /// Probabilities with which each emitter is chosen for shadow rays, and for photons.
     std::vector<double> ray_shares, photon_shares;
-    double surface_area = 0;       ///< of all triangles that store photons; 0 without a photon map
-    std::uint32_t area_pieces = 0; ///< in `area_sums`
-    double sampled_area = 0;       ///< of these pieces
-    SampledPart sampled_part;      ///< in which they lie; by default everywhere
+    /// Area of each triangle on which photons may lie; null without a photon map.
+    std::shared_ptr<const std::vector<double>> photon_areas;
+    double surface_area = 0; ///< their sum; 0 without a photon map
+    SampledAreas areas;
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
     /// Buffers for the member `scene` of a kernel that shades.
@@ -43,14 +51,14 @@ struct DeviceScene {
 /// Memory to bind where a kernel does not read its buffer.
 Buffer unneeded(Device& device);
 
-/// The parts of a scene that belong to one render: its lights and how they are chosen, and its
-/// areas. World::on_device() adds the others. Records only.
+/// The parts of a scene that belong to one render: its lights and how they are chosen.
+/// World::on_device() adds the others. Records only.
 DeviceScene prepare_scene(Device& device, const Scene& scene, const Plan& plan);
 
 /// Lets area samples lie in a part of the scene only: they can be as dense there as a small radius
-/// requires. Requires a plan with a photon map. Records only.
-void sample_areas(Device& device, const Scene& scene, DeviceScene& on_device,
-                  const SampledPart& part);
+/// requires. areas: of each triangle (areas_for_photons()). Records only.
+SampledAreas sample_areas(Device& device, const Scene& scene, const std::vector<double>& areas,
+                          const SampledPart& part);
 
 /// Sets the probabilities with which each emitter is chosen for shadow rays and for photons, and
 /// uploads `record` with them. Records only.

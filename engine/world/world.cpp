@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -143,6 +144,9 @@ WorldUpdate World::update(const Scene& scene) {
     for (std::size_t i = 0; i < scene.motion.meshes.size(); ++i) {
         update.refitted = upload_moved(scene, i, update) || update.refitted;
     }
+    if (update.refitted || update.changed_materials > 0) {
+        areas_.reset();
+    }
     if (!update.refitted) {
         return update;
     }
@@ -158,6 +162,23 @@ WorldUpdate World::update(const Scene& scene) {
     return update;
 }
 
+void World::add_areas(const Scene& scene, DeviceScene& on_device) {
+    if (!on_device.plan.needs(Feature::photon_map)) {
+        on_device.areas.sums = unneeded(device_);
+        return;
+    }
+    const float follow_roughness = on_device.plan.request.follow_roughness;
+    if (!areas_ || areas_->follow_roughness != follow_roughness) {
+        auto by_triangle =
+            std::make_shared<const std::vector<double>>(areas_for_photons(scene, follow_roughness));
+        SampledAreas sampled = sample_areas(device_, scene, *by_triangle, {});
+        areas_ = {follow_roughness, std::move(by_triangle), std::move(sampled)};
+    }
+    on_device.photon_areas = areas_->by_triangle;
+    on_device.areas = areas_->sampled;
+    on_device.surface_area = areas_->sampled.area;
+}
+
 DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
     const StageScope stage(device_, "upload scene");
     if (plan.needs(Feature::smooth_normals) && !normals_) {
@@ -169,6 +190,7 @@ DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
     result.triangles = triangles_;
     result.materials = materials_;
     result.bvh = bvh_;
+    add_areas(scene, result);
     return result;
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace argand {
@@ -39,6 +41,7 @@ public:
 
 private:
     void build_tree(const Scene& scene);
+    void add_areas(const Scene& scene, DeviceScene& on_device);
     bool upload_moved(const Scene& scene, std::size_t mesh, WorldUpdate& update);
     void upload_changed_materials(const Scene& scene, WorldUpdate& update);
 
@@ -55,6 +58,14 @@ private:
     };
     std::vector<Uploaded> uploaded_;
     std::vector<MaterialRecord> uploaded_materials_;
+
+    /// The areas of all surfaces on which photons may lie.
+    struct PhotonAreas {
+        float follow_roughness = 0;
+        std::shared_ptr<const std::vector<double>> by_triangle;
+        SampledAreas sampled;
+    };
+    std::optional<PhotonAreas> areas_; ///< empty until a plan needs them, and after a change
 };
 
 /// A scene on a device for one render. Records only.

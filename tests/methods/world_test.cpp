@@ -116,6 +116,36 @@ TEST_F(WorldUpdates, RebuildTheTreeOnceRaysWouldVisitManyMoreNodes) {
     EXPECT_TRUE(same_bits(render_in(world, scene_, settings), render(scene_, settings)));
 }
 
+TEST_F(WorldUpdates, AreasAreFoundAnewOnlyWhereSurfacesChange) {
+    RecordingDevice recording(device());
+    World world(recording, scene_);
+    RenderSettings settings = settings_of("photons", 8, 1);
+    settings.photons = 1000;
+    Session session(world, scene_, settings);
+    const auto tables_of_frame = [&] {
+        const auto before = recording.allocations();
+        world.update(scene_);
+        session.begin_frame(0);
+        EXPECT_TRUE(
+            same_bits(finish(session, [](double) { return true; }), render(scene_, settings)));
+        const auto count = [](const std::map<std::string, std::uint64_t>& allocations) {
+            const auto found = allocations.find("area sums");
+            return found != allocations.end() ? found->second : 0;
+        };
+        return count(recording.allocations()) - count(before);
+    };
+    EXPECT_EQ(tables_of_frame(), 1u);
+    EXPECT_EQ(tables_of_frame(), 0u);
+    scene_.lights.back().position.x += 0.1f;
+    scene_.cameras[0].position.x += 0.1f;
+    EXPECT_EQ(tables_of_frame(), 0u);
+    move_to(0.3, scene_);
+    EXPECT_EQ(tables_of_frame(), 1u);
+    scene_.materials[0].base_color = glm::vec3(0.3f); // as KHR_animation_pointer does
+    EXPECT_EQ(tables_of_frame(), 1u);
+    EXPECT_EQ(tables_of_frame(), 0u);
+}
+
 TEST_F(WorldUpdates, RendersShareATree) {
     RecordingDevice recording(device());
     World world(recording, scene_);

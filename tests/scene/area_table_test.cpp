@@ -27,6 +27,10 @@ double share_of(const TrianglePiece& p) {
     return std::abs(double(ab.x) * ac.y - double(ab.y) * ac.x);
 }
 
+AreaTable table_of(const Scene& scene, const SampledPart& part) {
+    return make_area_table(scene, areas_for_photons(scene, follow_roughness), part);
+}
+
 TEST(AreaTable, PiecesOfAPieceMakeItUp) {
     const TrianglePiece whole = triangle_piece(whole_triangle);
     EXPECT_EQ(share_of(whole), 1);
@@ -40,7 +44,7 @@ TEST(AreaTable, PiecesOfAPieceMakeItUp) {
 }
 
 TEST(AreaTable, WithoutALimitTrianglesAreWhole) {
-    const AreaTable table = make_area_table(ground(), follow_roughness, {});
+    const AreaTable table = table_of(ground(), {});
     ASSERT_EQ(table.sums.size(), 2u);
     EXPECT_EQ(table.sums[0].piece, whole_triangle);
     EXPECT_EQ(table.sums[1].piece, whole_triangle);
@@ -52,7 +56,7 @@ TEST(AreaTable, CoversThePartWithinReach) {
     const Scene scene = ground();
     const glm::vec3 center(30, 1, -20);
     const double reach = 5;
-    const AreaTable table = make_area_table(scene, follow_roughness, {center, reach});
+    const AreaTable table = table_of(scene, {center, reach});
     EXPECT_LT(table.area, 4 * std::numbers::pi * reach * reach);
     double area = 0;
     for (const AreaSumRecord& record : table.sums) {
@@ -87,7 +91,7 @@ TEST(AreaTable, CoversThePartWithinReach) {
 }
 
 TEST(AreaTable, NothingWithinReach) {
-    const AreaTable table = make_area_table(ground(), follow_roughness, {{0, 50, 0}, 5});
+    const AreaTable table = table_of(ground(), {{0, 50, 0}, 5});
     EXPECT_TRUE(table.sums.empty());
     EXPECT_EQ(table.area, 0);
 }
@@ -95,7 +99,7 @@ TEST(AreaTable, NothingWithinReach) {
 TEST(AreaTable, SceneWithoutTriangles) {
     Scene scene;
     add_material(scene, lambertian(glm::vec3(0.5f)));
-    EXPECT_TRUE(make_area_table(scene, follow_roughness, {}).sums.empty());
+    EXPECT_TRUE(table_of(scene, {}).sums.empty());
 }
 
 } // namespace
