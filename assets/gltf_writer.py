@@ -147,12 +147,12 @@ def metal(color, roughness):
     return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 1, "roughnessFactor": roughness}}
 
 
-def glass(thickness):
+def glass(thickness, ior=1.5):
     """A solid that refracts. The thickness is the extent of the object; its surface is traced all the same."""
     return {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0},
             "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
                            "KHR_materials_volume": {"thicknessFactor": thickness},
-                           "KHR_materials_ior": {"ior": 1.5}}}
+                           "KHR_materials_ior": {"ior": ior}}}
 
 
 def phong(diffuse, specular, exponent):
@@ -203,18 +203,26 @@ class Scene:
         self.accessors, self.views, self.data = [], [], b""
         self.samplers, self.channels = [], []
 
-    def add(self, name, mesh, material):
+    def add(self, name, mesh, material, at=None, targets=()):
+        """Adds a mesh, its origin `at` a place. Morph targets are meshes of offsets, without triangles."""
         self.materials.append({"name": name, **material})
+        attributes = self._attributes(mesh)
+        assert len(mesh.positions) < 65536
+        indices = self._accessor([(i,) for t in mesh.triangles for i in t], 5123, "SCALAR", "H", 34963)
+        primitive = {"attributes": attributes, "indices": indices, "material": len(self.materials) - 1}
+        if targets:
+            primitive["targets"] = [self._attributes(target) for target in targets]
+        self.meshes.append({"name": name, "primitives": [primitive]})
+        node = {"name": name, "mesh": len(self.meshes) - 1}
+        self.nodes.append({**node, "translation": list(at)} if at else node)
+
+    def _attributes(self, mesh):
         positions = [tuple(rounded(x) for x in p) for p in mesh.positions]
         attributes = {"POSITION": self._accessor(positions, 5126, "VEC3", "f", 34962)}
         if mesh.normals:
             normals = [tuple(rounded(x) for x in n) for n in mesh.normals]
             attributes["NORMAL"] = self._accessor(normals, 5126, "VEC3", "f", 34962)
-        assert len(positions) < 65536
-        indices = self._accessor([(i,) for t in mesh.triangles for i in t], 5123, "SCALAR", "H", 34963)
-        self.meshes.append({"name": name, "primitives": [{"attributes": attributes, "indices": indices,
-                                                          "material": len(self.materials) - 1}]})
-        self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
+        return attributes
 
     def _accessor(self, rows, component, kind, code, target=None):
         self.data += b"\0" * (-len(self.data) % 4)
@@ -253,14 +261,21 @@ class Scene:
         self.lights.append(light)
         self.nodes.append(node)
 
-    def animate(self, node, path, keys):
-        """Moves a node, by name, along straight lines between keys: pairs of a time in seconds and a value."""
+    def animate(self, name, path, keys, step=False):
+        """Changes the translation, rotation, scale or morph weights of the node with this name. Keys are pairs of a
+        time in seconds and a value; between them values change linearly, or in steps. At rest the node has the first
+        value."""
+        index = [node["name"] for node in self.nodes].index(name)
+        values = [tuple(rounded(x) for x in value) for _, value in keys]
+        self.nodes[index][path] = list(values[0])
         times = self._accessor([(rounded(time),) for time, _ in keys], 5126, "SCALAR", "f")
-        values = self._accessor([tuple(rounded(x) for x in value) for _, value in keys], 5126,
-                                "VEC%d" % len(keys[0][1]), "f")
-        names = [n["name"] for n in self.nodes]
-        self.channels.append({"sampler": len(self.samplers), "target": {"node": names.index(node), "path": path}})
-        self.samplers.append({"input": times, "output": values})
+        if path == "weights":
+            output = self._accessor([(x,) for value in values for x in value], 5126, "SCALAR", "f")
+        else:
+            output = self._accessor(values, 5126, "VEC%d" % len(values[0]), "f")
+        self.channels.append({"sampler": len(self.samplers), "target": {"node": index, "path": path}})
+        sampler = {"input": times, "output": output}
+        self.samplers.append({**sampler, "interpolation": "STEP"} if step else sampler)
 
     def document(self):
         extensions = {name for material in self.materials for name in material.get("extensions", {})}

@@ -10,8 +10,8 @@ import math
 import pathlib
 import sys
 
-from gltf_writer import (Mesh, Scene, blended, box, emitter, glass, lambertian, metal, phong, quad, revolved, scaled,
-                         sphere)
+from gltf_writer import (Mesh, Scene, add, blended, box, cross, emitter, glass, lambertian, metal, phong, quad,
+                         revolved, rotation_towards, scaled, sphere, unit)
 
 WHITE, RED, GREEN, WOOD = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091), (0.63, 0.3, 0.1)
 ROOM, SHELL = ((-2, 0, -2), (2, 2.5, 2)), ((-2.2, -0.04, -2.2), (2.2, 2.7, 2.2))
@@ -93,8 +93,7 @@ def cornell_mirror():
     return scene
 
 
-def ring():
-    """The cardioid caustic of a metal ring (after the Ring of Fabianowski and Dingliana 2009)."""
+def plane_with_ring():
     inner, outer, low, high, bevel, steps = 1.0, 1.08, -SUNK, 0.45, 0.025, 4
     profile = []
     for start, r, h in ((0, outer - bevel, high - bevel), (90, inner + bevel, high - bevel),
@@ -105,6 +104,12 @@ def ring():
     scene = Scene()
     scene.add("plane", quad((-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)), lambertian((0.8, 0.8, 0.8)))
     scene.add("ring", revolved(profile, 96), metal((0.95, 0.79, 0.45), 0))
+    return scene
+
+
+def ring():
+    """The cardioid caustic of a metal ring (after the Ring of Fabianowski and Dingliana 2009)."""
+    scene = plane_with_ring()
     scene.light("point", 22, (2.6, 1.9, 0))
     scene.camera((0, 4, 2.2), (0, 0, 0))
     return scene
@@ -355,10 +360,131 @@ def moving_light():
     return scene
 
 
+def frame(k):
+    """The time of frame k, at 24 frames per second."""
+    return k / 24
+
+
+def panel(half, towards):
+    """A square about the origin that faces a direction other than z."""
+    x = scaled(unit(cross((0, 0, 1), towards)), half)
+    y = scaled(unit(cross(towards, x)), half)
+    return quad(scaled(add(x, y), -1), add(x, scaled(y, -1)), add(x, y), add(y, scaled(x, -1)))
+
+
+def lamp(strength):
+    return emitter(scaled((1, 0.9, 0.75), strength))
+
+
+def dynamic_shi():
+    """A point light that crosses a closed room in three frames and comes back, as in Shi (2012)."""
+    scene = Scene()
+    l, r, b, t, n, f = -8, 8, 0, 12, 8, -8
+    scene.add("room", box((l, b, f), (r, t, n)).inside_out(), lambertian(WHITE))
+    scene.add("tall box", box((-1.8, -SUNK, -1.8), (1.8, 6.5, 1.8)).turned(18).moved((-3.8, 0, -3.8)), lambertian(RED))
+    scene.add("short box", box((-1.5, -SUNK, -1.5), (1.5, 2.6, 1.5)).turned(-17).moved((0.4, 0, 0.8)), lambertian(WOOD))
+    scene.add("sphere", resting_sphere(2, 4.4, -3.2, 8), lambertian(GREEN))
+    scene.light("point", 55)
+    here, there = (-6, 10, 6), (6, 10, -6)
+    scene.animate("point", "translation", [(frame(0), here), (frame(3), there), (frame(6), here)])
+    scene.camera((0, 6.5, 7.8), (0, 4, -3.5), degrees=70)
+    return scene
+
+
+def dynamic_slow_light():
+    """A lamp that crosses the Cornell box slowly, in 64 frames."""
+    scene = cornell()
+    add_boxes(scene)
+    scene.add("lamp", ceiling(-0.15, 0.15, -0.15, 0.15, 0), lamp(65))
+    scene.animate("lamp", "translation", [(frame(0), (-0.75, 1.9, 0.2)), (frame(63), (0.75, 1.9, 0.2))])
+    return scene
+
+
+def dynamic_switch():
+    """A room with a weak lamp and a strong one, which is off from frame 4 to frame 7 of 12."""
+    scene = room(strength=8)
+    scene.add("switched lamp", ceiling(-0.2, 0.2, -0.2, 0.2, 0), emitter((45, 34, 22)), at=(-1.2, 2.49, -1))
+    on, off = (1, 1, 1), (0, 0, 0)
+    # It switches between frames, so that rounded times do not matter.
+    scene.animate("switched lamp", "scale", [(frame(0), on), (frame(3.5), off), (frame(7.5), on), (frame(11), on)],
+                  step=True)
+    return scene
+
+
+def dynamic_block():
+    """A block that crosses the beam of a spot in 16 frames."""
+    scene = cornell()
+    add_boxes(scene)
+    scene.light("spot", 17, (0, 1.95, 0.7), towards=(0, -1, -0.3), cones=(24, 36), color=(1, 0.95, 0.85))
+    scene.add("block", box((-0.2, -0.1, -0.2), (0.2, 0.1, 0.2)), lambertian(WHITE))
+    scene.animate("block", "translation", [(frame(0), (-0.78, 1.1, 0.4)), (frame(15), (0.78, 1.1, 0.4))])
+    return scene
+
+
+def dynamic_occluder():
+    """The ring, with a plate that passes between the lamp and the ring in 16 frames."""
+    scene = plane_with_ring()
+    place = (2.6, 1.9, 0)
+    scene.add("lamp", panel(0.18, scaled(place, -1)).moved(place), lamp(190))
+    scene.add("plate", box((-0.02, -0.25, -0.25), (0.02, 0.25, 0.25)), lambertian(GREEN))
+    scene.animate("plate", "translation", [(frame(0), (0.8, 1, -1.2)), (frame(15), (0.8, 1, 1.2))])
+    scene.camera((0, 4, 2.2), (0, 0, 0))
+    return scene
+
+
+def water(half, n):
+    """A flat surface of n × n squares at the height 0 that faces up."""
+    points = [(half * (2 * i / n - 1), 0, half * (2 * j / n - 1)) for j in range(n + 1) for i in range(n + 1)]
+    triangles = []
+    for j in range(n):
+        for i in range(n):
+            back, front = j * (n + 1) + i, (j + 1) * (n + 1) + i
+            triangles += [(front, front + 1, back + 1), (front, back + 1, back)]
+    return Mesh(points, triangles, [(0, 1, 0)] * len(points))
+
+
+def wave(surface, kx, kz, height, phase):
+    """The offsets of a flat surface's positions and normals to a wave. The normals of sums of waves are exact."""
+    angles = [kx * x + kz * z + phase for x, _, z in surface.positions]
+    lifts = [(0, height * math.cos(a), 0) for a in angles]
+    return Mesh(lifts, (), [(height * kx * math.sin(a), 0, height * kz * math.sin(a)) for a in angles])
+
+
+def dynamic_water():
+    """A pool whose waves throw caustics, for 16 frames: one wave travels, another rises and falls."""
+    scene = Scene()
+    scene.add("pool", box((-1, -0.8, -1), (1, 2, 1)).inside_out(), lambertian((0.35, 0.5, 0.52)))
+    # Above the camera, where waves do not mirror it into the picture.
+    scene.add("lamp", ceiling(-0.28, 0.28, 0.5, 0.98, 1.99), lamp(75))
+    flat = water(1.02, 32)  # reaches into the walls
+    travelling = (14, 7, 0.016)
+    waves = [wave(flat, *travelling, 0), wave(flat, *travelling, -math.pi / 2), wave(flat, -7, 15, 0.009, 0.7)]
+    scene.add("water", flat, glass(0.8, ior=1.33), targets=waves)
+    turns = [2 * math.pi * k / 16 for k in range(16)]
+    scene.animate("water", "weights", [(frame(k), (math.cos(a), math.sin(a), math.cos(a + 1)))
+                                       for k, a in enumerate(turns)])
+    scene.camera((0, 1.5, 0.95), (0, 0, -0.4), degrees=36)
+    return scene
+
+
+def dynamic_camera():
+    """A camera that flies into the Cornell box and around its boxes in 16 frames."""
+    scene = cornell()
+    add_boxes(scene)
+    scene.add("lamp", ceiling(-0.25, 0.25, -0.2, 0.2, 1.99), lamp(40))
+    places = [(0.8 * math.sin(0.13 * k - 0.6), 1.1 + 0.02 * k, 2.9 - 0.13 * k) for k in range(16)]
+    target = (0, 0.8, -0.4)
+    scene.animate("camera", "translation", [(frame(k), place) for k, place in enumerate(places)])
+    scene.animate("camera", "rotation", [(frame(k), rotation_towards(add(target, scaled(place, -1)), (0, 1, 0)))
+                                         for k, place in enumerate(places)])
+    return scene
+
+
 BINARY = (cornell_point, cornell_area, cornell_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
           inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
           glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls,
-          moving_light)
+          moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,
+          dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)
 
 

@@ -1,6 +1,8 @@
 #include "scene/gltf.hpp"
+#include "scene/pose.hpp"
 #include "support/scratch_directory.hpp"
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,6 +53,13 @@ const std::vector<Expected> scenes = {
     {"gloss_only.glb", 26, 3, 1, 0},
     {"shuffled_walls.glb", 4122, 11, 1, 0},
     {"moving_light.glb", 2902, 7, 0, 1},
+    {"dynamic_shi.glb", 1316, 4, 0, 1},
+    {"dynamic_slow_light.glb", 36, 8, 1, 0},
+    {"dynamic_switch.glb", 28, 4, 2, 0},
+    {"dynamic_block.glb", 46, 8, 0, 1},
+    {"dynamic_occluder.glb", 3856, 4, 1, 0},
+    {"dynamic_water.glb", 2062, 3, 1, 0},
+    {"dynamic_camera.glb", 36, 8, 1, 0},
 };
 
 std::set<std::string> scene_files(const fs::path& where) {
@@ -143,6 +152,25 @@ TEST(Assets, BodiesFaceOutwardsAndRoomsInwards) {
                 0.005);
 }
 
+double area(const Scene& scene, const std::string& name) {
+    double sum = 0;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        if (scene.materials[scene.triangle_material[i]].name == name) {
+            const glm::uvec3& t = scene.triangles[i];
+            const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]),
+                c(scene.positions[t.z]);
+            sum += glm::length(glm::cross(b - a, c - a)) / 2;
+        }
+    }
+    return sum;
+}
+
+Scene scene_at_frame(const std::string& file, int frame) {
+    Scene scene = load_gltf(folder / file);
+    move_to(frame / 24.0, scene);
+    return scene;
+}
+
 TEST(Assets, InterpolatedNormalsFaceAsTheirTriangles) {
     for (const char* file : {"cornell_glass.glb", "ring.glb", "smooth_sphere.glb"}) {
         const Scene scene = load_gltf(folder / file);
@@ -212,6 +240,50 @@ TEST(Assets, CamerasLookAtTheirScenes) {
     EXPECT_NEAR(glm::distance(above.up, glm::vec3(0, 0, -1)), 0, 1e-6);
     const Camera slanted = load_gltf(folder / "ring.glb").cameras[0];
     EXPECT_NEAR(glm::distance(slanted.forward, glm::normalize(glm::vec3(0, -4, -2.2f))), 0, 1e-6);
+}
+
+TEST(Assets, LightOfShiGoesAndComesBack) {
+    const std::vector<glm::vec3> places = {{-6, 10, 6}, {-2, 10, 2}, {2, 10, -2}, {6, 10, -6},
+                                           {2, 10, -2}, {-2, 10, 2}, {-6, 10, 6}};
+    for (int frame = 0; frame < 7; ++frame) {
+        const Light light = scene_at_frame("dynamic_shi.glb", frame).lights.at(0);
+        EXPECT_NEAR(glm::distance(light.position, places[std::size_t(frame)]), 0, 1e-5) << frame;
+    }
+}
+
+TEST(Assets, SwitchedLampIsOffForFourFrames) {
+    for (int frame = 0; frame < 12; ++frame) {
+        const Scene scene = scene_at_frame("dynamic_switch.glb", frame);
+        EXPECT_NEAR(area(scene, "switched lamp"), frame < 4 || frame > 7 ? 0.16 : 0, 1e-6) << frame;
+        EXPECT_NEAR(area(scene, "lamp"), 0.36, 1e-6) << frame;
+    }
+}
+
+TEST(Assets, WavesKeepTheirNormalsAndHeights) {
+    for (int frame = 0; frame < 16; ++frame) {
+        const Scene scene = scene_at_frame("dynamic_water.glb", frame);
+        for (const glm::uvec3& t : scene.triangles) {
+            const glm::vec3 edge = scene.positions[t.y] - scene.positions[t.x];
+            const glm::vec3 face = glm::cross(edge, scene.positions[t.z] - scene.positions[t.x]);
+            for (int corner = 0; corner < 3; ++corner) {
+                if (scene.normals[t[corner]] != glm::vec3(0)) {
+                    EXPECT_GT(glm::dot(scene.normals[t[corner]], glm::normalize(face)), 0.95f);
+                    EXPECT_LT(std::abs(scene.positions[t[corner]].y), 0.026f);
+                }
+            }
+        }
+    }
+}
+
+TEST(Assets, CameraFliesIntoTheBox) {
+    for (int frame = 0; frame < 16; ++frame) {
+        const Camera camera = scene_at_frame("dynamic_camera.glb", frame).cameras.at(0);
+        const glm::vec3 target(0, 0.8f, -0.4f);
+        EXPECT_NEAR(glm::distance(camera.forward, glm::normalize(target - camera.position)), 0,
+                    1e-5)
+            << frame;
+        EXPECT_NEAR(camera.position.z, 2.9 - 0.13 * frame, 1e-5) << frame;
+    }
 }
 
 TEST(Assets, AreWhatTheScriptWrites) {
