@@ -53,8 +53,12 @@ struct ChannelReader {
         if (!path || *path != "pointer") {
             return;
         }
-        const json* pointer =
-            find_member(find_extension(target, "KHR_animation_pointer"), "pointer");
+        const json* extension = find_extension(target, "KHR_animation_pointer");
+        if (!extension) {
+            add_note(scene, "channels that move a \"pointer\" which they do not state are ignored");
+            return;
+        }
+        const json* pointer = find_member(extension, "pointer");
         if (!pointer || !pointer->is_string()) {
             source.fail("{} moves a \"pointer\" but has no KHR_animation_pointer that is text",
                         what);
