@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -23,9 +24,9 @@ public:
 
     bool loads() const { return loads_; }
 
-    /// Loading throws Error if the bytes end before the value does.
+    /// Loading throws Error if the bytes end before the value does. Any bytes must be a value.
     template <class T> void value(T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
+        static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
         if (loads_) {
             std::memcpy(&value, take(sizeof(T)), sizeof(T));
         } else {
@@ -46,6 +47,21 @@ public:
         } else {
             add(values.data(), count * sizeof(T));
         }
+    }
+
+    /// A bool must not be loaded as bytes: it has other values than 0 and 1.
+    void flag(bool& flag) {
+        std::uint8_t byte = flag ? 1 : 0;
+        value(byte);
+        flag = byte != 0;
+    }
+
+    template <class T> void optional(std::optional<T>& optional) {
+        bool has_value = optional.has_value();
+        flag(has_value);
+        T contents = optional.value_or(T());
+        value(contents);
+        optional = has_value ? std::optional<T>(contents) : std::nullopt;
     }
 
     void text(std::string& text) {

@@ -166,6 +166,10 @@ void Replacement::put_in_place() {
     path_.clear();
 }
 
+void Replacement::write(std::span<const std::uint8_t> bytes) {
+    write_all(target_, descriptor_, bytes);
+}
+
 void write_atomically(const fs::path& target, std::span<const std::uint8_t> bytes) {
     const Destination destination = resolve(target);
     if (destination.special) {
@@ -173,7 +177,7 @@ void write_atomically(const fs::path& target, std::span<const std::uint8_t> byte
         return;
     }
     Replacement file(target);
-    write_all(target, file.descriptor(), bytes);
+    file.write(bytes);
     file.put_in_place();
 }
 

@@ -31,6 +31,9 @@ public:
     const std::filesystem::path& path() const { return path_; }
     int descriptor() const { return descriptor_; } ///< open for writing
 
+    /// Adds these bytes. Throws Error, for example if the disk is full.
+    void write(std::span<const std::uint8_t> bytes);
+
     /// Renames it to the target; once only. Throws Error, and leaves the target as it was, if that
     /// fails.
     void put_in_place();

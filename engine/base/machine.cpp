@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <span>
 
 #ifdef _WIN32
 #define NOMINMAX

@@ -24,14 +24,6 @@ constexpr std::array<std::string_view, 18> exact_stages{
     "triangle_boxes", "photon_codes", "photon_count",       "photon_leaves", "photon_order",
     "photon_tally",   "query_owners", "ray_refit"};
 
-double longest_animation(const Scene& scene) {
-    double seconds = 0;
-    for (const Animation& animation : scene.animations) {
-        seconds = std::max(seconds, animation.seconds);
-    }
-    return seconds;
-}
-
 RenderResult render_with(Device& device, const Scene& scene, const RenderSettings& settings,
                          MethodTable methods) {
     return render(

@@ -20,7 +20,8 @@ struct BackendComparison {
     double seconds_a = 0, seconds_b = 0; ///< of the second rendering on each backend
 };
 
-/// Renders the scene on each device separately and then on both side by side.
+/// Renders the scene on each device separately and then on both side by side; where meshes move,
+/// also at another moment, which refits the tree.
 BackendComparison compare_backends(Device& a, Device& b, const Scene& scene,
                                    const RenderSettings& settings,
                                    MethodTable methods = builtin_methods());

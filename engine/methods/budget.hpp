@@ -34,10 +34,13 @@ public:
             return done < passes;
         }
         const double now = elapsed();
-        const double last = now - begun_;
-        in_passes_ += last;
+        if (done != counted_) {
+            last_ = now - begun_;
+            in_passes_ += last_;
+            counted_ = done;
+        }
         begun_ = now;
-        return now + last <= *seconds_;
+        return now + last_ <= *seconds_;
     }
 
     /// The expected number of passes of the whole render, after `done` of them.
@@ -57,11 +60,17 @@ public:
 
     /// Saves or loads the time spent so far.
     void persist(Archive& archive) {
+        constexpr double most = 1e9;
         double spent = elapsed();
         archive.value(spent);
-        archive.value(begun_);
         archive.value(in_passes_);
+        archive.value(last_);
+        archive.value(counted_);
         if (archive.loads()) {
+            if (!(spent >= 0 && spent <= most)) {
+                fail("loading a saved state: it has taken {} s", spent);
+            }
+            begun_ = spent;
             start_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(spent));
         }
@@ -73,6 +82,8 @@ private:
     std::optional<double> seconds_;
     Clock::time_point start_ = Clock::now();
     double begun_ = 0, in_passes_ = 0;
+    double last_ = 0;           ///< seconds of the last pass
+    std::uint64_t counted_ = 0; ///< passes in in_passes_
 };
 
 } // namespace argand

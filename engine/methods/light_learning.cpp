@@ -146,8 +146,13 @@ void persist_lights(Archive& archive, RenderContext& context) {
     if (!archive.loads()) {
         return;
     }
-    const std::size_t emitters = learnt.light_table.emitter_weights.size();
-    if (learnt.ray_shares.size() != emitters || learnt.photon_shares.size() != emitters) {
+    const auto are_shares = [&](const std::vector<double>& shares) {
+        return shares.size() == learnt.light_table.emitter_weights.size() &&
+               std::all_of(shares.begin(), shares.end(),
+                           [](double share) { return share >= 0 && share <= 1.001; });
+    };
+    if (!are_shares(learnt.ray_shares) || !are_shares(learnt.photon_shares) ||
+        learnt.record.target_count > most_targets) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
     keep_learnt(context, learnt);

@@ -36,12 +36,12 @@ public:
     void report(RenderStatistics&) const override {}
 
 private:
-    std::uint64_t samples() const { return c_.settings.samples; }
+    std::uint64_t samples() const { return std::max(c_.settings.samples, 1u); }
     /// Of all passes but a last, smaller one.
     std::uint64_t samples_of_pass() const {
         const std::uint64_t spread =
             std::max<std::uint64_t>(samples() / std::max(c_.settings.least_passes, 1u), 1);
-        return std::min<std::uint64_t>(spread, c_.settings.samples_per_pass);
+        return std::min<std::uint64_t>(spread, std::max(c_.settings.samples_per_pass, 1u));
     }
 
     RenderContext& c_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/archive.hpp"
+#include "base/error.hpp"
 #include "device/device.hpp"
 
 namespace argand {

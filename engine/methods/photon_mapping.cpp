@@ -32,6 +32,7 @@ struct PassSplit {
 
 PassSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint64_t most_photons) {
     PassSplit s;
+    most_photons = std::clamp<std::uint64_t>(most_photons, 1, numbers_of_seed);
     const std::uint64_t wanted =
         std::max({std::uint64_t(settings.least_passes), (photons + most_photons - 1) / most_photons,
                   std::uint64_t(1)});
@@ -73,6 +74,30 @@ struct ImageState {
     // Of all passes.
     std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
 };
+
+void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
+    archive.value(bandwidth.radii);
+    archive.value(bandwidth.neighbours);
+    archive.value(bandwidth.smoothing);
+    archive.value(bandwidth.caustic_smoothing);
+    archive.flag(bandwidth.caustics);
+}
+
+void persist_image(Archive& archive, ImageState& image) {
+    archive.value(image.emitted);
+    archive.value(image.split.passes);
+    archive.value(image.split.photons);
+    archive.value(image.split.samples);
+    archive.value(image.flux_unit);
+    persist_bandwidth(archive, image.learnt);
+    persist_bandwidth(archive, image.bandwidth);
+    archive.optional(image.footprint_scale);
+    archive.value(image.mean_footprints);
+    archive.value(image.leaf_size);
+    archive.value(image.passes);
+    archive.value(image.photons_emitted);
+    archive.value(image.photons_stored);
+}
 
 class PhotonMapping : public Method {
 public:
@@ -252,9 +277,11 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
 }
 
 void PhotonMapping::persist(Archive& archive) {
-    archive.value(image_);
+    persist_image(archive, image_);
     const PassSplit& split = image_.split;
-    if (split.passes == 0 || split.photons == 0 || split.samples == 0 ||
+    const std::uint64_t emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
+    if (image_.emitted != emitted || split.passes == 0 || split.photons == 0 ||
+        split.samples == 0 || split.photons < emitted / split.passes ||
         split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1)) {
         fail("loading a saved state: it is not one of photon mapping on '{}'",
              c_.device.info().name);

@@ -43,8 +43,9 @@ struct RenderSettings {
     std::uint64_t photons_per_pass = 1 << 18;
     /// Maximum for one pass of a method without photons, at least 1. The image is the same.
     std::uint32_t samples_per_pass = 0xffffffff;
-    /// Passes over which the image is spread at least, if it has as many samples and photons: a
-    /// shutter (session/shutter.hpp) gives each pass a moment of its own.
+    /// Passes over which the image is spread at least, but no more than samples (`path`) or
+    /// photons, if there are any: a shutter (session/shutter.hpp) gives each pass a moment of its
+    /// own.
     std::uint32_t least_passes = 1;
     /// Seconds: samples and photons are repeated until then.
     std::optional<double> budget;

@@ -35,6 +35,7 @@ std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
         hash =
             with(with(with(hash, light.intensity), light.inner_cone_angle), light.outer_cone_angle);
     }
+    hash = with(hash, scene.sky.value_or(glm::vec3(0)));
     const Camera& c = scene.cameras[camera];
     hash = with(with(with(with(with(hash, c.kind), c.position), c.right), c.up), c.forward);
     return with(with(hash, c.vertical_angle), c.vertical_extent);

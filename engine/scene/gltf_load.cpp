@@ -52,12 +52,8 @@ Bounds bounds_to_frame(const Scene& scene) {
     if (at_rest.low != at_rest.high) {
         return at_rest;
     }
-    double longest = 0;
-    for (const Animation& animation : scene.animations) {
-        longest = std::max(longest, animation.seconds);
-    }
     Scene moved = scene;
-    move_to(longest / 2, moved);
+    move_to(longest_animation(scene) / 2, moved);
     return bounds(moved);
 }
 

@@ -1,5 +1,6 @@
 #include "scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace argand {
@@ -13,6 +14,14 @@ Bounds bounds(const Scene& scene) {
         }
     }
     return box;
+}
+
+double longest_animation(const Scene& scene) {
+    double seconds = 0;
+    for (const Animation& animation : scene.animations) {
+        seconds = std::max(seconds, animation.seconds);
+    }
+    return seconds;
 }
 
 double area(const Scene& scene, std::size_t triangle) {

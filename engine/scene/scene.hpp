@@ -72,6 +72,9 @@ struct Scene {
 /// Bounding box of the vertices that triangles use; low > high if there are none.
 Bounds bounds(const Scene& scene);
 
+/// Time of the last key of all animations; 0 if there are none.
+double longest_animation(const Scene& scene);
+
 /// Area of a triangle, in double precision.
 double area(const Scene& scene, std::size_t triangle);
 

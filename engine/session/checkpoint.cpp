@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <fstream>
 
 namespace argand {
@@ -27,6 +28,34 @@ struct Header {
 };
 
 std::string name_of(const fs::path& path) { return one_line(path.string()); }
+
+/// The path after symbolic links, which stay links.
+fs::path place_of(const fs::path& path) {
+    std::error_code problem;
+    const bool links = fs::is_symlink(path, problem);
+    return links ? fs::weakly_canonical(path, problem) : path;
+}
+
+enum class Content : std::uint8_t { nothing, checkpoint, other };
+
+/// What a path has, as far as its first bytes and its length tell.
+Content content_of(const fs::path& path) {
+    std::error_code problem;
+    const fs::file_status status = fs::status(path, problem);
+    if (status.type() == fs::file_type::not_found) {
+        return Content::nothing;
+    }
+    if (problem || !fs::is_regular_file(status)) {
+        return Content::other;
+    }
+    Header header;
+    std::ifstream in(path, std::ios::binary);
+    in.read(reinterpret_cast<char*>(&header), sizeof(header));
+    return in && header.start == magic &&
+                   fs::file_size(path, problem) == sizeof(header) + header.length
+               ? Content::checkpoint
+               : Content::other;
+}
 
 /// What follows the header of a checkpoint. Throws Error if the file is not a whole checkpoint.
 std::vector<std::uint8_t> read_contents(const fs::path& path) {
@@ -90,19 +119,19 @@ std::vector<std::uint8_t> state_of(const fs::path& path, std::span<const std::ui
 
 CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
                              const MethodInfo& method, const DeviceInfo& device) {
-    CheckpointKey key{
-        {"build", program_fingerprint()},
-        {"scene",
-         fmt::format("{} ({:016x})", scene.name, picture_fingerprint(scene, settings.camera))},
-        {"method", settings.method},
-        {"size", fmt::format("{}x{}", settings.width, settings.height)},
-        {"seed", fmt::format("{}", settings.seed)},
-        {"backend", device.backend},
-        {"device", fmt::format("{}, {}", device.name, device.driver)},
-        {"budget", settings.budget ? "set" : "not set"},
-        {"largest pass", fmt::format("{} photons, {} samples", settings.photons_per_pass,
-                                     settings.samples_per_pass)},
-        {"--everything", settings.everything ? "on" : "off"}};
+    CheckpointKey key{{"build", program_fingerprint()},
+                      {"scene", fmt::format("{} ({:016x})", scene.name,
+                                            picture_fingerprint(scene, settings.camera))},
+                      {"method", settings.method},
+                      {"size", fmt::format("{}x{}", settings.width, settings.height)},
+                      {"seed", fmt::format("{}", settings.seed)},
+                      {"backend", device.backend},
+                      {"device", fmt::format("{}, {}", device.name, device.driver)},
+                      {"budget", settings.budget ? "given" : "none"},
+                      {"division into passes",
+                       fmt::format("{} photons, {} samples, {} passes", settings.photons_per_pass,
+                                   settings.samples_per_pass, settings.least_passes)},
+                      {"--everything", settings.everything ? "on" : "off"}};
     for (const Option& option : method.options) {
         key.emplace_back("--" + option.name, option.get(settings));
     }
@@ -110,23 +139,25 @@ CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
 }
 
 fs::path older_checkpoint(const fs::path& path) {
-    fs::path older = path;
+    fs::path older = place_of(path);
     older += ".old";
     return older;
 }
 
 void check_checkpoint_writable(const fs::path& path) {
     check_writable(path);
-    std::error_code problem;
-    if (fs::exists(path, problem) && fs::file_size(path, problem) > 0) {
-        std::array<std::uint8_t, magic.size()> start{};
-        std::ifstream(path, std::ios::binary)
-            .read(reinterpret_cast<char*>(start.data()), start.size());
-        if (start != magic) {
-            fail("writing the checkpoint '{}': there is another file of that name, which is not a "
-                 "checkpoint; choose another name",
-                 name_of(path));
-        }
+    const fs::path older = older_checkpoint(path);
+    const Content last = content_of(place_of(path)), before = content_of(older);
+    // A damaged checkpoint gives way if there is the one before it.
+    if (last == Content::other && before != Content::checkpoint) {
+        fail("writing the checkpoint '{}': there is something else of that name; choose another "
+             "name",
+             name_of(path));
+    }
+    if (before == Content::other) {
+        fail("writing the checkpoint '{}': it would replace '{}', which is something else; choose "
+             "another name",
+             name_of(path), name_of(older));
     }
 }
 
@@ -141,19 +172,20 @@ void save_checkpoint(const fs::path& path, CheckpointKey key, std::vector<std::u
     header.length = contents.size();
     header.checksum = fingerprint(contents);
     std::memcpy(bytes.data(), &header, sizeof(header));
-    // The last checkpoint gives way only once the new one is on disk.
-    fs::path newer = path;
-    newer += ".new";
-    write_atomically(newer, bytes);
+    // The last checkpoint gives way only once the new one is on disk. A damaged one must not take
+    // the place of the one before it.
+    Replacement file(path);
+    file.write(bytes);
+    const fs::path place = place_of(path);
     std::error_code problem;
-    if (fs::exists(path, problem)) {
-        fs::rename(path, older_checkpoint(path), problem);
+    if (content_of(place) == Content::checkpoint) {
+        fs::rename(place, older_checkpoint(path), problem);
     }
-    fs::rename(newer, path, problem);
     if (problem) {
         fail("writing the checkpoint '{}': {}; check the folder's permissions", name_of(path),
              problem.message());
     }
+    file.put_in_place();
 }
 
 LoadedCheckpoint load_checkpoint(const fs::path& path, const CheckpointKey& key) {
@@ -162,8 +194,7 @@ LoadedCheckpoint load_checkpoint(const fs::path& path, const CheckpointKey& key)
         contents = read_contents(path);
     } catch (const Error& damaged) {
         const fs::path older = older_checkpoint(path);
-        std::error_code problem;
-        if (!fs::exists(older, problem)) {
+        if (content_of(older) != Content::checkpoint) {
             throw;
         }
         return {.state = state_of(older, read_contents(older), key),

@@ -20,15 +20,16 @@ using CheckpointKey = std::vector<std::pair<std::string, std::string>>;
 CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
                              const MethodInfo& method, const DeviceInfo& device);
 
-/// The second to last checkpoint, beside the last.
+/// The second to last checkpoint, beside the last (after symbolic links).
 std::filesystem::path older_checkpoint(const std::filesystem::path& path);
 
-/// Throws the Error that save_checkpoint() would throw, as far as it can be known beforehand: the
-/// path cannot be written to, or holds a file that is not a checkpoint.
+/// Throws Error if save_checkpoint() would fail, as far as that can be known beforehand, or would
+/// replace anything but checkpoints.
 void check_checkpoint_writable(const std::filesystem::path& path);
 
-/// Writes the state of a session (Session::save()). The checkpoint that was there before becomes
-/// the older one. Whatever happens, one whole checkpoint stays. Throws Error if it cannot write.
+/// Writes the state of a session (Session::save()). The checkpoint that was there before, if it is
+/// whole, becomes the older one. Whatever happens, one whole checkpoint stays. Throws Error if it
+/// cannot write.
 void save_checkpoint(const std::filesystem::path& path, CheckpointKey key,
                      std::vector<std::uint8_t> state);
 

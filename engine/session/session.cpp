@@ -1,5 +1,6 @@
 #include "session/session.hpp"
 
+#include "base/error.hpp"
 #include "methods/light_learning.hpp"
 #include "methods/plan_render.hpp"
 #include "world/world.hpp"
@@ -77,9 +78,15 @@ void Session::persist(Archive& archive) {
 void Session::resume(std::span<const std::uint8_t> state, std::uint32_t seed) {
     prepare(seed);
     Archive archive(state);
-    persist(archive);
-    if (!archive.at_end()) {
-        fail("loading a saved state: it is longer than that of '{}'", settings_.method);
+    try {
+        persist(archive);
+        if (!archive.at_end()) {
+            fail("loading a saved state: it is longer than that of '{}'", settings_.method);
+        }
+    } catch (...) {
+        method_ = nullptr;
+        context_.reset();
+        throw;
     }
 }
 
@@ -97,6 +104,9 @@ std::optional<PassPlan> Session::next_pass() {
 }
 
 bool Session::step(const PassPlan& plan, const OnProgress& on_part) {
+    if (passes() > 0) {
+        budget_.start_pass(); // what the caller did since the last one is no part of it
+    }
     const Pass pass{.expected = plan.expected,
                     .numbers = streams_.next(plan.stream, method_->passes_per_seed())};
     const bool finished = method_->pass(pass, on_part);

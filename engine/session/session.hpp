@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace argand {
@@ -48,6 +49,8 @@ public:
     /// All that later passes of the image depend on. Not after an interrupted pass, which is not
     /// whole. Waits for the device.
     std::vector<std::uint8_t> save();
+
+    // The following need an image: begin_frame() or resume().
 
     /// The next pass of the image that the settings request, with their photons, samples and
     /// budget. None: the image is complete.

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "image/mean.hpp"
 #include "image/metrics.hpp"
 #include "methods/method_info.hpp"
 #include "scene/fingerprint.hpp"
@@ -52,7 +53,8 @@ double flicker_of(std::span<const Image> images, std::span<const Image> before,
                   const Reference& reference, const Reference& reference_before) {
     const Image a = difference(reference.a, reference_before.a),
                 b = difference(reference.b, reference_before.b);
-    const Image mean = reference.mean();
+    // What is bright in one of the two frames only counts by half its radiance.
+    const Image mean = mean_of(reference.mean(), reference_before.mean());
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t seed = 0; seed < images.size(); ++seed) {
@@ -155,8 +157,9 @@ FrameErrors errors_of(std::uint64_t frame, std::span<const Image> images,
     errors.squared_bias = errors.rel_mse - errors.variance;
     double least = errors.rel_mse;
     for (const auto& [other, truth] : references) {
-        if (other < frame && mean_error(images, truth) < least) {
-            least = mean_error(images, truth);
+        const double error = other < frame ? mean_error(images, truth) : least;
+        if (error < least) {
+            least = error;
             errors.lag = frame - other;
         }
     }
@@ -183,7 +186,8 @@ std::optional<FilmReferences> film_references(const OpenDevice& open, const Dyna
         const Scene scene = load_gltf(film.file.string(), time_of(film, frame));
         const std::filesystem::path file =
             folder / fmt::format("{}_{}_{}x{}_{}_{:016x}.exr", film.name, frame, settings.width,
-                                 settings.height, samples, picture_fingerprint(scene, settings.camera));
+                                 settings.height, samples,
+                                 picture_fingerprint(scene, settings.camera));
         Reference& reference = references[frame];
         if (std::filesystem::exists(file)) {
             reference = reread_reference(file);

@@ -30,13 +30,15 @@ struct FrameErrors {
     double rel_mse = 0;
     double variance = 0;     ///< between seeds
     double squared_bias = 0; ///< relMSE without the variance; around 0 it may be negative
-    /// relMSE of the change from the frame before; none if that has no reference.
+    /// relMSE of the change from the frame before, relative to the mean of both truths; none if
+    /// that frame has no reference.
     std::optional<double> flicker;
-    /// Frames by which the image is late: the truth at `frame - lag` is the nearest to it.
+    /// Frames by which the image is late: of the truths up to this frame that are known, that of
+    /// `frame - lag` is the nearest to it.
     std::uint64_t lag = 0;
 };
 
-/// What a frame of a film took, as means over its seeds.
+/// What a frame of a film took, as means over its seeds (bytes: of the first seed).
 struct MeasuredFrame {
     std::uint64_t frame = 0;
     double seconds = 0;        ///< from the moved scene to the image

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sys/stat.h>
 
 namespace argand::testing {
 namespace {
@@ -79,6 +80,37 @@ TEST_F(Checkpoints, AreReplacedByTheOlderOneWhereTheyAreDamaged) {
     expect_error(std::string(long_render) + "-o no.exr --resume c.old", "it is damaged");
 }
 
+TEST_F(Checkpoints, FollowLinksAndReplaceDamagedOnes) {
+    ASSERT_EQ(run(std::string(long_render) + "-o whole.exr --checkpoint c --every 0").exit_code, 0);
+    std::filesystem::create_directory(file("far"));
+    std::filesystem::create_symlink("far/c", file("link"));
+    ASSERT_EQ(run("-o no.exr --checkpoint link").exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(file("link")));
+    EXPECT_TRUE(std::filesystem::is_regular_file(file("far/c")));
+    // The newest is damaged from its first byte on; the one before it stays until there is another.
+    const std::string older = read_text(file("c.old"));
+    std::ofstream(file("c")) << "Ar";
+    ASSERT_EQ(run(std::string(long_render) + "-o resumed.exr --checkpoint c --resume c").exit_code,
+              0);
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("resumed.exr")));
+    EXPECT_EQ(read_text(file("c.old")), older);
+    EXPECT_EQ(run(std::string(long_render) + "-o resumed.exr --resume c").exit_code, 0);
+}
+
+TEST_F(Checkpoints, KeepTheTimeOfABudget) {
+    const std::string render_in_time = "render '" + asset("cornell_glass.glb") +
+                                       "' --size 12x12 --spp 4 -q --method photons --photons "
+                                       "200000 --budget 1.5 --json r.json ";
+    ASSERT_EQ(argand(render_in_time + "-o a.exr --checkpoint c", on_host).exit_code, 0);
+    const auto passes = [&] {
+        return nlohmann::json::parse(read_text(file("r.json")))["passes"].get<int>();
+    };
+    const int before = passes();
+    ASSERT_EQ(argand(render_in_time + "-o b.exr --resume c", on_host).exit_code, 0);
+    EXPECT_EQ(passes(), before); // its time is over
+    EXPECT_EQ(read_text(file("a.exr")), read_text(file("b.exr")));
+}
+
 TEST_F(Checkpoints, OfOtherRendersAreRefused) {
     ASSERT_EQ(run("-o whole.exr --photons 1000 --checkpoint c").exit_code, 0);
     const std::string kept = read_text(file("c"));
@@ -101,9 +133,17 @@ TEST_F(Checkpoints, OfOtherRendersAreRefused) {
 
 TEST_F(Checkpoints, RefuseWhatTheyCannotDo) {
     std::ofstream(file("notes.txt")) << "do not lose me";
-    expect_error("-o no.exr --checkpoint notes.txt", "which is not a checkpoint");
+    expect_error("-o no.exr --checkpoint notes.txt", "there is something else of that name");
     EXPECT_EQ(read_text(file("notes.txt")), "do not lose me");
     expect_error("-o no.exr --resume notes.txt", "it is not a checkpoint");
+    std::ofstream(file("c.old")) << "nor me";
+    expect_error("-o no.exr --checkpoint c", "which is something else");
+    EXPECT_EQ(read_text(file("c.old")), "nor me");
+    ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+    expect_error("-o no.exr --checkpoint pipe", "there is something else of that name");
+    expect_error("-o no.exr --checkpoint " + std::string(253, 'x'), "xxx");
+    expect_error("-o no.exr --checkpoint d --json d.old", "it would replace 'd.old'", usage);
+    expect_error("-o no.exr --resume d --json d", "it would replace 'd'", usage);
     expect_error("-o no.exr --resume missing", "there is no such file");
     expect_error("-o no.exr --checkpoint folder/c", "folder");
     expect_error("-o no.exr --every 3", "it needs --checkpoint", usage);
@@ -127,6 +167,7 @@ TEST_F(Checkpoints, AreSavedWhenARenderIsInterrupted) {
     EXPECT_NE(std::system(command.c_str()), -1);
     ASSERT_TRUE(std::filesystem::exists(file("c")));
     ASSERT_TRUE(std::filesystem::exists(file("part.exr")));
+    EXPECT_NE(read_text(file("whole.exr")), read_text(file("part.exr")));
     ASSERT_EQ(run(passes + "-o resumed.exr --resume c").exit_code, 0);
     EXPECT_EQ(read_text(file("whole.exr")), read_text(file("resumed.exr")));
 }

@@ -22,11 +22,12 @@ RenderSettings small(const std::string& method) {
     return settings;
 }
 
-/// Covers diffuse surfaces with an area light, glass, a metal's caustic, and a spot light; the
-/// other scenes resemble one of these.
+/// Covers diffuse surfaces with an area light, glass, a metal's caustic, a spot light, and a body
+/// that moves; the other scenes resemble one of these.
 bool is_quick(const std::string& scene) {
     const std::string name = scene.substr(0, scene.find('.'));
-    return name == "cornell_area" || name == "cornell_glass" || name == "ring" || name == "spot";
+    return name == "cornell_area" || name == "cornell_glass" || name == "ring" || name == "spot" ||
+           name == "dynamic_block";
 }
 
 std::vector<std::string> scenes_that(bool quick) {
@@ -54,6 +55,10 @@ TEST_P(Backends, AgreeOnEveryStage) {
         const BackendComparison found = compare_backends(device, host_, scene, small(method));
         EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
         EXPECT_GT(found.isolated.size(), 10u);
+        const bool refits =
+            std::any_of(found.isolated.begin(), found.isolated.end(),
+                        [](const StageComparison& stage) { return stage.name == "ray_refit"; });
+        EXPECT_EQ(refits, !scene.motion.meshes.empty());
         for (const StageComparison& stage : found.isolated) {
             // lavapipe and the host round alike.
             const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;

@@ -204,7 +204,8 @@ void add_bench_command(CLI::App& app) {
         ->add_flag("--quick", dynamic.quick,
                    "With --dynamic: small pictures, few photons and two seeds, for a few minutes")
         ->needs(is_dynamic);
-    command->add_flag("--json", options->json, "Print JSON, one object per measurement");
+    command->add_flag("--json", options->json, "Print JSON, one object per measurement")
+        ->excludes(is_dynamic);
     command->footer("Rates are items per second of device time, the median of several runs. The "
                     "bound is the rate that memory\n"
                     "traffic alone would allow at the copy rate of the same run. The peer does the "

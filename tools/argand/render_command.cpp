@@ -77,6 +77,16 @@ void check(const RenderOptions& options, const CLI::App& command) {
     check_method_options(command, options.method(), options.methods);
     check_frames(options, command);
     std::vector<std::string> files{options.scene};
+    for (const std::string& checkpoint : {options.checkpoint, options.resume}) {
+        if (!checkpoint.empty()) {
+            files.push_back(checkpoint);
+            files.push_back(older_checkpoint(checkpoint).string());
+        }
+    }
+    if (!options.checkpoint.empty()) {
+        check_overwrites_none(options.checkpoint, {options.scene});
+        check_overwrites_none(older_checkpoint(options.checkpoint).string(), {options.scene});
+    }
     for (const std::string& output : options.outputs) {
         check_overwrites_none(output, files);
         check_output(options, output);
@@ -85,10 +95,6 @@ void check(const RenderOptions& options, const CLI::App& command) {
     if (!options.report.empty()) {
         check_overwrites_none(options.report, files);
         check_writable(options.report);
-        files.push_back(options.report);
-    }
-    if (!options.checkpoint.empty()) {
-        check_overwrites_none(options.checkpoint, files);
     }
 }
 
@@ -126,7 +132,7 @@ void run(RenderOptions& options, const CLI::App& command) {
 } // namespace
 
 void add_render_command(CLI::App& app, MethodTable methods) {
-    CLI::App* command = app.add_subcommand("render", "Render a scene to PNG and OpenEXR");
+    CLI::App* command = app.add_subcommand("render", "Render a scene to pictures and films");
     auto options = std::make_shared<RenderOptions>(RenderOptions{SceneOptions(), methods});
     RenderSettings& settings = options->settings;
     settings.method = methods.begin()->name;
@@ -178,8 +184,8 @@ void add_render_command(CLI::App& app, MethodTable methods) {
                       "Give each frame noise of its own: frame k has the seed --seed + k");
     command->add_option("--shutter", options->shutter,
                         "Motion blur: a frame sees what happens from OPEN to CLOSE after its "
-                        "moment, in shares of a frame, such as 0:0.5. Each of the --spp samples "
-                        "sees a moment of its own, with its share of the photons");
+                        "moment, in shares of a frame, such as 0:0.5. Each pass sees a moment "
+                        "of its own; there are at least --spp passes, which share the photons");
     command->add_flag("--continue", options->continues,
                       "Leave out frames whose files exist, to go on after an interruption");
     command

@@ -81,6 +81,17 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
             notes.push_back(*loaded.note);
         }
     }
+    bool can_save = !options.checkpoint.empty();
+    const auto save = [&] {
+        try {
+            save_checkpoint(options.checkpoint, key, session.save());
+        } catch (const DeviceFault&) {
+            throw;
+        } catch (const Error& error) { // such as a full disk: the picture is worth more
+            can_save = false;
+            notes.push_back(fmt::format("{}; there are no more checkpoints", error.what()));
+        }
+    };
     std::uint64_t saved = session.passes();
     Clock::time_point last = Clock::now();
     bool stopped = false;
@@ -96,9 +107,9 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
             if (stopped) {
                 plan.reset();
             }
-            if (!options.checkpoint.empty() && so_far.passes > saved &&
+            if (can_save && so_far.passes > saved &&
                 (!plan || seconds_since(last) >= options.every)) {
-                save_checkpoint(options.checkpoint, key, session.save());
+                save();
                 saved = so_far.passes;
                 last = Clock::now();
             }

@@ -2,10 +2,12 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
+#include "base/fingerprint.hpp"
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
 #include "base/machine.hpp"
 #include "base/progress.hpp"
+#include "base/read_file.hpp"
 #include "methods/method_info.hpp"
 
 #include <algorithm>
@@ -36,10 +38,17 @@ DynamicSizes sizes(bool quick) {
                  : DynamicSizes();
 }
 
+std::string contents_of(const std::filesystem::path& file) {
+    const std::vector<std::uint8_t> bytes = read_file(file);
+    return fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes))));
+}
+
 /// What the results of a film depend on.
 Json run_of(const DynamicScene& film, const DynamicSizes& sizes, const DeviceInfo& device,
             MethodTable methods) {
     return {{"film", film.name},
+            {"contents", contents_of(film.file)},
+            {"fps", film.fps},
             {"frames", film.frames},
             {"side", sizes.side},
             {"samples", sizes.samples},
@@ -49,7 +58,8 @@ Json run_of(const DynamicScene& film, const DynamicSizes& sizes, const DeviceInf
             {"methods", methods.names()},
             {"build", program_fingerprint()},
             {"backend", device.backend},
-            {"device", device.name}};
+            {"device", device.name},
+            {"driver", device.driver}};
 }
 
 Json to_json(const std::string& film, const std::string& method, const MeasuredFrame& frame) {
@@ -129,7 +139,7 @@ Json measure(const OpenDevice& open, const DynamicScene& film, const DynamicSize
     settings.photons = sizes.photons;
     const std::filesystem::path folder = options.folder;
     std::optional<Progress> progress;
-    progress.emplace("references of " + film.name, options.quiet);
+    progress.emplace("references of " + film.name);
     progress->update(0);
     const std::optional<FilmReferences> references = film_references(
         open, film, settings, sizes.reference_samples, folder / "references", go_on, methods);
@@ -138,7 +148,7 @@ Json measure(const OpenDevice& open, const DynamicScene& film, const DynamicSize
     }
     Json rows = Json::array();
     for (const MethodInfo& method : methods) {
-        progress.emplace(film.name + " by " + method.name, options.quiet);
+        progress.emplace(film.name + " by " + method.name);
         progress->update(0);
         settings.method = method.name;
         const auto frames =
@@ -160,56 +170,67 @@ std::vector<std::uint64_t> all_frames(std::uint64_t end) {
     return frames;
 }
 
-/// Eight frames in four pairs, for flicker, evenly over a film; all of a film of up to eight.
-std::vector<std::uint64_t> frames_with_references(std::uint64_t frames) {
-    if (frames <= 8) {
+/// So many pairs of successive frames, for flicker, evenly over a film; all of a short film.
+std::vector<std::uint64_t> frames_with_references(std::uint64_t frames, std::uint64_t pairs) {
+    if (frames <= 2 * pairs) {
         return all_frames(frames);
     }
     std::vector<std::uint64_t> chosen;
-    for (std::uint64_t pair = 0; pair < 4; ++pair) {
-        const std::uint64_t second = std::max<std::uint64_t>((pair + 1) * frames / 4 - 1, 1);
+    for (std::uint64_t pair = 0; pair < pairs; ++pair) {
+        const std::uint64_t second = (pair + 1) * frames / pairs - 1;
         chosen.push_back(second - 1);
         chosen.push_back(second);
     }
     return chosen;
 }
 
-} // namespace
+/// A film, and how many times as many samples its references need as those of others.
+struct BenchFilm {
+    DynamicScene scene;
+    std::uint32_t reference_factor = 1;
+};
 
-std::vector<DynamicScene> dynamic_scenes(const std::string& folder, bool quick) {
-    std::vector<DynamicScene> films;
-    const auto add = [&](const char* name, std::uint64_t frames) {
-        films.push_back({.name = name,
-                         .file = std::filesystem::path(folder) / (std::string(name) + ".glb"),
-                         .frames = frames,
-                         .references = frames_with_references(frames)});
+/// The films of the benchmark, in a folder.
+std::vector<BenchFilm> bench_films(const std::string& folder, bool quick) {
+    std::vector<BenchFilm> films;
+    const auto add = [&](const char* name, std::uint64_t frames, std::uint32_t factor = 1) {
+        films.push_back(
+            {.scene = {.name = name,
+                       .file = std::filesystem::path(folder) / (std::string(name) + ".glb"),
+                       .frames = frames,
+                       .references = frames_with_references(frames, quick ? 2 : 4)},
+             .reference_factor = factor});
     };
     add("cornell_glass", quick ? 2 : 8); // nothing moves
     add("dynamic_shi", 7);
     add("dynamic_slow_light", quick ? 8 : 64);
     add("dynamic_switch", 12);
     add("dynamic_block", quick ? 8 : 16);
-    add("dynamic_occluder", quick ? 8 : 16);
-    add("dynamic_water", quick ? 8 : 16);
+    // Paths find caustics by chance.
+    add("dynamic_occluder", quick ? 8 : 16, 4);
+    add("dynamic_water", quick ? 8 : 16, quick ? 16 : 4);
     add("dynamic_camera", quick ? 8 : 16);
     return films;
 }
 
+} // namespace
+
 void bench_dynamic(const OpenDevice& open, const DynamicOptions& options, MethodTable methods) {
-    std::vector<DynamicScene> films = dynamic_scenes(options.scenes, options.quick);
+    std::vector<BenchFilm> films = bench_films(options.scenes, options.quick);
     for (const std::string& name : options.films) {
         if (std::none_of(films.begin(), films.end(),
-                         [&](const DynamicScene& film) { return film.name == name; })) {
+                         [&](const BenchFilm& film) { return film.scene.name == name; })) {
             throw UsageError(fmt::format("measuring '{}': there is no such film", name));
         }
     }
     if (!options.films.empty()) {
-        std::erase_if(films, [&](const DynamicScene& film) {
-            return std::find(options.films.begin(), options.films.end(), film.name) ==
+        std::erase_if(films, [&](const BenchFilm& film) {
+            return std::find(options.films.begin(), options.films.end(), film.scene.name) ==
                    options.films.end();
         });
     }
-    for (const DynamicScene& film : films) {
+    for (const BenchFilm& bench_film : films) {
+        const DynamicScene& film = bench_film.scene;
         if (!std::filesystem::exists(film.file)) {
             fail("measuring '{}': there is no file '{}'; name the folder of this project's scenes "
                  "with --scenes",
@@ -218,10 +239,11 @@ void bench_dynamic(const OpenDevice& open, const DynamicOptions& options, Method
     }
     const std::filesystem::path folder = options.folder;
     std::filesystem::create_directories(folder / "references");
-    const DynamicSizes of_run = sizes(options.quick);
     const DeviceInfo device = open()->info();
     Json all = Json::array();
-    for (const DynamicScene& film : films) {
+    for (const auto& [film, reference_factor] : films) {
+        DynamicSizes of_run = sizes(options.quick);
+        of_run.reference_samples *= reference_factor;
         const std::filesystem::path file = folder / (film.name + ".json");
         const Json run = run_of(film, of_run, device, methods);
         std::optional<Json> rows = read_rows(file, run);
@@ -232,10 +254,8 @@ void bench_dynamic(const OpenDevice& open, const DynamicOptions& options, Method
         all.insert(all.end(), rows->begin(), rows->end());
         write_atomically(folder / "dynamic.csv", csv_of(all));
     }
-    if (!options.quiet) {
-        fmt::print("{}: {} frames of {} films\n", (folder / "dynamic.csv").string(), all.size(),
-                   films.size());
-    }
+    fmt::print("{}: {} frames of {} films\n", (folder / "dynamic.csv").string(), all.size(),
+               films.size());
 }
 
 } // namespace argand

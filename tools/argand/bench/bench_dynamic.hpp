@@ -13,11 +13,7 @@ struct DynamicOptions {
     std::string folder = "argand_dynamic"; ///< for results and references
     std::vector<std::string> films;        ///< names; empty: all
     bool quick = false;
-    bool quiet = false;
 };
-
-/// The films that the benchmark has.
-std::vector<DynamicScene> dynamic_scenes(const std::string& folder, bool quick);
 
 /// Measures the frames of films by every method. Writes for each film FILM.json, and dynamic.csv of
 /// all films in the folder; films that are measured there already are skipped. Throws Error if it
