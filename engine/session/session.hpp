@@ -38,7 +38,8 @@ public:
     void begin_frame(std::uint32_t seed);
 
     /// Follows the scene to another moment within the same image, after World::update(). What was
-    /// learnt for the image stays. A session that is resumed has to be followed there, too.
+    /// learnt for the image stays. A saved state does not hold the moment: follow again after
+    /// resume().
     void follow();
 
     /// Goes on with the image of a session for the same scene, settings and device, from what its
