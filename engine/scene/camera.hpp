@@ -17,6 +17,8 @@ struct Camera {
     float vertical_angle = 0.7853982f; ///< [rad], perspective: full vertical angle of view
     float vertical_extent = 1;         ///< orthographic: half the visible height (glTF ymag)
     float aspect = 0;                  ///< width / height as the file states it; 0: not stated
+
+    bool operator==(const Camera&) const = default;
 };
 
 } // namespace argand

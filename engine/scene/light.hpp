@@ -17,6 +17,8 @@ struct Light {
     glm::vec3 intensity{1};        ///< colour × intensity: [cd] point and spot, [lux] directional
     float inner_cone_angle = 0;    ///< [rad] spot
     float outer_cone_angle = 0.7853982f; ///< [rad] spot
+
+    bool operator==(const Light&) const = default;
 };
 
 } // namespace argand

@@ -17,6 +17,8 @@ Session::Session(World& world, const Scene& scene, const RenderSettings& setting
 /// Makes the memory of the first image, or readies it for another one.
 void Session::prepare(std::uint32_t seed) {
     settings_.seed = seed;
+    complete_.reset();
+    followed_ = false;
     budget_ = Budget(settings_.budget);
     streams_ = Streams(seed);
     statistics_ = {};
@@ -43,7 +45,16 @@ CameraRecord Session::camera() const {
     return camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
 }
 
+Session::Shown Session::now() const {
+    return {world_.revision(), scene_.lights, scene_.sky, scene_.cameras[settings_.camera]};
+}
+
+bool Session::is_current(std::uint32_t seed) const {
+    return complete_ && seed == settings_.seed && *complete_ == now();
+}
+
 void Session::follow() {
+    followed_ = true;
     Device& device = world_.device();
     const DeviceScene before = context_->on_device;
     // What an earlier moment required, this one gets as well: the memory stays of one kind.
@@ -98,12 +109,16 @@ std::vector<std::uint8_t> Session::save() {
 
 std::optional<PassPlan> Session::next_pass() {
     if (passes() > 0 && !budget_.another(passes(), method_->passes())) {
+        if (!statistics_.interrupted && !followed_) {
+            complete_ = now();
+        }
         return std::nullopt;
     }
     return PassPlan{.expected = budget_.expected(passes(), method_->passes())};
 }
 
 bool Session::step(const PassPlan& plan, const OnProgress& on_part) {
+    complete_.reset();
     if (passes() > 0) {
         budget_.start_pass(); // what the caller did since the last one is no part of it
     }

@@ -37,6 +37,10 @@ public:
     /// first pass. Throws Error if the device cannot do it.
     void begin_frame(std::uint32_t seed);
 
+    /// Whether the image is complete and shows the scene as it is now, after World::update(), with
+    /// this seed: begin_frame() would lead to the same image.
+    bool is_current(std::uint32_t seed) const;
+
     /// Follows the scene to another moment within the same image, after World::update(). What was
     /// learnt for the image stays. A saved state does not hold the moment: follow again after
     /// resume().
@@ -81,6 +85,17 @@ private:
     MethodTable methods_;
     std::optional<RenderContext> context_; ///< empty before the first image
     std::unique_ptr<Method> method_;
+    /// What the image shows, beside the settings.
+    struct Shown {
+        std::uint64_t revision = 0; ///< of the world
+        std::vector<Light> lights;
+        std::optional<glm::vec3> sky;
+        Camera camera;
+        bool operator==(const Shown&) const = default;
+    };
+    Shown now() const;
+    std::optional<Shown> complete_; ///< empty before the image is complete
+    bool followed_ = false;         ///< whether the image shows several moments
     Budget budget_;
     Streams streams_;
     RenderStatistics statistics_;

@@ -144,8 +144,9 @@ WorldUpdate World::update(const Scene& scene) {
     for (std::size_t i = 0; i < scene.motion.meshes.size(); ++i) {
         update.refitted = upload_moved(scene, i, update) || update.refitted;
     }
-    if (update.refitted || update.changed_materials > 0) {
+    if (update.uploaded_bytes > 0) {
         areas_.reset();
+        ++revision_;
     }
     if (!update.refitted) {
         return update;

@@ -37,6 +37,9 @@ public:
     /// changes what it holds. Records only.
     DeviceScene on_device(const Scene& scene, const Plan& plan);
 
+    /// How many updates have changed anything.
+    std::uint64_t revision() const { return revision_; }
+
     Device& device() const { return device_; }
 
 private:
@@ -49,6 +52,7 @@ private:
     Buffer positions_, triangles_, materials_;
     Buffer normals_; ///< empty until a plan needs them
     TriangleBvh bvh_;
+    std::uint64_t revision_ = 0;
     double cost_of_build_ = 0; ///< see traversal_cost(); 0: not known yet
 
     /// A moving mesh as it was uploaded last.

@@ -63,6 +63,28 @@ TEST_F(Frames, HaveTheSameBitsWhateverTheyKeep) {
     }
 }
 
+TEST_F(Frames, AreNotRenderedAgainWhereNothingHasChanged) {
+    const std::string options = "render '" + asset("cornell_point.glb") +
+                                "' --size 8x8 --spp 1 --photons 500 -q --frames 0:3 ";
+    ASSERT_EQ(argand(options + "-o f%d.exr --json f.json", on_host).exit_code, 0);
+    EXPECT_TRUE(same("f0.exr", "f1.exr"));
+    EXPECT_TRUE(same("f0.exr", "f2.exr"));
+    const std::vector<nlohmann::json> reports = lines("f.json");
+    ASSERT_EQ(reports.size(), 3u);
+    const auto runs = [&](std::size_t frame) {
+        int all = 0;
+        for (const nlohmann::json& stage : reports[frame]["stages"]) {
+            all += stage["runs"].get<int>();
+        }
+        return all;
+    };
+    EXPECT_GT(runs(0), 10);
+    EXPECT_LE(runs(2), 1); // the look whether anything has moved
+    EXPECT_EQ(reports[2]["photons_emitted"], 500);
+    ASSERT_EQ(argand(options + "-o s%d.exr --seed-per-frame", on_host).exit_code, 0);
+    EXPECT_FALSE(same("s0.exr", "s1.exr"));
+}
+
 TEST_F(Frames, SeeWhatHappensWhileTheirShutterIsOpen) {
     const std::string options = "render '" + asset("moving_light.glb") +
                                 "' --size 8x8 --spp 4 --photons 500 -q --frames 2:4 --fps 2 ";

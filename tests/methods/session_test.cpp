@@ -97,6 +97,53 @@ TEST_P(Sessions, FollowAScenesLightsThatComeAndGo) {
     }
 }
 
+TEST_P(Sessions, KnowWhetherTheirImageIsThatOfTheSceneAsItIs) {
+    Scene scene = moving_scene();
+    World world(device(), scene);
+    Session session(world, scene, settings());
+    const auto is_current = [&] {
+        world.update(scene);
+        return session.is_current(0);
+    };
+    const auto render_frame = [&] {
+        session.begin_frame(0);
+        return finish(session, go_on);
+    };
+    EXPECT_FALSE(is_current());
+    session.begin_frame(0);
+    EXPECT_FALSE(is_current()); // without a pass
+    const RenderResult image = finish(session, go_on);
+    EXPECT_TRUE(is_current());
+    EXPECT_FALSE(session.is_current(1));
+    EXPECT_TRUE(same_bits(finish(session, go_on), image)); // no more passes
+    scene.lights.back().intensity *= 2.0f;
+    EXPECT_FALSE(is_current());
+    render_frame();
+    EXPECT_TRUE(is_current());
+    scene.cameras[0].position.x += 0.01f;
+    EXPECT_FALSE(is_current());
+    render_frame();
+    scene.materials[0].base_color = glm::vec3(0.25f);
+    EXPECT_FALSE(is_current());
+    render_frame();
+    move_to(0.5, scene);
+    EXPECT_FALSE(is_current());
+    render_frame();
+    EXPECT_TRUE(is_current());
+    session.step({}, go_on); // a pass more than the settings request
+    EXPECT_FALSE(is_current());
+    // An image of several moments, or of a part of its passes, is that of no moment.
+    session.begin_frame(0);
+    session.step({}, go_on);
+    session.follow();
+    finish(session, go_on);
+    EXPECT_FALSE(is_current());
+    session.begin_frame(0);
+    session.step({}, [](double) { return false; });
+    session.next_pass();
+    EXPECT_FALSE(is_current());
+}
+
 TEST_P(Sessions, PassesMayBeAddedOneByOne) {
     const Scene scene = load_asset("cornell_glass.glb");
     World world(device(), scene);

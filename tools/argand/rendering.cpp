@@ -124,7 +124,9 @@ RenderResult render_image(RenderJob& job, const OnProgress& on_progress) {
         return render_through(*job.session, *job.world, job.scene, *job.shutter, job.settings.seed,
                               on_progress);
     }
-    job.session->begin_frame(job.settings.seed);
+    if (!job.session->is_current(job.settings.seed)) {
+        job.session->begin_frame(job.settings.seed);
+    }
     return finish(*job.session, on_progress);
 }
 
