@@ -305,6 +305,7 @@ void set_camera(Device& device, EyeWorkspace& w, const CameraRecord& camera) {
 
 void restart(Device& device, EyeWorkspace& w) {
     w.queries.sharing = {};
+    w.traversal.careful = false; // the next image may be easier
     for (const Buffer& part : w.film.parts) {
         device.fill(part, 0);
     }
