@@ -70,11 +70,11 @@ double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
         return learnt;
     }
     // On a lit surface four times as many photons lie within twice the radius. Where they lie
-    // within little more than the radius, they are all in one place elsewhere, such as a closed
-    // lamp, from which they must not leak.
-    constexpr double more = 4, least_growth = 1.2;
-    if (median_radius(first.device, photons, first.queries, more * wanted) <
-        least_growth * learnt) {
+    // within hardly more than the radius, they are all in one place elsewhere, such as a closed
+    // lamp, from which they must not leak. (A caustic is such a place, too, but it is in view.)
+    constexpr double more = 4, least_growth = 1.05;
+    if (photons.caustics == 0 && median_radius(first.device, photons, first.queries,
+                                               more * wanted) < least_growth * learnt) {
         return std::min(largest, unlearnt);
     }
     // A close-up of a small part of a room: discs of that size would hold hardly a photon.
