@@ -61,21 +61,12 @@ double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
         in_disc(first, std::uint64_t(photons.others) + photons.caustics, false, neighbours);
     const double learnt = median_radius(first.device, photons, first.queries, wanted);
     // Without photons, or with all of them at one point, there is nothing to learn from.
-    const double unlearnt = 0.01 * first.scene.record.radius;
     if (!(learnt > 0)) {
-        return unlearnt;
+        return 0.01 * first.scene.record.radius;
     }
     const double largest = largest_radius(first.queries);
     if (learnt <= largest) {
         return learnt;
-    }
-    // On a lit surface four times as many photons lie within twice the radius. Where they lie
-    // within hardly more than the radius, they are all in one place elsewhere, such as a closed
-    // lamp, from which they must not leak. (A caustic is such a place, too, but it is in view.)
-    constexpr double more = 4, least_growth = 1.05;
-    if (photons.caustics == 0 && median_radius(first.device, photons, first.queries,
-                                               more * wanted) < least_growth * learnt) {
-        return std::min(largest, unlearnt);
     }
     // A close-up of a small part of a room: discs of that size would hold hardly a photon.
     constexpr double least_share = 0.1;
