@@ -156,10 +156,7 @@ double area(const Scene& scene, const std::string& name) {
     double sum = 0;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         if (scene.materials[scene.triangle_material[i]].name == name) {
-            const glm::uvec3& t = scene.triangles[i];
-            const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]),
-                c(scene.positions[t.z]);
-            sum += glm::length(glm::cross(b - a, c - a)) / 2;
+            sum += argand::area(scene, i);
         }
     }
     return sum;
