@@ -21,6 +21,16 @@ void put_in_order(UnorderedRecords layout, std::span<std::uint32_t> words) {
     }
 }
 
+bool are_same_records(UnorderedRecords records, std::vector<std::uint32_t> a,
+                      std::vector<std::uint32_t> b) {
+    if (records.stride == 0) {
+        return false;
+    }
+    put_in_order(records, a);
+    put_in_order(records, b);
+    return a == b;
+}
+
 std::uint32_t referred_word(const IndexedWords& words, std::size_t item) {
     const std::uint32_t index = words.indices[item];
     return index < words.targets.size() ? words.targets[index] : UINT32_MAX;

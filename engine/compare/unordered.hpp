@@ -12,6 +12,10 @@ namespace argand {
 /// the buffers of two devices can be compared. Other buffers stay as they are.
 void put_in_order(UnorderedRecords records, std::span<std::uint32_t> words);
 
+/// Whether `a` and `b` hold the same unordered records in any order; false of other buffers.
+bool are_same_records(UnorderedRecords records, std::vector<std::uint32_t> a,
+                      std::vector<std::uint32_t> b);
+
 /// A buffer of indices and the buffer into which they point, see KernelBinding::refers_to.
 struct IndexedWords {
     std::vector<std::uint32_t> indices, targets;

@@ -22,6 +22,14 @@ TEST(Unordered, OtherBuffersStayAsTheyAre) {
     EXPECT_EQ(words, (std::vector<std::uint32_t>{3, 2, 1}));
 }
 
+TEST(Unordered, RecordsAreTheSameInAnyOrder) {
+    const UnorderedRecords pairs{.head = 1, .stride = 2};
+    EXPECT_TRUE(are_same_records(pairs, {9, 1, 2, 3, 4}, {9, 3, 4, 1, 2}));
+    EXPECT_FALSE(are_same_records(pairs, {9, 1, 2, 3, 4}, {8, 3, 4, 1, 2}));
+    EXPECT_FALSE(are_same_records(pairs, {9, 1, 2, 3, 4}, {9, 3, 2, 1, 4}));
+    EXPECT_FALSE(are_same_records({}, {1, 2}, {1, 2})) << "the order of other records counts";
+}
+
 TEST(Unordered, IndicesReferToWordsOrNowhere) {
     const IndexedWords words{{1, 0, UINT32_MAX}, {7, 5}};
     EXPECT_EQ(referred_word(words, 0), 5u);
