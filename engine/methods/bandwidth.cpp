@@ -61,8 +61,9 @@ double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
         in_disc(first, std::uint64_t(photons.others) + photons.caustics, false, neighbours);
     const double learnt = median_radius(first.device, photons, first.queries, wanted);
     // Without photons, or with all of them at one point, there is nothing to learn from.
+    const double unlearnt = 0.01 * first.scene.record.radius;
     if (!(learnt > 0)) {
-        return 0.01 * first.scene.record.radius;
+        return unlearnt;
     }
     const double largest = largest_radius(first.queries);
     if (learnt <= largest) {
@@ -70,8 +71,15 @@ double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
     }
     // A close-up of a small part of a room: discs of that size would hold hardly a photon.
     constexpr double least_share = 0.1;
-    return std::max(largest,
-                    median_radius(first.device, photons, first.queries, least_share * wanted));
+    const double few = median_radius(first.device, photons, first.queries, least_share * wanted);
+    // On a lit surface a tenth of the photons lies within a third of the radius. Where it does not,
+    // all photons are in one place elsewhere, such as a closed lamp, from which they must not leak.
+    // (A caustic is such a place, too, but may be in view.)
+    constexpr double least_growth = 1.1;
+    if (photons.caustics == 0 && learnt < least_growth * few) {
+        return std::min(largest, unlearnt);
+    }
+    return std::max(largest, few);
 }
 
 /// The radii for a picture. That of caustics is measured where caustic photons lie.

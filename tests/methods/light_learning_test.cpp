@@ -56,6 +56,26 @@ TEST_P(LightLearning, SunThatDoesNotComeIn) {
     }
 }
 
+// A lamp in a closed sphere lights nothing: its photons all lie there, far from what is in view.
+TEST_P(LightLearning, LampInAClosedSphere) {
+    Scene scene;
+    const std::uint32_t white = add_material(scene, lambertian(glm::vec3(0.7f)));
+    add_box(scene, {-8, 0, -8}, {8, 6, 8}, white, true);
+    add_box(scene, {-2, 0, -3}, {-1, 2, -2}, white, false);
+    Light lamp;
+    lamp.position = {0.3f, 4, 0.2f};
+    lamp.intensity = glm::vec3(100);
+    scene.lights = {lamp};
+    scene.cameras = {look_at({6, 3, 6}, {-2, 1, -2}, 60)};
+    RenderSettings settings = settings_of(GetParam(), 16, 4);
+    settings.photons = 20'000;
+    const double open = mean(layer(render(scene, settings), "")).g;
+    EXPECT_GT(open, 0.1);
+    // Some facet of the sphere lies in the plane of every surface that it faces.
+    add_sphere(scene, lamp.position, 0.1f, 24, false, white);
+    EXPECT_LT(mean(layer(render(scene, settings), "")).g, 1e-6 * open);
+}
+
 // One room of a row is in view. The others' lamps must not take its samples and photons.
 TEST_P(LightLearning, LampsOfOtherRooms) {
     Scene row = closed_room();
