@@ -160,10 +160,13 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
         b.radii.indirect *= by;
         b.radii.caustic *= by;
     }
-    if (!settings.neighbours && b.neighbours > 0) {
-        b.neighbours =
-            static_cast<std::uint32_t>(std::max(std::round(b.neighbours * by * by), 2.0));
-    }
+    const auto scale_neighbours = [&](std::uint32_t& k, bool is_given) {
+        if (!is_given && k > 0) {
+            k = static_cast<std::uint32_t>(std::max(std::round(k * by * by), 2.0));
+        }
+    };
+    scale_neighbours(b.neighbours, settings.neighbours.has_value());
+    scale_neighbours(b.caustic_neighbours, settings.caustic_neighbours.has_value());
     if (!settings.footprints.fixed_smoothing) {
         b.smoothing *= by;
         b.caustic_smoothing *= by;

@@ -10,9 +10,10 @@ namespace argand {
 
 /// How large the neighbourhoods are in which each pass estimates densities of photons.
 struct Bandwidth {
-    GatherRadii radii;            ///< of the k nearest photons: r_max
-    std::uint32_t neighbours = 0; ///< k; 0: the estimator has none
-    double smoothing = 0;         ///< of footprints; 0: the estimator has none
+    GatherRadii radii;                    ///< of the k nearest photons: r_max
+    std::uint32_t neighbours = 0;         ///< k; 0: the estimator has none
+    std::uint32_t caustic_neighbours = 0; ///< k of caustic photons alone; 0: there is none
+    double smoothing = 0;                 ///< of footprints; 0: the estimator has none
     double caustic_smoothing = 0;
     bool caustics = false; ///< whether there are caustic photons
 };

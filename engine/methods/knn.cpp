@@ -15,16 +15,28 @@ constexpr double typical_over_max = 0.3;
 // r_max over the radius that holds k photons in the median.
 constexpr double reach = 2.5;
 
-/// Density over the disc that the k nearest photons fill (Jensen 1996).
+std::uint32_t automatic_neighbours(double photons, const FirstPass& first, bool caustic) {
+    return static_cast<std::uint32_t>(
+        std::max(std::round(in_disc_of_pass(photons, first.passes, caustic)), 2.0));
+}
+
+/// Density over the disc that the k nearest photons fill (Jensen 1996). Caustic photons have a k
+/// and an r_max of their own, as in Jensen's caustic map: where they counted among the others, the
+/// disc of every point around a caustic reached as far as the caustic, and spread its light.
 class Nearest : public EstimationStrategy {
 public:
     Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const override {
         Bandwidth bandwidth = learn_radii(first, settings, settings.neighbours);
-        const auto stored = static_cast<double>(first.stored.photons);
-        const double automatic = std::max(std::round(in_disc_of_pass(stored, first.passes)), 2.0);
-        bandwidth.neighbours = settings.neighbours.value_or(static_cast<std::uint32_t>(automatic));
-        bandwidth.radii.indirect *= settings.radius ? 1 : reach;
-        bandwidth.radii.caustic = bandwidth.radii.indirect;
+        bandwidth.neighbours =
+            settings.neighbours.value_or(automatic_neighbours(first.photons.others, first, false));
+        if (bandwidth.caustics) {
+            bandwidth.caustic_neighbours = settings.caustic_neighbours.value_or(
+                automatic_neighbours(first.photons.caustics, first, true));
+        }
+        if (!settings.radius) {
+            bandwidth.radii.indirect *= reach;
+            bandwidth.radii.caustic *= reach;
+        }
         return bandwidth;
     }
 
@@ -34,8 +46,9 @@ public:
 
     QuerySharing sharing(const Bandwidth& bandwidth, double cell,
                          bool /*may_part*/) const override {
-        // The nearest photons may be caustic ones, and then very near.
-        return {.cell = cell, .pixel_sized = bandwidth.caustics};
+        return {.cell = cell,
+                .caustics_apart = bandwidth.caustics,
+                .sharp_caustics = bandwidth.radii.caustic < bandwidth.radii.indirect};
     }
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap& map,
@@ -45,7 +58,9 @@ public:
             c.device, c.on_device.plan,
             NearestSettings{.neighbours = bandwidth.neighbours,
                             .radius = bandwidth.radii.indirect,
-                            .samples_per_area = samples_per_area});
+                            .samples_per_area = samples_per_area,
+                            .caustic_neighbours = bandwidth.caustic_neighbours,
+                            .caustic_radius = bandwidth.radii.caustic});
     }
 };
 
@@ -67,6 +82,14 @@ Option neighbours_option() {
     return option;
 }
 
+Option caustic_neighbours_option() {
+    Option option = member_option(
+        "caustic-k", "The same for caustics (default: from the caustic photons stored)",
+        [](RenderSettings & s) -> auto& { return s.caustic_neighbours; }, 1, 0xffffffff);
+    option.fixes_bandwidth = true;
+    return option;
+}
+
 } // namespace
 
 MethodInfo knn_method() {
@@ -75,7 +98,7 @@ MethodInfo knn_method() {
             .paper = "Jensen 1996",
             .abilities = {.photon_map = true},
             .law = photon_mapping_law,
-            .options = all_photon_map_options({neighbours_option()}),
+            .options = all_photon_map_options({neighbours_option(), caustic_neighbours_option()}),
             .make = [](RenderContext& context) {
                 return make_photon_mapping(context, std::make_unique<Nearest>());
             }};

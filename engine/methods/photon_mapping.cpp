@@ -78,6 +78,7 @@ struct ImageState {
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
     archive.value(bandwidth.radii);
     archive.value(bandwidth.neighbours);
+    archive.value(bandwidth.caustic_neighbours);
     archive.value(bandwidth.smoothing);
     archive.value(bandwidth.caustic_smoothing);
     archive.flag(bandwidth.caustics);
@@ -299,6 +300,7 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.radius = image_.bandwidth.radii.indirect;
     statistics.caustic_radius = image_.bandwidth.radii.caustic;
     statistics.neighbours = image_.bandwidth.neighbours;
+    statistics.caustic_neighbours = image_.bandwidth.caustic_neighbours;
     statistics.smoothing = image_.bandwidth.smoothing;
     statistics.mean_footprints = image_.mean_footprints;
     statistics.leaf_size = image_.leaf_size;

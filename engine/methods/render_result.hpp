@@ -28,6 +28,7 @@ struct RenderStatistics {
     double radius = 0;
     double caustic_radius = 0; ///< radius for caustic photons
     std::uint32_t neighbours = 0;
+    std::uint32_t caustic_neighbours = 0;
     double smoothing = 0;
     double mean_footprints = 0;  ///< footprints on a point, if they were spread evenly
     std::uint32_t leaf_size = 0; ///< maximum number of photons in a leaf of the map

@@ -54,6 +54,7 @@ struct RenderSettings {
     std::optional<double> radius; ///< of density estimation, in scene units; `knn`: r_max
     /// k of `knn` in each pass, at least 1; none: from the photons stored.
     std::optional<std::uint32_t> neighbours;
+    std::optional<std::uint32_t> caustic_neighbours; ///< the same for caustic photons
     std::uint32_t seed = 0;
     std::size_t camera = 0;         ///< index into Scene::cameras
     float follow_roughness = 0.25f; ///< glossy lobes up to this roughness are followed from the eye

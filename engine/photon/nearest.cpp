@@ -13,9 +13,14 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
     const StageScope stage(device_, "gather photons");
     const Count& count = queries.count;
     PhotonGatherParams params = gather_params(map, queries, budget_);
-    params.radius = static_cast<float>(settings_.radius);
-    params.neighbours = settings_.neighbours;
-    params.samples_per_area = static_cast<float>(settings_.samples_per_area);
+    if (queries.part == map_caustic && settings_.caustic_neighbours > 0) {
+        params.radius = static_cast<float>(settings_.caustic_radius);
+        params.neighbours = settings_.caustic_neighbours;
+    } else {
+        params.radius = static_cast<float>(settings_.radius);
+        params.neighbours = settings_.neighbours;
+        params.samples_per_area = static_cast<float>(settings_.samples_per_area);
+    }
 
     std::uint64_t number = 0;
     if (queries.until_complete) {

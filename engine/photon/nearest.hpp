@@ -8,6 +8,9 @@ struct NearestSettings {
     std::uint32_t neighbours = 0; ///< k, at least 1
     double radius = 0;            ///< r_max, in the scene's units
     double samples_per_area = 0;  ///< the map's area samples over the area of the surfaces
+    /// k and r_max of queries of the caustic part alone (Jensen's caustic map); k 0: as above.
+    std::uint32_t caustic_neighbours = 0;
+    double caustic_radius = 0;
 };
 
 /// Queries whose states fit into memory at once; with `until_complete` more queries are answered in

@@ -73,11 +73,13 @@ TEST_F(BadInput, OptionsThatTheMethodDoesNotUse) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --method ";
     for (const char* option :
          {"--photons 100", "--radius 0.1", "--query-cell 0.2", "--wide-codes", "--final-gather",
-          "--photon-sampling random", "--leaf-size 8", "--k 50"}) {
+          "--photon-sampling random", "--leaf-size 8", "--k 50", "--caustic-k 50"}) {
         expect_failure(scene + "path " + option, usage, "knn");
         expect_failure(scene + "path " + option, usage, "no effect with --method path");
     }
     expect_failure(scene + "footprints --k 50", usage, "--k");
+    expect_failure(scene + "photons --caustic-k 50", usage, "--caustic-k");
+    expect_failure(scene + "knn --caustic-k 0", usage, "--caustic-k");
     expect_failure(scene + "photons --k 50", usage, "--k");
     for (const char* option :
          {"--smoothing 1", "--caustic-smoothing 1", "--max-footprint 1", "--flatness 0.3",

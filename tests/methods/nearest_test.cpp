@@ -18,6 +18,9 @@ namespace {
 
 constexpr float floor_albedo = 0.5f;
 constexpr std::uint32_t ks[] = {1, 2, 3, 150, 499, 500};
+// Of queries of the caustic part alone.
+constexpr std::uint32_t caustic_k = 20;
+constexpr float caustic_radius = 0.3f;
 
 /// The bits of a photon's squared distance, and its index in the map.
 struct Neighbour {
@@ -134,7 +137,7 @@ protected:
     Answers gather(Device& on, const std::vector<PhotonRecord>& photons,
                    const std::vector<Query>& queries, std::uint32_t k, float radius,
                    std::uint32_t budget = gather_budget, bool careful = true,
-                   std::uint64_t area_samples = 0) {
+                   std::uint64_t area_samples = 0, std::uint32_t part = map_whole) {
         const DeviceScene scene =
             upload_scene(on, floor_scene(lambertian(glm::vec3(floor_albedo)), 1),
                          make_plan({}, {.everything = true}));
@@ -145,10 +148,13 @@ protected:
         NearestEstimator estimator(on, scene.plan,
                                    {.neighbours = k,
                                     .radius = radius,
-                                    .samples_per_area = map.area_samples / scene.surface_area},
+                                    .samples_per_area = map.area_samples / scene.surface_area,
+                                    .caustic_neighbours = caustic_k,
+                                    .caustic_radius = caustic_radius},
                                    budget);
-        const std::vector<Gathered> sums = testing::answers(
-            on, estimator, map, queries, {.until_complete = careful}, answers.finished);
+        const std::vector<Gathered> sums =
+            testing::answers(on, estimator, map, queries, {.until_complete = careful, .part = part},
+                             answers.finished);
         std::vector<NearestRecord> states(queries.size());
         if (careful) {
             states = download<NearestRecord>(on, estimator.states(), queries.size());
@@ -328,6 +334,36 @@ TEST_F(GatherNearest, InterruptedQueriesAndVariantsGiveTheSameBits) {
     for (const DeviceSetting& setting : variant_settings()) {
         SCOPED_TRACE(setting.name);
         expect_same(gather(open(setting), photons, queries, 150, 0.7f, 60'000, true, 5000));
+    }
+}
+
+TEST_F(GatherNearest, CausticPartHasItsOwnNeighbours) {
+    const std::vector<PhotonRecord> photons = floor_photons(10'000);
+    std::vector<PhotonRecord> caustic, others;
+    for (const PhotonRecord& p : photons) {
+        (photon_is_caustic(p.normal) ? caustic : others).push_back(p);
+    }
+    const std::vector<Query> queries = floor_queries(100);
+    const auto expect_alike = [&](const Answers& part, const Answers& alone) {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            EXPECT_NEAR(part.of[i].sums.indirect.g, alone.of[i].sums.indirect.g,
+                        1e-5 * alone.of[i].sums.indirect.g)
+                << i;
+            EXPECT_NEAR(part.of[i].sums.caustic.g, alone.of[i].sums.caustic.g,
+                        1e-5 * alone.of[i].sums.caustic.g)
+                << i;
+        }
+    };
+    // Area samples lie among the other photons, so a caustic's estimate is not corrected.
+    for (const std::uint64_t area_samples : {0u, 5000u}) {
+        SCOPED_TRACE(area_samples);
+        expect_alike(gather(device(), photons, queries, 150, 0.7f, gather_budget, true,
+                            area_samples, map_caustic),
+                     gather(device(), caustic, queries, caustic_k, caustic_radius));
+        expect_alike(
+            gather(device(), photons, queries, 150, 0.7f, gather_budget, true, area_samples,
+                   map_indirect),
+            gather(device(), others, queries, 150, 0.7f, gather_budget, true, area_samples));
     }
 }
 

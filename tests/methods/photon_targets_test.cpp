@@ -2,6 +2,7 @@
 #include "methods/photon_targets.hpp"
 
 #include "rendering.hpp"
+#include "scene/gltf.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,20 @@ TEST_P(PhotonTargets, ASmallBlockThrowsItsCaustic) {
     EXPECT_RELATIVE(static_cast<double>(found.statistics.flux.emitted[1]) *
                         found.statistics.flux.unit,
                     power, 0.02);
+}
+
+// The same photons, so that their noise cancels. Estimates that reach for the caustic from all
+// around it spread its light, and add to it.
+TEST_P(PhotonTargets, EstimatorsKeepTheCausticsLight) {
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/glass_marble.glb");
+    const RenderResult found = render(scene, settings());
+    if (found.statistics.photons_emitted == 0) {
+        return; // no estimator
+    }
+    RenderSettings s = settings();
+    s.method = "photons";
+    const RenderResult discs = render_once("marble, photons", scene, s);
+    EXPECT_RELATIVE(mean(layer(found, "caustic")).g, mean(layer(discs, "caustic")).g, 0.2);
 }
 
 INSTANTIATE_METHODS(PhotonTargets);

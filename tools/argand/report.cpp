@@ -67,6 +67,7 @@ Json parameters_json(const RenderReport& render) {
         {"radius", statistics.radius},
         {"caustic_radius", statistics.caustic_radius},
         {"k", statistics.neighbours},
+        {"caustic_k", statistics.caustic_neighbours},
         {"smoothing", statistics.smoothing},
         {"leaf_size", statistics.leaf_size},
         {"budget", settings.budget ? Json(*settings.budget) : Json()},
