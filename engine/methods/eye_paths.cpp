@@ -257,9 +257,13 @@ EyeBatch batch_of_small_image(const EyeWorkspace& w, const RenderSettings& setti
     return batch;
 }
 
-Buffer camera_of(Device& device, const EyeBatch& batch, const Camera& camera) {
-    const CameraRecord record =
+/// The camera of a small version of the image, with the image's lens.
+Buffer camera_of(Device& device, const EyeBatch& batch, const Camera& camera,
+                 const CameraRecord& of_image) {
+    CameraRecord record =
         camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
+    record.lens_radius = of_image.lens_radius;
+    record.inverse_focus = of_image.inverse_focus;
     return upload<CameraRecord>(device, "camera", std::span(&record, 1));
 }
 
@@ -340,7 +344,7 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
 std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                                       const RenderSettings& settings, const Camera& camera) {
     const EyeBatch batch = batch_of_small_image(w, settings, 48);
-    const Buffer small_image = camera_of(device, batch, camera);
+    const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
     QueryCollector collector(device, batch.pixels);
     const PhotonMap no_map;
     const PhotonLookup lookup{.map = no_map, .estimator = collector};
@@ -359,7 +363,7 @@ FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace
         std::clamp(w.film.pixels() * settings.samples / share_of_image, least_paths, most_paths);
     batch.samples = static_cast<std::uint32_t>(
         std::max<std::uint64_t>(std::min(paths, w.slots) / batch.pixels, 1));
-    const Buffer small_image = camera_of(device, batch, camera);
+    const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
     FoundLights found;
     found.paths_per_pixel = batch.samples;
     trace_paths(device, scene, w, small_image, batch, nullptr, &found.lights);

@@ -56,7 +56,8 @@ MethodInfo path_method() {
             .abilities = {.unbiased = true},
             .options = {with_sweep(samples_option(), {.quick = {"2", "32", "128"},
                                                       .full = {"1", "4", "16", "64", "256"}}),
-                        bounces_option(), with_sweep(follow_roughness_option(), {})},
+                        bounces_option(), with_sweep(follow_roughness_option(), {}),
+                        aperture_option(), focus_option()},
             .make = [](RenderContext& context) -> std::unique_ptr<Method> {
                 return std::make_unique<PathTracing>(context);
             }};

@@ -137,6 +137,11 @@ Option bounces_option() {
     option.get = [](const RenderSettings& settings) {
         return settings.bounces == unlimited_bounces ? "auto" : value_text(settings.bounces);
     };
+    option.set = [](RenderSettings& settings, const std::string& text) {
+        std::optional<std::uint32_t> bounces;
+        read_value("bounces", text, bounces);
+        settings.bounces = bounces.value_or(unlimited_bounces);
+    };
     option.sweep = {.full = {"1", "4"}, .matters = has_estimated_light};
     return option;
 }
@@ -156,13 +161,29 @@ Option follow_roughness_option() {
     return option;
 }
 
+Option aperture_option() {
+    // Its product with 1 / focus, and the square of that, are finite.
+    return member_option(
+        "aperture", "Diameter of the camera's lens, in the scene's units (metres); 0: all is sharp",
+        [](RenderSettings & s) -> auto& { return s.aperture; }, 0, 1e9);
+}
+
+Option focus_option() {
+    return member_option(
+        "focus",
+        "With --aperture: distance along the camera's axis at which the picture is sharp "
+        "(default: that of what is in its middle)",
+        [](RenderSettings & s) -> auto& { return s.focus; }, 1e-9, 1e9);
+}
+
 std::vector<Option> photon_map_options() {
     return {photons_option(),    radius_option(),          query_cell_option(),  leaf_size_option(),
             wide_codes_option(), photon_sampling_option(), final_gather_option()};
 }
 
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {
-    std::vector<Option> options{samples_option(), bounces_option(), follow_roughness_option()};
+    std::vector<Option> options{samples_option(), bounces_option(), follow_roughness_option(),
+                                aperture_option(), focus_option()};
     for (const std::vector<Option>& more : {photon_map_options(), own}) {
         options.insert(options.end(), more.begin(), more.end());
     }

@@ -10,6 +10,8 @@ namespace argand {
 Option samples_option();
 Option bounces_option();
 Option follow_roughness_option();
+Option aperture_option();
+Option focus_option();
 
 /// Of methods with a photon map, in this order: photons, radius, query-cell, leaf-size, wide-codes,
 /// photon-sampling, final-gather.

@@ -1,6 +1,7 @@
 #include "session/session.hpp"
 
 #include "base/error.hpp"
+#include "methods/lens.hpp"
 #include "methods/light_learning.hpp"
 #include "methods/plan_render.hpp"
 #include "world/world.hpp"
@@ -25,7 +26,7 @@ void Session::prepare(std::uint32_t seed) {
     DeviceScene on_device = world_.on_device(scene_, plan_render(scene_, settings_, methods_));
     if (context_ && context_->on_device.plan.required == on_device.plan.required) {
         context_->on_device = std::move(on_device);
-        set_camera(world_.device(), context_->eye, camera());
+        set_camera(world_.device(), context_->eye, camera(context_->on_device));
         restart(world_.device(), context_->eye);
         return;
     }
@@ -36,13 +37,14 @@ void Session::prepare(std::uint32_t seed) {
                                    .settings = settings_,
                                    .on_device = std::move(on_device),
                                    .eye = {}});
-    context_->eye =
-        make_eye_workspace(world_.device(), context_->on_device.plan, settings_, camera());
+    context_->eye = make_eye_workspace(world_.device(), context_->on_device.plan, settings_,
+                                       camera(context_->on_device));
     method_ = methods_.at(settings_.method).make(*context_);
 }
 
-CameraRecord Session::camera() const {
-    return camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
+CameraRecord Session::camera(const DeviceScene& on_device) const {
+    return camera_with_lens(world_.device(), on_device, scene_.cameras[settings_.camera],
+                            settings_);
 }
 
 Session::Shown Session::now() const {
@@ -60,14 +62,16 @@ void Session::follow() {
     // What an earlier moment required, this one gets as well: the memory stays of one kind.
     Plan plan = plan_render(scene_, settings_, methods_);
     plan.required.insert(before.plan.required.begin(), before.plan.required.end());
-    if (plan.required.size() != before.plan.required.size()) {
+    const bool requires_more = plan.required.size() != before.plan.required.size();
+    context_->on_device = world_.on_device(scene_, plan);
+    const CameraRecord view = camera(context_->on_device);
+    if (requires_more) {
         const Film film = context_->eye.film;
         context_->eye = {}; // frees its memory before the new one takes its own
-        context_->eye = make_eye_workspace(device, plan, settings_, camera());
+        context_->eye = make_eye_workspace(device, plan, settings_, view);
         context_->eye.film = film;
     }
-    context_->on_device = world_.on_device(scene_, plan);
-    set_camera(device, context_->eye, camera());
+    set_camera(device, context_->eye, view);
     keep_learnt(*context_, before);
 }
 

@@ -75,7 +75,7 @@ public:
     RenderResult result();
 
 private:
-    CameraRecord camera() const;
+    CameraRecord camera(const DeviceScene& on_device) const;
     void prepare(std::uint32_t seed);
     void persist(Archive& archive);
 

@@ -81,6 +81,10 @@ TEST_F(BadInput, OptionsThatTheMethodDoesNotUse) {
     expect_failure(scene + "photons --caustic-k 50", usage, "--caustic-k");
     expect_failure(scene + "knn --caustic-k 0", usage, "--caustic-k");
     expect_failure(scene + "photons --k 50", usage, "--k");
+    expect_failure(scene + "path --aperture -0.1", usage, "--aperture");
+    expect_failure(scene + "path --aperture nan", usage, "--aperture");
+    expect_failure(scene + "path --aperture 0.1 --focus 0", usage, "--focus");
+    expect_failure(scene + "path --aperture 0.1 --focus near", usage, "--focus");
     for (const char* option :
          {"--smoothing 1", "--caustic-smoothing 1", "--max-footprint 1", "--flatness 0.3",
           "--uniform-kernel", "--fixed-smoothing", "--paper-axes", "--paper-reemission"}) {

@@ -88,6 +88,21 @@ TEST(MethodTable, SweptValuesAreValuesOfTheirOption) {
     }
 }
 
+TEST(Option, WhatTheMethodChoosesCanBeAskedFor) {
+    for (const MethodInfo& method : builtin_methods()) {
+        for (const Option& option : method.options) {
+            RenderSettings settings;
+            if (option.get(settings) == "auto") {
+                SCOPED_TRACE(method.name + " --" + option.name);
+                option.set(settings, value_text(option.low));
+                EXPECT_NE(option.get(settings), "auto");
+                option.set(settings, "auto");
+                EXPECT_EQ(option.get(settings), "auto");
+            }
+        }
+    }
+}
+
 TEST(Option, OnesOfAMethodAloneAreKeptByName) {
     const Option option = own_option("echoes", "How many", OptionKind::integer, "3");
     RenderSettings settings;

@@ -247,9 +247,9 @@ FN bool evaluate_rays(uint function, IN(Arguments) a, INOUT(Values) r) {
         camera.down_y = a.x[12];
         camera.down_z = a.x[13];
         camera.origin_share = a.x[14];
-        camera.pad0 = camera.pad1 = camera.pad2 = float32(0.0);
+        camera.lens_radius = camera.inverse_focus = camera.pad = float32(0.0);
         vec3 origin, direction;
-        camera_ray(camera, number_at(a, 0), number_at(a, 1), origin, direction);
+        camera_ray(camera, number_at(a, 0), number_at(a, 1), vec2(real(0.0)), origin, direction);
         put3(r, 0, origin);
         put3(r, 3, direction);
     } else {

@@ -93,7 +93,7 @@ TEST_F(SharedMaths, TransportAgreesWithTheHost) {
         lights.push_back(l);
     }
     const std::vector<CameraRecord> cameras = {
-        {0, 0, 5, 0, -1, 1, -1, 0, 0.03125f, 0, 0, 0, 0, -0.03125f, 0, 0},
+        {0, 0, 5, 0, -1, 1, -1, 0.1f, 0.03125f, 0, 0, 0.4f, 0, -0.03125f, 0, 0},
         {-2, 2, 5, 1, 0, 0, -1, 0, 0.0625f, 0, 0, 0, 0, -0.0625f, 0, 0}};
     const Buffer results = device.allocate("results", count * sizeof(TransportResult));
     dispatch(device,

@@ -55,9 +55,9 @@ Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 
     return {p.origin, p.direction, p.flux};
 }
 
-Ray camera_ray(const Record& camera, double x, double y) {
+Ray camera_ray(const Record& camera, double x, double y, glm::dvec2 u) {
     Ray ray;
-    oracle::camera_ray(as<CameraRecord>(camera), x, y, ray.origin, ray.direction);
+    oracle::camera_ray(as<CameraRecord>(camera), x, y, u, ray.origin, ray.direction);
     return ray;
 }
 

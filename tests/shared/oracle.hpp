@@ -43,7 +43,7 @@ Emission light_emit(const Record& light, glm::dvec4 u, glm::dvec4 v, glm::dvec3 
 struct Ray {
     glm::dvec3 origin, direction;
 };
-Ray camera_ray(const Record& camera, double x, double y);
+Ray camera_ray(const Record& camera, double x, double y, glm::dvec2 u = {});
 
 struct Surface {
     glm::dvec3 position, geometric_normal, shading_normal;

@@ -31,7 +31,7 @@ FN TransportResult transport_case(IN(MaterialRecord) m, IN(LightRecord) l, IN(Ca
     vec4 v = random4(5u, i, 1u, 0u);
     vec4 x = random4(5u, i, 2u, 0u);
     vec3 eye, direction;
-    camera_ray(c, u.x * real(64.0), u.y * real(48.0), eye, direction);
+    camera_ray(c, u.x * real(64.0), u.y * real(48.0), vec2(v.x, v.y), eye, direction);
 
     vec3 wo = sample_cosine_hemisphere(vec2(u.z, u.w));
     BsdfSample s;

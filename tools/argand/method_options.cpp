@@ -33,6 +33,13 @@ CLI::Validator accepted_values(const Option& option) {
     }
 }
 
+/// The same, and `auto`: the method chooses.
+CLI::Validator or_auto(const CLI::Validator& accepted) {
+    return CLI::Validator(
+        [accepted](std::string& text) { return text == "auto" ? std::string() : accepted(text); },
+        accepted.get_description() + ", or auto");
+}
+
 void add_option(CLI::App& command, RenderSettings& settings, const Option& option) {
     const std::string name = "--" + option.name;
     if (option.kind == OptionKind::flag) {
@@ -43,8 +50,11 @@ void add_option(CLI::App& command, RenderSettings& settings, const Option& optio
     CLI::Option* added = command.add_option_function<std::string>(
         name, [&settings, set = option.set](const std::string& value) { set(settings, value); },
         option.help);
-    added->type_name(type_name(option.kind))->check(accepted_values(option));
-    if (const std::string initially = option.get(settings); initially != "auto") {
+    added->type_name(type_name(option.kind));
+    const std::string initially = option.get(settings);
+    const CLI::Validator accepted = accepted_values(option);
+    added->check(initially == "auto" ? or_auto(accepted) : accepted);
+    if (initially != "auto") {
         added->default_str(initially);
     }
 }

@@ -11,7 +11,8 @@ FN void main() {
     vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u);
     uint row = pixel / batch.width;
     vec3 origin, direction;
-    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, origin, direction);
+    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, vec2(u.z, u.w), origin,
+               direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, 0u);
     paths[slot] = PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index,

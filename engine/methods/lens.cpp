@@ -1,0 +1,47 @@
+#include "methods/lens.hpp"
+
+#include "accel/triangle_bvh.hpp"
+#include "shared/geometry_records.h"
+
+#include <limits>
+#include <vector>
+
+namespace argand {
+
+double middle_distance(Device& device, const DeviceScene& scene, const CameraRecord& camera,
+                       int width, int height) {
+    vec3 origin, direction;
+    pinhole_ray(camera, 0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height), origin,
+                direction);
+    const RayRecord ray{.origin_x = origin.x,
+                        .origin_y = origin.y,
+                        .origin_z = origin.z,
+                        .t_max = far_away,
+                        .direction_x = direction.x,
+                        .direction_y = direction.y,
+                        .direction_z = direction.z};
+    Traversal traversal = make_traversal(device, 1);
+    traversal.careful = true;
+    const Buffer rays = upload(device, "focus ray", std::vector{ray});
+    const Buffer active = upload(device, "focus ray", std::vector<std::uint32_t>{0});
+    const Buffer hits = device.allocate("focus hit", sizeof(HitRecord));
+    trace_closest(device, scene.bvh, traversal,
+                  {.rays = rays, .active = active, .results = hits, .count = 1});
+    const HitRecord hit = download<HitRecord>(device, hits, 1)[0];
+    return hit.triangle == no_triangle ? std::numeric_limits<double>::infinity() : hit.t;
+}
+
+CameraRecord camera_with_lens(Device& device, const DeviceScene& scene, const Camera& camera,
+                              const RenderSettings& settings) {
+    CameraRecord record = camera_record(camera, settings.width, settings.height);
+    if (settings.aperture > 0) {
+        const double focus = settings.focus ? *settings.focus
+                                            : middle_distance(device, scene, record, settings.width,
+                                                              settings.height);
+        record.lens_radius = static_cast<float>(0.5 * settings.aperture);
+        record.inverse_focus = static_cast<float>(1 / focus);
+    }
+    return record;
+}
+
+} // namespace argand
