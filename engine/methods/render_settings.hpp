@@ -56,8 +56,8 @@ struct RenderSettings {
     std::optional<std::uint32_t> neighbours;
     std::optional<std::uint32_t> caustic_neighbours; ///< the same for caustic photons
     std::uint32_t seed = 0;
-    std::size_t camera = 0;         ///< index into Scene::cameras
-    double aperture = 0;            ///< diameter of the camera's lens, in scene units; 0: a pinhole
+    std::size_t camera = 0; ///< index into Scene::cameras
+    double aperture = 0;    ///< diameter of the camera's lens, in scene units; 0: a pinhole
     /// Distance along the camera's axis at which the image is sharp, in scene units; none: that of
     /// what is in the image's middle.
     std::optional<double> focus;
