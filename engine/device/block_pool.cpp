@@ -50,7 +50,8 @@ std::unique_ptr<MemoryBlock> BlockPool::get(const Request& request, const Alloca
 
 std::unique_ptr<MemoryBlock> BlockPool::take(const Request& request) {
     const std::uint64_t least = padded_size(request.bytes);
-    const std::uint64_t most = least + least / 4;
+    const std::uint64_t most =
+        std::max(least + least / 4, std::min(2 * least, request.most_in_all / small_share));
     auto best = free_.end();
     for (auto i = free_.begin(); i != free_.end(); ++i) {
         const MemoryBlock& block = *i->block;

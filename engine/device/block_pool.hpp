@@ -37,7 +37,8 @@ public:
     static constexpr std::uint64_t patience = 4096;
     static constexpr std::size_t most_free = 1024; // Vulkan's drivers allow 4096 allocations
 
-    /// A request that the pool may serve with any block that is at most a quarter larger.
+    /// A request that the pool may serve with any block that is at most a quarter larger, or twice
+    /// as large if that is a small share of the device's memory.
     struct Request {
         std::uint64_t bytes = 0;
         std::uint32_t kind = 0;
@@ -58,6 +59,8 @@ public:
     const BlockUse& use() const { return use_; }
 
 private:
+    static constexpr std::uint64_t small_share = 64;
+
     struct Free {
         std::unique_ptr<MemoryBlock> block;
         std::uint64_t since; ///< requests before it became free

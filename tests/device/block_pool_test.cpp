@@ -62,16 +62,24 @@ TEST_F(FreeBlocks, ServeRequestsOfTheirSize) {
 }
 
 TEST_F(FreeBlocks, ServeNoSmallerNorLargerNorOtherRequest) {
-    std::vector<std::unique_ptr<MemoryBlock>> blocks;
-    pool_.put(get({1'000 * 16}));
-    blocks.push_back(get({1'030 * 16})); // too large for it
-    blocks.push_back(get({700 * 16}));   // too small
-    blocks.push_back(get({1'000 * 16, 1}));
-    EXPECT_EQ(pool_.use().allocations, 4u);
-    EXPECT_EQ(pool_.use().free_bytes, block_size(1'000 * 16, UINT64_MAX));
-    blocks.push_back(get({850 * 16}));
-    EXPECT_EQ(pool_.use().allocations, 4u);
-    EXPECT_EQ(pool_.use().free_bytes, 0u);
+    constexpr std::uint64_t all = 64 * 16'000; // the block is as large as a small share of it
+    const std::uint64_t size = block_size(15'900, UINT64_MAX);
+    EXPECT_EQ(size, 16'384u);
+    const auto serves = [&](std::uint64_t bytes, std::uint32_t kind, std::uint64_t memory) {
+        pool_ = BlockPool();
+        pool_.put(get({15'900}));
+        get({bytes, kind, UINT64_MAX, memory});
+        return pool_.use().allocations == 1;
+    };
+    EXPECT_TRUE(serves(size, 0, UINT64_MAX));
+    EXPECT_FALSE(serves(size + 1, 0, UINT64_MAX));
+    EXPECT_FALSE(serves(size, 1, UINT64_MAX));
+    EXPECT_TRUE(serves(size / 2, 0, UINT64_MAX));
+    EXPECT_FALSE(serves(size / 2 - 16, 0, UINT64_MAX));
+    EXPECT_FALSE(serves(size / 2, 0, all));
+    EXPECT_TRUE(serves(size * 4 / 5 + 16, 0, all));
+    EXPECT_FALSE(serves(size * 4 / 5 - 16, 0, all));
+    EXPECT_TRUE(serves(size / 2, 0, all + 64 * 400));
 }
 
 TEST_F(FreeBlocks, ServeTheBestFit) {
