@@ -21,9 +21,6 @@ struct StageComparison {
     double seconds_b = 0;
 };
 
-/// Contents of memory that was never written.
-inline constexpr std::uint32_t undefined_word = 0xcdcdcdcdu;
-
 /// Compares the items of two buffers and adds the differences to `result`. `layout` has a character
 /// for each word of an item: 'f' for a float, 'u' for anything else. Floats diverge if they differ
 /// by more than `tolerance` relative to the larger one, or to a thousandth of the largest value

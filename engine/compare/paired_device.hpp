@@ -49,6 +49,7 @@ public:
         return a_.memory_by_name();
     }
     MemoryUse memory() const override { return a_.memory(); }
+    BlockUse blocks() const override { return a_.blocks(); }
     std::vector<std::string> validation_messages() const override {
         return a_.validation_messages();
     }

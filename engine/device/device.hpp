@@ -15,6 +15,9 @@
 
 namespace argand {
 
+/// Contents of memory that was never written, in comparisons and with ARGAND_POISON=1.
+inline constexpr std::uint32_t undefined_word = 0xcdcdcdcdu;
+
 /// Device time of a stage, summed over its runs.
 struct StageTime {
     std::string name;
@@ -26,6 +29,13 @@ struct StageTime {
 struct MemoryUse {
     std::uint64_t current = 0;
     std::uint64_t peak = 0;
+};
+
+/// Memory that a device has reserved, in use or not.
+struct BlockUse {
+    std::uint64_t allocations = 0; ///< so far; buffers in the place of earlier ones do not count
+    std::uint64_t bytes = 0;       ///< reserved now
+    std::uint64_t free_bytes = 0;  ///< reserved now, but in no buffer
 };
 
 class Primitives;
@@ -42,8 +52,9 @@ public:
 
     virtual const DeviceInfo& info() const = 0;
 
-    /// Allocates at least `bytes` bytes with undefined contents. Throws Error if the device lacks
-    /// the memory or kernels cannot address that many bytes.
+    /// Allocates at least `bytes` bytes with undefined contents, if possible in the place of a
+    /// buffer that is no longer in use. Throws Error if the device lacks the memory or kernels
+    /// cannot address that many bytes.
     virtual Buffer allocate(std::string name, std::uint64_t bytes) = 0;
     /// Scratch memory: one buffer per name, shared by all callers with that name, and kept as long
     /// as the device. It is at least as large as the largest request. Any later user may overwrite
@@ -91,6 +102,7 @@ public:
 
     virtual const std::map<std::string, MemoryUse>& memory_by_name() const = 0;
     virtual MemoryUse memory() const = 0;
+    virtual BlockUse blocks() const = 0;
 
     /// Messages of the API's validation so far. Validation is on in debug builds or with
     /// ARGAND_VALIDATION=1.

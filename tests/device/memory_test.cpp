@@ -79,5 +79,62 @@ TEST_F(Memory, ErrorsNameTheBufferThatIsTooLarge) {
     EXPECT_EQ(memory.allocate("small", 1 << 19).size(), 1u << 19);
 }
 
+TEST_F(Memory, OfAFreedBufferServesTheNext) {
+    Device& device = open_anew();
+    const auto use = [&](std::uint32_t words) {
+        // Through staging memory and as texels, where the backend has these.
+        const Buffer from = upload(device, "from", std::vector<std::uint32_t>(words, words));
+        const Buffer to = device.allocate("to", std::uint64_t(words) * 4);
+        device.copy(from, to);
+        EXPECT_EQ(download<std::uint32_t>(device, to, words),
+                  std::vector<std::uint32_t>(words, words));
+    };
+    use(100'000);
+    const BlockUse before = device.blocks();
+    EXPECT_GE(before.free_bytes, 800'000u);
+    EXPECT_GE(before.bytes, before.free_bytes);
+    for (const std::uint32_t words : {100'000u, 99'999u, 90'000u, 100'000u}) {
+        use(words);
+    }
+    EXPECT_EQ(device.blocks().allocations, before.allocations);
+    EXPECT_EQ(device.blocks().bytes, before.bytes);
+    EXPECT_EQ(device.memory_by_name().at("to").current, 0u);
+    EXPECT_EQ(device.memory_by_name().at("to").peak, 400'000u);
+    const Buffer kept = device.allocate("kept", 400'000);
+    use(100'000);
+    EXPECT_EQ(device.blocks().allocations, before.allocations + 1);
+}
+
+TEST_F(Memory, FreeBlocksAreReleasedWhereTheDeviceNeedsTheirMemory) {
+    Device& device = open_anew({"", "", "memory=4MiB"});
+    for (const std::uint64_t mebibytes : {1, 2, 3, 4, 1, 3}) {
+        device.allocate("photon map", mebibytes << 20);
+        EXPECT_LE(device.blocks().bytes, 4u << 20);
+    }
+    EXPECT_EQ(device.memory().peak, 4u << 20);
+}
+
+TEST_F(Memory, BuffersMayOutliveTheirDevice) {
+    Buffer buffer;
+    {
+        const std::unique_ptr<Device> device = open_validated({});
+        buffer = device->allocate("heir", 1000);
+        device->fill(buffer, 1);
+        device->wait();
+    }
+    EXPECT_EQ(buffer.size(), 1000u);
+}
+
+TEST_F(Memory, IsFilledWithUndefinedWordsIfPoisoned) {
+    const ScopedEnvironment poison("ARGAND_POISON", "1");
+    Device& device = open_anew();
+    for (int i = 0; i < 2; ++i) {
+        const Buffer buffer = device.allocate("poisoned", 400);
+        EXPECT_EQ(download<std::uint32_t>(device, buffer, 100),
+                  std::vector<std::uint32_t>(100, undefined_word));
+        device.fill(buffer, 7);
+    }
+}
+
 } // namespace
 } // namespace argand

@@ -73,6 +73,7 @@ public:
         return device_.memory_by_name();
     }
     MemoryUse memory() const override { return device_.memory(); }
+    BlockUse blocks() const override { return device_.blocks(); }
     std::vector<std::string> validation_messages() const override {
         return device_.validation_messages();
     }

@@ -16,10 +16,8 @@ constexpr std::size_t most_runs = 512;
 // stride.
 constexpr std::uint64_t indirect_threads = 1u << 20;
 
-CudaBuffer& cuda(const Buffer& buffer) { return static_cast<CudaBuffer&>(*buffer.storage()); }
-
 std::byte* pointer_of(const Buffer& buffer, std::uint64_t offset) {
-    return static_cast<std::byte*>(cuda(buffer).pointer) + offset;
+    return static_cast<std::byte*>(block_of<CudaBlock>(buffer).pointer) + offset;
 }
 
 /// The kernel driver's version followed by a space; empty if unknown.
@@ -48,14 +46,11 @@ void check(cudaError_t result, const std::string& doing, const std::string& devi
     }
 }
 
-CudaBuffer::~CudaBuffer() {
+CudaBlock::~CudaBlock() {
     // cudaFree waits for pending work. It fails after a kernel has failed; that failure was
     // reported before.
     cudaSetDevice(device);
     cudaFree(pointer);
-    if (allocated > 0) {
-        ledger->freed(name, allocated);
-    }
 }
 
 CudaDevice::CudaDevice(DeviceInfo info, int ordinal) : info_(std::move(info)), ordinal_(ordinal) {
@@ -84,23 +79,25 @@ void CudaDevice::make_current() const {
 
 Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
     make_current();
-    check_allocation(info_, *ledger_, name, bytes);
-    auto storage = std::make_shared<CudaBuffer>();
-    storage->name = std::move(name);
-    storage->size = bytes;
-    storage->device = ordinal_;
-    storage->ledger = ledger_;
-    // Kernels read four 32-bit words at a time, even from buffers without elements.
-    const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
-    const cudaError_t result = cudaMalloc(&storage->pointer, rounded);
-    if (result == cudaErrorMemoryAllocation) {
-        cudaGetLastError(); // clear the error so that the next call does not report it
-        fail_out_of_memory(*ledger_, storage->name, bytes);
+    check_allocation(info_, memory_->ledger(), name, bytes);
+    const auto allocate = [&](std::uint64_t size) -> std::unique_ptr<MemoryBlock> {
+        auto block = std::make_unique<CudaBlock>();
+        block->bytes = size;
+        block->device = ordinal_;
+        const cudaError_t result = cudaMalloc(&block->pointer, size);
+        if (result == cudaErrorMemoryAllocation) {
+            cudaGetLastError(); // clear the error so that the next call does not report it
+            return nullptr;
+        }
+        check(result, fmt::format("allocating '{}'", name), info_.name);
+        return block;
+    };
+    // Commands that still use a free block come first in the stream.
+    const Buffer buffer(memory_->allocate(info_, name, bytes, allocate));
+    if (poisons_) {
+        fill(buffer, undefined_word);
     }
-    check(result, fmt::format("allocating '{}'", storage->name), info_.name);
-    storage->allocated = rounded;
-    ledger_->allocated(storage->name, rounded);
-    return Buffer(std::move(storage));
+    return buffer;
 }
 
 void CudaDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "device/device.hpp"
-#include "device/memory_ledger.hpp"
+#include "device/device_memory.hpp"
 #include "device/primitives.hpp"
 
 #include <cuda_runtime_api.h>
@@ -13,13 +13,11 @@ namespace argand::cuda {
 void check(cudaError_t result, const std::string& doing, const std::string& device);
 
 /// Memory of a CUDA device. Its destructor makes that device current.
-struct CudaBuffer final : BufferStorage {
+struct CudaBlock final : MemoryBlock {
     void* pointer = nullptr;
     int device = 0;
-    std::uint64_t allocated = 0; ///< bytes counted in the ledger
-    std::shared_ptr<MemoryLedger> ledger;
 
-    ~CudaBuffer() override;
+    ~CudaBlock() override;
 };
 
 /// CUDA's devices, in CUDA's order; empty if there is no driver, with the reason in `missing`.
@@ -51,9 +49,10 @@ public:
     std::vector<StageTime> stage_times() override;
     void reset_stage_times() override;
     const std::map<std::string, MemoryUse>& memory_by_name() const override {
-        return ledger_->by_name;
+        return memory_->ledger().by_name;
     }
-    MemoryUse memory() const override { return ledger_->total; }
+    MemoryUse memory() const override { return memory_->ledger().total; }
+    BlockUse blocks() const override { return memory_->blocks(); }
     std::vector<std::string> validation_messages() const override { return {}; }
 
 private:
@@ -72,7 +71,8 @@ private:
     DeviceInfo info_;
     int ordinal_;
     cudaStream_t stream_ = nullptr;
-    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
+    std::shared_ptr<DeviceMemory> memory_ = std::make_shared<DeviceMemory>();
+    bool poisons_ = poisons_memory();
     std::unique_ptr<Primitives> primitives_;
     std::vector<StageTime> times_;
     std::vector<StageRun> runs_;

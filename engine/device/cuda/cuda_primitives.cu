@@ -13,7 +13,7 @@ namespace argand::cuda {
 namespace {
 
 template <class T> T* pointer_of(const Buffer& buffer) {
-    return static_cast<T*>(static_cast<CudaBuffer&>(*buffer.storage()).pointer);
+    return static_cast<T*>(block_of<CudaBlock>(buffer).pointer);
 }
 
 /// A sum, and whether a segment starts within the summed elements.

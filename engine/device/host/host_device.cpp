@@ -17,7 +17,7 @@ constexpr std::align_val_t alignment{64};
 // Invocations that a core takes at a time; neighbours, because they read the same memory.
 constexpr std::uint64_t chunk = 64;
 
-HostBuffer& host(const Buffer& buffer) { return static_cast<HostBuffer&>(*buffer.storage()); }
+std::byte* host(const Buffer& buffer) { return block_of<HostBlock>(buffer).data; }
 
 std::uint64_t size_of(const BufferView& view) {
     return view.size > 0 ? view.size : view.buffer->size() - view.offset;
@@ -26,7 +26,7 @@ std::uint64_t size_of(const BufferView& view) {
 TwinArguments twin_arguments(const KernelArguments& arguments) {
     TwinArguments result;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
-        result.buffers[i] = host(*arguments.buffers[i]).bytes + arguments.offsets[i];
+        result.buffers[i] = host(*arguments.buffers[i]) + arguments.offsets[i];
     }
     std::copy(arguments.push.begin(), arguments.push.end(), result.push);
     std::copy(arguments.constants.begin(), arguments.constants.end(), result.constants);
@@ -36,7 +36,7 @@ TwinArguments twin_arguments(const KernelArguments& arguments) {
 } // namespace
 
 std::span<std::uint32_t> words_of(const BufferView& view) {
-    return {reinterpret_cast<std::uint32_t*>(host(*view.buffer).bytes + view.offset),
+    return {reinterpret_cast<std::uint32_t*>(host(*view.buffer) + view.offset),
             size_of(view) / sizeof(std::uint32_t)};
 }
 
@@ -58,32 +58,25 @@ DeviceInfo describe() {
     return info;
 }
 
-HostBuffer::~HostBuffer() {
-    ::operator delete(bytes, alignment);
-    if (allocated > 0) {
-        ledger->freed(name, allocated);
-    }
-}
+HostBlock::~HostBlock() { ::operator delete(data, alignment); }
 
 Buffer HostDevice::allocate(std::string name, std::uint64_t bytes) {
-    check_allocation(info_, *ledger_, name, bytes);
-    auto storage = std::make_shared<HostBuffer>();
-    storage->name = std::move(name);
-    storage->size = bytes;
-    storage->ledger = ledger_;
-    // Kernels read four 32-bit words at a time, even from buffers without elements.
-    const std::uint64_t rounded = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
-    storage->bytes = static_cast<std::byte*>(::operator new(rounded, alignment, std::nothrow));
-    if (storage->bytes == nullptr) {
-        fail_out_of_memory(*ledger_, storage->name, bytes);
+    check_allocation(info_, memory_->ledger(), name, bytes);
+    const auto allocate = [](std::uint64_t size) -> std::unique_ptr<MemoryBlock> {
+        auto block = std::make_unique<HostBlock>();
+        block->bytes = size;
+        block->data = static_cast<std::byte*>(::operator new(size, alignment, std::nothrow));
+        return block->data != nullptr ? std::move(block) : nullptr;
+    };
+    const Buffer buffer(memory_->allocate(info_, std::move(name), bytes, allocate));
+    if (poisons_) {
+        fill(buffer, undefined_word);
     }
-    storage->allocated = rounded;
-    ledger_->allocated(storage->name, rounded);
-    return Buffer(std::move(storage));
+    return buffer;
 }
 
 void HostDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
-    std::copy(data.begin(), data.end(), host(to).bytes + offset);
+    std::copy(data.begin(), data.end(), host(to) + offset);
 }
 
 void HostDevice::fill(const BufferView& to, std::uint32_t value) {
@@ -91,7 +84,7 @@ void HostDevice::fill(const BufferView& to, std::uint32_t value) {
 }
 
 void HostDevice::copy(const BufferView& from, const BufferView& to) {
-    std::memmove(host(*to.buffer).bytes + to.offset, host(*from.buffer).bytes + from.offset,
+    std::memmove(host(*to.buffer) + to.offset, host(*from.buffer) + from.offset,
                  std::min(size_of(from), size_of(to)));
 }
 
@@ -113,13 +106,12 @@ void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& argum
 void HostDevice::dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
                                    const Buffer& counts, std::uint32_t count_index) {
     std::uint32_t threads = 0;
-    std::memcpy(&threads, host(counts).bytes + count_index * sizeof(std::uint32_t),
-                sizeof(threads));
+    std::memcpy(&threads, host(counts) + count_index * sizeof(std::uint32_t), sizeof(threads));
     dispatch(kernel, arguments, threads);
 }
 
 void HostDevice::download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
-    std::copy_n(host(from).bytes + offset, data.size(), data.begin());
+    std::copy_n(host(from) + offset, data.size(), data.begin());
 }
 
 void HostDevice::begin_stage(std::string_view name) {

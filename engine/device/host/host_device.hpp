@@ -2,23 +2,21 @@
 
 #include "base/clock.hpp"
 #include "device/device.hpp"
+#include "device/device_memory.hpp"
 #include "device/host/host_primitives.hpp"
-#include "device/memory_ledger.hpp"
 
 #include <memory>
 
 namespace argand::host {
 
 /// Host memory, aligned to a cache line.
-struct HostBuffer final : BufferStorage {
-    std::byte* bytes = nullptr;
-    std::uint64_t allocated = 0; ///< bytes counted in the ledger
-    std::shared_ptr<MemoryLedger> ledger;
+struct HostBlock final : MemoryBlock {
+    std::byte* data = nullptr;
 
-    ~HostBuffer() override;
+    ~HostBlock() override;
 };
 
-/// The 32-bit words of a range of a HostBuffer.
+/// The 32-bit words of a range of a HostDevice's buffer.
 std::span<std::uint32_t> words_of(const BufferView& view);
 
 /// Describes the host's cores as a device.
@@ -48,14 +46,16 @@ public:
     std::vector<StageTime> stage_times() override { return times_; }
     void reset_stage_times() override { times_.clear(); }
     const std::map<std::string, MemoryUse>& memory_by_name() const override {
-        return ledger_->by_name;
+        return memory_->ledger().by_name;
     }
-    MemoryUse memory() const override { return ledger_->total; }
+    MemoryUse memory() const override { return memory_->ledger().total; }
+    BlockUse blocks() const override { return memory_->blocks(); }
     std::vector<std::string> validation_messages() const override { return {}; }
 
 private:
     DeviceInfo info_;
-    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
+    std::shared_ptr<DeviceMemory> memory_ = std::make_shared<DeviceMemory>();
+    bool poisons_ = poisons_memory();
     HostPrimitives primitives_;
     std::vector<StageTime> times_;
     std::string stage_;

@@ -19,7 +19,7 @@ namespace argand::host {
 namespace {
 
 template <class T> std::span<T> elements(const Buffer& buffer, std::uint64_t count) {
-    return {reinterpret_cast<T*>(static_cast<HostBuffer&>(*buffer.storage()).bytes), count};
+    return {reinterpret_cast<T*>(block_of<HostBlock>(buffer).data), count};
 }
 
 std::uint64_t number_of(const Count& count) {

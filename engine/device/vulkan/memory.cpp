@@ -34,56 +34,59 @@ LogicalDevice::~LogicalDevice() {
     }
 }
 
-VulkanBuffer::~VulkanBuffer() {
-    for (const auto& [range, view] : views) {
-        vkDestroyBufferView(device->handle, view, nullptr);
-    }
+VulkanBlock::~VulkanBlock() {
+    destroy_views();
     vkDestroyBuffer(device->handle, buffer, nullptr);
     vkFreeMemory(device->handle, memory, nullptr);
-    if (allocated > 0) {
-        ledger->freed(name, allocated);
+}
+
+void VulkanBlock::destroy_views() {
+    for (const auto& [range, view] : views_) {
+        vkDestroyBufferView(device->handle, view, nullptr);
+    }
+    views_.clear();
+}
+
+void VulkanBlock::prepare(std::uint64_t bytes_in_use) {
+    if (bytes_in_use != bytes_in_use_) {
+        destroy_views();
+        bytes_in_use_ = bytes_in_use;
     }
 }
 
-VkBufferView VulkanBuffer::texels(std::uint64_t offset, std::uint64_t bytes) {
-    VkBufferView& view = views[{offset, bytes}];
+VkBufferView VulkanBlock::texels(std::uint64_t offset, std::uint64_t range) {
+    VkBufferView& view = views_[{offset, range}];
     if (!view) {
         VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
         create.buffer = buffer;
         // Every device supports this format for uniform texel buffers.
         create.format = VK_FORMAT_R32G32B32A32_UINT;
         create.offset = offset;
-        create.range = bytes / 16 * 16;
+        create.range = range / 16 * 16;
         check(vkCreateBufferView(device->handle, &create, nullptr, &view),
               "creating a view of a buffer");
     }
     return view;
 }
 
-std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
-                                              const std::shared_ptr<LogicalDevice>& device,
-                                              const std::shared_ptr<MemoryLedger>& ledger,
-                                              std::string name, std::uint64_t bytes,
-                                              MemoryKind kind) {
-    auto storage = std::make_shared<VulkanBuffer>();
-    storage->name = std::move(name);
-    storage->size = bytes;
-    storage->device = device;
-    storage->ledger = ledger;
+std::unique_ptr<MemoryBlock> allocate_block(VkPhysicalDevice physical,
+                                            const std::shared_ptr<LogicalDevice>& device,
+                                            std::uint64_t bytes, MemoryKind kind) {
+    auto block = std::make_unique<VulkanBlock>();
+    block->device = device;
+    block->bytes = bytes;
 
-    // Buffers without elements are bound too, and Vulkan does not allow size 0. Kernels read four
-    // 32-bit words at a time.
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    create.size = std::max<std::uint64_t>((bytes + 15) & ~std::uint64_t(15), 16);
+    create.size = bytes;
     create.usage = kind == MemoryKind::device
                        ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                              VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT
                        : VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    check(vkCreateBuffer(device->handle, &create, nullptr, &storage->buffer), "creating a buffer");
+    check(vkCreateBuffer(device->handle, &create, nullptr, &block->buffer), "creating a buffer");
 
     VkMemoryRequirements requirements;
-    vkGetBufferMemoryRequirements(device->handle, storage->buffer, &requirements);
+    vkGetBufferMemoryRequirements(device->handle, block->buffer, &requirements);
     constexpr VkMemoryPropertyFlags host =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const std::uint32_t type =
@@ -93,29 +96,27 @@ std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
             : memory_type(physical, requirements.memoryTypeBits, host,
                           kind == MemoryKind::download ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : 0);
     if (type == UINT32_MAX) {
-        fail("allocating '{}': the device has no memory of the kind needed; try another with "
+        fail("allocating {} bytes: the device has no memory of the kind needed; try another with "
              "--device",
-             storage->name);
+             bytes);
     }
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = type;
-    const VkResult result = vkAllocateMemory(device->handle, &allocate, nullptr, &storage->memory);
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        fail_out_of_memory(*ledger, storage->name, bytes);
+    const VkResult result = vkAllocateMemory(device->handle, &allocate, nullptr, &block->memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY ||
+        result == VK_ERROR_TOO_MANY_OBJECTS) {
+        return nullptr;
     }
     check(result, "allocating memory");
-    check(vkBindBufferMemory(device->handle, storage->buffer, storage->memory, 0),
-          "binding memory");
+    check(vkBindBufferMemory(device->handle, block->buffer, block->memory, 0), "binding memory");
     if (kind != MemoryKind::device) {
         void* mapped = nullptr;
-        check(vkMapMemory(device->handle, storage->memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+        check(vkMapMemory(device->handle, block->memory, 0, VK_WHOLE_SIZE, 0, &mapped),
               "mapping memory");
-        storage->mapped = static_cast<std::byte*>(mapped);
+        block->mapped = static_cast<std::byte*>(mapped);
     }
-    storage->allocated = requirements.size;
-    ledger->allocated(storage->name, storage->allocated);
-    return storage;
+    return block;
 }
 
 } // namespace argand::vulkan

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "device/buffer.hpp"
-#include "device/memory_ledger.hpp"
+#include "device/device_memory.hpp"
 #include "device/vulkan/instance.hpp"
 
 #include <map>
@@ -21,26 +20,30 @@ struct LogicalDevice {
 
 enum class MemoryKind : std::uint8_t { device, upload, download };
 
-struct VulkanBuffer final : BufferStorage {
+/// A VkBuffer with memory of its own.
+struct VulkanBlock final : MemoryBlock {
     std::shared_ptr<LogicalDevice> device;
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    std::byte* mapped = nullptr; ///< upload and download buffers only
-    std::uint64_t allocated = 0; ///< bytes counted in the ledger
-    std::shared_ptr<MemoryLedger> ledger;
-    std::map<std::pair<std::uint64_t, std::uint64_t>, VkBufferView> views; ///< by offset and size
+    std::byte* mapped = nullptr; ///< upload and download blocks only
 
-    ~VulkanBuffer() override;
+    ~VulkanBlock() override;
 
     /// A view of a range as rgba32ui texels, created on first use.
     VkBufferView texels(std::uint64_t offset, std::uint64_t bytes);
+    /// Keeps the views for the next buffer only if it is as large as the last one.
+    void prepare(std::uint64_t bytes_in_use);
+
+private:
+    void destroy_views();
+
+    std::map<std::pair<std::uint64_t, std::uint64_t>, VkBufferView> views_; ///< by offset and size
+    std::uint64_t bytes_in_use_ = 0;
 };
 
-/// Throws Error if the device lacks the memory.
-std::shared_ptr<VulkanBuffer> allocate_buffer(VkPhysicalDevice physical,
-                                              const std::shared_ptr<LogicalDevice>& device,
-                                              const std::shared_ptr<MemoryLedger>& ledger,
-                                              std::string name, std::uint64_t bytes,
-                                              MemoryKind kind);
+/// Null if memory has run out.
+std::unique_ptr<MemoryBlock> allocate_block(VkPhysicalDevice physical,
+                                            const std::shared_ptr<LogicalDevice>& device,
+                                            std::uint64_t bytes, MemoryKind kind);
 
 } // namespace argand::vulkan

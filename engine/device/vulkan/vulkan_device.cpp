@@ -16,7 +16,7 @@ constexpr std::uint32_t indirect_slots = 1024;
 constexpr std::uint64_t indirect_slot_bytes = 16;
 constexpr std::uint64_t inline_upload_bytes = 65536; // limit of vkCmdUpdateBuffer
 
-VulkanBuffer& vulkan(const Buffer& buffer) { return static_cast<VulkanBuffer&>(*buffer.storage()); }
+VulkanBlock& vulkan(const Buffer& buffer) { return block_of<VulkanBlock>(buffer); }
 
 std::uint64_t size_of(const BufferView& view) {
     return view.size > 0 ? view.size : view.buffer->size() - view.offset;
@@ -132,9 +132,23 @@ VkCommandBuffer VulkanDevice::commands() {
 }
 
 Buffer VulkanDevice::allocate(std::string name, std::uint64_t bytes) {
-    check_allocation(info_, *ledger_, name, bytes);
-    return Buffer(
-        allocate_buffer(physical_, device_, ledger_, std::move(name), bytes, MemoryKind::device));
+    check_allocation(info_, memory_->ledger(), name, bytes);
+    const Buffer buffer = allocate(std::move(name), bytes, MemoryKind::device);
+    if (poisons_) {
+        fill(buffer, undefined_word);
+    }
+    return buffer;
+}
+
+/// Commands keep their buffers, so free memory is used by none that is pending.
+Buffer VulkanDevice::allocate(std::string name, std::uint64_t bytes, MemoryKind kind) {
+    const auto allocate_one = [&](std::uint64_t size) {
+        return allocate_block(physical_, device_, size, kind);
+    };
+    const Buffer buffer(memory_->allocate(info_, std::move(name), bytes, allocate_one,
+                                          static_cast<std::uint32_t>(kind)));
+    vulkan(buffer).prepare(bytes);
+    return buffer;
 }
 
 void VulkanDevice::barrier_for(std::span<const Use> uses) {
@@ -172,13 +186,12 @@ void VulkanDevice::upload(const Buffer& to, std::uint64_t offset, std::span<cons
         vkCmdUpdateBuffer(commands(), vulkan(to).buffer, offset, data.size(), data.data());
         return;
     }
-    const std::shared_ptr<VulkanBuffer> staging = allocate_buffer(
-        physical_, device_, ledger_, "upload staging", data.size(), MemoryKind::upload);
-    std::memcpy(staging->mapped, data.data(), data.size());
+    const Buffer staging = allocate("upload staging", data.size(), MemoryKind::upload);
+    std::memcpy(vulkan(staging).mapped, data.data(), data.size());
     barrier_for({&use, 1});
     const VkBufferCopy region{0, offset, data.size()};
-    vkCmdCopyBuffer(commands(), staging->buffer, vulkan(to).buffer, 1, &region);
-    recording_->keep_alive.push_back(staging);
+    vkCmdCopyBuffer(commands(), vulkan(staging).buffer, vulkan(to).buffer, 1, &region);
+    recording_->keep_alive.push_back(staging.storage());
 }
 
 void VulkanDevice::fill(const BufferView& to, std::uint32_t value) {
@@ -248,22 +261,26 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
     std::array<VkBufferView, max_bindings> views;
     std::array<VkWriteDescriptorSet, max_bindings> writes;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
-        VulkanBuffer& buffer = vulkan(*arguments.buffers[i]);
-        infos[i] = {buffer.buffer, arguments.offsets[i],
-                    arguments.sizes[i] > 0 ? arguments.sizes[i] : VK_WHOLE_SIZE};
+        const Buffer& buffer = *arguments.buffers[i];
+        VulkanBlock& block = vulkan(buffer);
+        // Not the whole block, which may be larger than the buffer.
+        infos[i] = {block.buffer, arguments.offsets[i],
+                    arguments.sizes[i] > 0 ? arguments.sizes[i]
+                                           : padded_size(buffer.size()) - arguments.offsets[i]};
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         writes[i].pBufferInfo = &infos[i];
         if (kernel.bindings[i].texels) {
-            if (buffer.size / 16 > info_.limits.texels) {
+            if (buffer.size() / 16 > info_.limits.texels) {
                 fail("running kernel {}: '{}' has {} texels, '{}' allows {}; please report this",
-                     kernel.name, buffer.name, buffer.size / 16, info_.name, info_.limits.texels);
+                     kernel.name, buffer.name(), buffer.size() / 16, info_.name,
+                     info_.limits.texels);
             }
-            views[i] = buffer.texels(arguments.offsets[i],
-                                     arguments.sizes[i] > 0 ? arguments.sizes[i]
-                                                            : buffer.size - arguments.offsets[i]);
+            views[i] = block.texels(arguments.offsets[i],
+                                    arguments.sizes[i] > 0 ? arguments.sizes[i]
+                                                           : buffer.size() - arguments.offsets[i]);
             writes[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             writes[i].pTexelBufferView = &views[i];
         }
@@ -381,8 +398,7 @@ void VulkanDevice::download(const Buffer& from, std::uint64_t offset, std::span<
     }
     if (download_staging_.size() < data.size()) {
         wait();
-        download_staging_ = Buffer(allocate_buffer(physical_, device_, ledger_, "download staging",
-                                                   data.size(), MemoryKind::download));
+        download_staging_ = allocate("download staging", data.size(), MemoryKind::download);
     }
     copy(BufferView(from, offset, data.size()), BufferView(download_staging_, 0, data.size()));
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};

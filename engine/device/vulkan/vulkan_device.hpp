@@ -46,9 +46,10 @@ public:
     std::vector<StageTime> stage_times() override;
     void reset_stage_times() override;
     const std::map<std::string, MemoryUse>& memory_by_name() const override {
-        return ledger_->by_name;
+        return memory_->ledger().by_name;
     }
-    MemoryUse memory() const override { return ledger_->total; }
+    MemoryUse memory() const override { return memory_->ledger().total; }
+    BlockUse blocks() const override { return memory_->blocks(); }
     std::vector<std::string> validation_messages() const override;
 
 private:
@@ -63,12 +64,14 @@ private:
     void barrier_for(std::span<const Use> uses);
     void bind(const KernelInfo& kernel, const KernelArguments& arguments);
     VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
+    Buffer allocate(std::string name, std::uint64_t bytes, MemoryKind kind);
     void finish_oldest();
 
     std::shared_ptr<Instance> instance_;
     VkPhysicalDevice physical_;
     DeviceInfo info_;
-    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
+    std::shared_ptr<DeviceMemory> memory_ = std::make_shared<DeviceMemory>();
+    bool poisons_ = poisons_memory();
     std::shared_ptr<LogicalDevice> device_;
     std::uint32_t queue_family_ = 0;
     VkQueue queue_ = VK_NULL_HANDLE;

@@ -1,0 +1,61 @@
+// What later frames of a film may no longer do: allocate memory and compile kernels.
+#include "moving_scene.hpp"
+#include "rendering.hpp"
+#include "support/recording_device.hpp"
+#include "world/world.hpp"
+
+namespace argand::testing {
+namespace {
+
+class Frames : public EveryMethod {
+protected:
+    /// Renders frames at these times, and expects that those from number `settled` on neither
+    /// allocate nor compile.
+    void expect_settled(Scene scene, const std::vector<double>& times, std::size_t settled) {
+        Device& device = open_anew();
+        RecordingDevice recording(device);
+        RenderSettings settings = settings_of(GetParam(), 16, 4);
+        settings.photons = 6'000;
+        settings.photons_per_pass = 3'000;
+        World world(recording, scene);
+        Session session(world, scene, settings);
+        std::uint64_t allocations = 0;
+        std::size_t variants = 0;
+        for (std::size_t frame = 0; frame < times.size(); ++frame) {
+            move_to(times[frame], scene);
+            world.update(scene);
+            session.begin_frame(0); // the memory for photons depends on the seed
+            finish(session, [](double) { return true; });
+            if (frame >= settled) {
+                EXPECT_EQ(device.blocks().allocations, allocations) << frame;
+                EXPECT_EQ(recording.variants().size(), variants) << frame;
+            }
+            allocations = device.blocks().allocations;
+            variants = recording.variants().size();
+        }
+        EXPECT_LE(device.blocks().bytes, 3 * device.memory().peak);
+    }
+};
+
+TEST_P(Frames, AfterTheSecondAllocateAndCompileNothing) {
+    Scene scene = moving_scene();
+    scene.motion.meshes.clear();
+    std::vector<double> times;
+    for (int frame = 0; frame < 8; ++frame) {
+        times.push_back(frame / 8.0);
+    }
+    expect_settled(scene, times, 2);
+}
+
+TEST_P(Frames, AllocateAndCompileNothingForSurfacesAndLightsSeenBefore) {
+    const std::vector<double> again_and_again{0.9, 0.3, 0.6, 0.9, 0.3, 0.6, 0.9};
+    for (const Scene& scene : {moving_scene(), changing_scene()}) {
+        SCOPED_TRACE(scene.name);
+        expect_settled(scene, again_and_again, 4);
+    }
+}
+
+INSTANTIATE_METHODS(Frames);
+
+} // namespace
+} // namespace argand::testing
