@@ -37,6 +37,7 @@ MovingMeshes::MovingMeshes(Device& device, const Scene& scene)
     if (empty()) {
         return;
     }
+    const StageScope stage(device, "upload scene");
     pose_ = pose_of(scene);
     vertices_ = upload(device, "moving vertices", tables_.vertices);
     joints_ = upload(device, "vertex joints", tables_.joints);
@@ -53,6 +54,7 @@ MovingMeshes::MovingMeshes(Device& device, const Scene& scene)
         materials_.push_back(materials_of(scene, mesh));
     }
     // Only the device needs them.
+    tables_.vertices = {};
     tables_.joints = {};
     tables_.offsets = {};
 }
@@ -79,7 +81,8 @@ std::uint64_t MovingMeshes::upload_pose(PoseRecords pose) {
 }
 
 void MovingMeshes::place(const Buffer& positions, const Buffer* normals) {
-    const auto count = static_cast<std::uint32_t>(tables_.vertices.size());
+    const PosedMesh& last = tables_.meshes.back();
+    const std::uint32_t count = last.first_moving_vertex + last.vertices;
     dispatch(device_,
              kernels::pose_vertices{.vertices = vertices_,
                                     .joints = joints_,

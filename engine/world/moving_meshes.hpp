@@ -29,8 +29,8 @@ public:
     /// Uploads a pose. Returns the number of bytes. Records only.
     std::uint64_t upload_pose(PoseRecords pose);
 
-    /// Places the vertices: positions and, unless null, normals; vec4 per vertex of the scene.
-    /// Records only.
+    /// Places the vertices: positions and, unless null, normals; vec4 per vertex of the scene. Not
+    /// if there is no mesh. Records only.
     void place(const Buffer& positions, const Buffer* normals);
 
     /// Bounding box of the vertices that each mesh's triangles use. Waits for the device if they
@@ -45,8 +45,8 @@ private:
     void fetch(std::size_t mesh);
 
     Device& device_;
-    PoseTables tables_;
-    PoseRecords pose_; ///< as it was uploaded last
+    PoseTables tables_; ///< without what only the device needs
+    PoseRecords pose_;  ///< as it was uploaded last
     Buffer vertices_, joints_, offsets_, meshes_, parts_, matrices_, weights_;
     Buffer part_boxes_, no_normals_;
     Buffer positions_;                                  ///< where the vertices were placed

@@ -26,6 +26,14 @@ MatrixRange matrices_of_skin(const Motion& motion, std::size_t skin) {
     return {first, motion.skins[skin].joints.size()};
 }
 
+std::size_t first_matrix_of_nodes(const Motion& motion) {
+    if (motion.skins.empty()) {
+        return 0;
+    }
+    const MatrixRange last = matrices_of_skin(motion, motion.skins.size() - 1);
+    return last.first + last.count;
+}
+
 MatrixRange matrices_of(const Motion& motion, const PoseTables& tables, std::size_t mesh) {
     const int skin = motion.meshes[mesh].skin;
     return skin >= 0 ? matrices_of_skin(motion, static_cast<std::size_t>(skin))
@@ -130,9 +138,7 @@ PoseTables pose_tables(const Scene& scene) {
     const Motion& motion = scene.motion;
     PoseTables tables;
     tables.meshes.reserve(motion.meshes.size());
-    const MatrixRange last = motion.skins.empty()
-                                 ? MatrixRange{0, 0}
-                                 : matrices_of_skin(motion, motion.skins.size() - 1);
+    const std::size_t first_of_nodes = first_matrix_of_nodes(motion);
     std::unordered_map<std::uint32_t, std::uint32_t> matrix_of_node;
     std::size_t weights = 0;
     for (const MovingMesh& mesh : motion.meshes) {
@@ -147,8 +153,7 @@ PoseTables pose_tables(const Scene& scene) {
             add_joints(tables, motion, mesh);
         } else {
             const auto [found, is_new] = matrix_of_node.try_emplace(
-                mesh.node,
-                static_cast<std::uint32_t>(last.first + last.count + tables.nodes.size()));
+                mesh.node, static_cast<std::uint32_t>(first_of_nodes + tables.nodes.size()));
             if (is_new) {
                 tables.nodes.push_back(mesh.node);
             }
@@ -175,6 +180,7 @@ PoseTables pose_tables(const Scene& scene) {
 
 PoseRecords pose_records(const Motion& motion, const PoseTables& tables, const Pose& pose) {
     PoseRecords records;
+    records.matrices.reserve(first_matrix_of_nodes(motion) + tables.nodes.size());
     for (const Skin& skin : motion.skins) {
         for (const glm::dmat4& to_world : joint_transforms(skin, pose)) {
             records.matrices.push_back(record_of(to_world));
