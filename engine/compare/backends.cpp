@@ -18,11 +18,11 @@ namespace argand {
 
 namespace {
 
-constexpr std::array<std::string_view, 18> exact_stages{
+constexpr std::array<std::string_view, 19> exact_stages{
     sort_stage,       scan_stage,     segmented_scan_stage, reduce_stage,    reduce_box_stage,
     compact_stage,    "lbvh_codes",   "code_distances",     "lbvh_fit",      "wide_roots",
     "triangle_boxes", "photon_codes", "photon_count",       "photon_leaves", "photon_order",
-    "photon_tally",   "query_owners", "ray_refit"};
+    "photon_tally",   "query_owners", "ray_refit",          "pose_boxes"};
 
 RenderResult render_with(Device& device, const Scene& scene, const RenderSettings& settings,
                          MethodTable methods) {
@@ -53,7 +53,7 @@ void render_moments(Device& device, const Scene& at_first, const RenderSettings&
     render_moment();
     if (!scene.motion.meshes.empty()) {
         constexpr double share_of_animation = 0.4;
-        move_to(share_of_animation * longest_animation(scene), scene);
+        move_without_vertices(share_of_animation * longest_animation(scene), scene);
         world.update(scene);
         render_moment();
     }

@@ -233,8 +233,8 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, 
     for (const glm::vec4& query : queries) {
         distances.push_back(glm::distance(glm::vec3(query), eye));
     }
-    c_.on_device.areas = sample_areas(c_.device, c_.scene, *scene.photon_areas,
-                                      {eye, reach * median(std::move(distances))});
+    c_.on_device.areas =
+        sample_areas(c_.device, c_.scene, scene, {eye, reach * median(std::move(distances))});
 }
 
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {

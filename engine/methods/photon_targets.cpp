@@ -65,7 +65,8 @@ double natural_share(const LightTable& table, const glm::vec4& sphere) {
 
 } // namespace
 
-std::vector<glm::vec4> caustic_casters(const Scene& scene, float follow_roughness) {
+std::vector<glm::vec4> caustic_casters(const PlacedScene& placed, float follow_roughness) {
+    const Scene& scene = placed.scene;
     std::vector<bool> casts;
     casts.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
@@ -77,7 +78,7 @@ std::vector<glm::vec4> caustic_casters(const Scene& scene, float follow_roughnes
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         if (casts[scene.triangle_material[i]]) {
             for (int k = 0; k < 3; ++k) {
-                const glm::vec3& p = scene.positions[scene.triangles[i][k]];
+                const glm::vec3& p = placed.positions[scene.triangles[i][k]];
                 sets.join(triangle_at.try_emplace({p.x, p.y, p.z}, i).first->second, i);
             }
         }
@@ -106,7 +107,7 @@ void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points) {
     }
     const ViewExtent view = view_extent(points);
     std::vector<glm::vec4> casters =
-        caustic_casters(context.scene, scene.plan.request.follow_roughness);
+        caustic_casters(scene.placed(context.scene), scene.plan.request.follow_roughness);
     const auto distance = [&](const glm::vec4& sphere) {
         return glm::distance(glm::dvec3(sphere), view.middle) - double(sphere.w);
     };

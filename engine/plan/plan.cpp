@@ -87,15 +87,27 @@ void for_each_key(const MovingMaterial& moving, const Material& now, const Add& 
     }
 }
 
-bool is_smooth(const Scene& scene, std::size_t triangle) {
-    const glm::uvec3& t = scene.triangles[triangle];
-    const glm::vec3 none(0);
-    return scene.normals[t.x] != none || scene.normals[t.y] != none || scene.normals[t.z] != none;
+/// For each vertex whether it has a normal: those of moving meshes, at some moment.
+std::vector<bool> vertices_with_normals(const Scene& scene) {
+    const auto is_normal = [](const glm::vec3& normal) { return normal != glm::vec3(0); };
+    std::vector<bool> result(scene.normals.size());
+    std::transform(scene.normals.begin(), scene.normals.end(), result.begin(), is_normal);
+    for (const MovingMesh& mesh : scene.motion.meshes) {
+        for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+            result[mesh.first_vertex + v] =
+                is_normal(mesh.normals[v]) ||
+                std::any_of(mesh.targets.begin(), mesh.targets.end(), [&](const MorphTarget& t) {
+                    return !t.normals.empty() && is_normal(t.normals[v]);
+                });
+        }
+    }
+    return result;
 }
 
 /// Adds the features that surfaces require. Returns whether any has estimated lobes.
 bool add_surfaces(Requirements& requirements, const Scene& scene, const PlanRequest& request) {
     std::vector<bool> seen(scene.materials.size(), false);
+    const std::vector<bool> has_normal = vertices_with_normals(scene);
     bool estimated = false;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const std::uint32_t index = scene.triangle_material[i];
@@ -116,7 +128,8 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const PlanRequ
                 add(material);
             }
         }
-        if (is_smooth(scene, i)) {
+        const glm::uvec3& corners = scene.triangles[i];
+        if (has_normal[corners.x] || has_normal[corners.y] || has_normal[corners.z]) {
             requirements.add(Feature::smooth_normals,
                              "surface of " + named("material", material.name, index));
         }

@@ -72,19 +72,10 @@ glm::dmat4 blended(const std::vector<glm::dmat4>& world_from_mesh, const JointWe
     return sum;
 }
 
-/// For each joint of a skin the transform of vertices that it alone carries.
-std::vector<glm::dmat4> joint_transforms(const Skin& skin, const Pose& pose) {
-    std::vector<glm::dmat4> world_from_mesh;
-    world_from_mesh.reserve(skin.joints.size());
-    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
-        world_from_mesh.push_back(pose.world_from_node[skin.joints[i]] * skin.joint_from_mesh[i]);
-    }
-    return world_from_mesh;
-}
-
-/// Lists the mesh's triangles so that they face the right way under a transform that mirrors, or
-/// does not.
-void orient(MovingMesh& mesh, bool mirrors, Scene& scene) {
+/// Lists the mesh's triangles so that they face the right way under its node's transform. A joint
+/// may mirror as well, but then a triangle's corners may disagree.
+void orient(MovingMesh& mesh, const VertexTransform& of_node, Scene& scene) {
+    const bool mirrors = mesh.skin < 0 && of_node.mirrors;
     for (std::size_t i = 0; mirrors != mesh.mirrored && i < mesh.triangles; ++i) {
         glm::uvec3& triangle = scene.triangles[mesh.first_triangle + i];
         std::swap(triangle.y, triangle.z);
@@ -97,6 +88,33 @@ void check_position(const glm::vec3& position, const char* what, const std::stri
     if (!is_finite(position)) {
         fail("posing '{}': {} '{}' has a position that is not finite", scene.name, what, name);
     }
+}
+
+/// Moves all but meshes.
+void move_the_rest(const Pose& pose, double seconds, Scene& scene) {
+    for (const MovingLight& moving : scene.motion.lights) {
+        Light& light = scene.lights[moving.index] = moving.light;
+        if (moving.keys >= 0) {
+            const LightKeys& keys = scene.motion.light_keys[std::size_t(moving.keys)];
+            set_factors(factors_at(keys, moving.factors, seconds), light);
+        }
+        if (!place(pose.world_from_node[moving.node], light)) {
+            light.intensity = glm::vec3(0);
+        }
+        check_position(light.position, "light", light.name, scene);
+    }
+    for (const MovingCamera& moving : scene.motion.cameras) {
+        Camera& camera = scene.cameras[moving.index] = moving.camera;
+        if (moving.keys >= 0) {
+            set_view(scene.motion.camera_keys[std::size_t(moving.keys)], seconds, camera);
+        }
+        place(pose.world_from_node[moving.node], camera);
+        check_position(camera.position, "camera", camera.name, scene);
+    }
+    for (const MovingMaterial& moving : scene.motion.materials) {
+        set_factors(factors_at(moving, seconds), scene.materials[moving.index]);
+    }
+    scene.seconds = seconds;
 }
 
 } // namespace
@@ -113,6 +131,15 @@ Pose pose_at(const Motion& motion, std::optional<double> seconds) {
             seconds && node.keys.weights ? value_at(*node.keys.weights, *seconds) : node.weights);
     }
     return pose;
+}
+
+std::vector<glm::dmat4> joint_transforms(const Skin& skin, const Pose& pose) {
+    std::vector<glm::dmat4> world_from_mesh;
+    world_from_mesh.reserve(skin.joints.size());
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        world_from_mesh.push_back(pose.world_from_node[skin.joints[i]] * skin.joint_from_mesh[i]);
+    }
+    return world_from_mesh;
 }
 
 std::vector<bool> moving_nodes(const Motion& motion) {
@@ -143,8 +170,7 @@ void place(MovingMesh& mesh, const Pose& pose, Scene& scene) {
         scene.normals[mesh.first_vertex + i] =
             glm::vec3(unit_or_zero(transform.normal * vertex.normal));
     }
-    // A joint may mirror as well, but then a triangle's corners may disagree.
-    orient(mesh, !skin && of_node.mirrors, scene);
+    orient(mesh, of_node, scene);
 }
 
 void move_to(double seconds, Scene& scene) {
@@ -152,29 +178,15 @@ void move_to(double seconds, Scene& scene) {
     for (MovingMesh& mesh : scene.motion.meshes) {
         place(mesh, pose, scene);
     }
-    for (const MovingLight& moving : scene.motion.lights) {
-        Light& light = scene.lights[moving.index] = moving.light;
-        if (moving.keys >= 0) {
-            const LightKeys& keys = scene.motion.light_keys[std::size_t(moving.keys)];
-            set_factors(factors_at(keys, moving.factors, seconds), light);
-        }
-        if (!place(pose.world_from_node[moving.node], light)) {
-            light.intensity = glm::vec3(0);
-        }
-        check_position(light.position, "light", light.name, scene);
+    move_the_rest(pose, seconds, scene);
+}
+
+void move_without_vertices(double seconds, Scene& scene) {
+    const Pose pose = pose_at(scene.motion, seconds);
+    for (MovingMesh& mesh : scene.motion.meshes) {
+        orient(mesh, vertex_transform(pose.world_from_node[mesh.node]), scene);
     }
-    for (const MovingCamera& moving : scene.motion.cameras) {
-        Camera& camera = scene.cameras[moving.index] = moving.camera;
-        if (moving.keys >= 0) {
-            set_view(scene.motion.camera_keys[std::size_t(moving.keys)], seconds, camera);
-        }
-        place(pose.world_from_node[moving.node], camera);
-        check_position(camera.position, "camera", camera.name, scene);
-    }
-    for (const MovingMaterial& moving : scene.motion.materials) {
-        set_factors(factors_at(moving, seconds), scene.materials[moving.index]);
-    }
-    scene.seconds = seconds;
+    move_the_rest(pose, seconds, scene);
 }
 
 } // namespace argand

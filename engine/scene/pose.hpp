@@ -17,6 +17,9 @@ struct Pose {
 /// after its last one, that key's value counts.
 Pose pose_at(const Motion& motion, std::optional<double> seconds);
 
+/// For each joint of a skin the transform to world space of vertices that it alone carries.
+std::vector<glm::dmat4> joint_transforms(const Skin& skin, const Pose& pose);
+
 /// Whether each node's transform to world space changes with time.
 std::vector<bool> moving_nodes(const Motion& motion);
 
@@ -28,5 +31,10 @@ void place(MovingMesh& mesh, const Pose& pose, Scene& scene);
 /// light that its node leaves no direction is dark, a camera looks along −Z. Values beyond the
 /// range of their property are clamped to it. Throws Error if a position is not finite.
 void move_to(double seconds, Scene& scene);
+
+/// The same, but the vertices of meshes stay where they are: a World that is told of the moment
+/// places them on its device, so that the host does nothing per vertex. Of the meshes, only those
+/// change whose triangles turn because their node begins or ceases to mirror.
+void move_without_vertices(double seconds, Scene& scene);
 
 } // namespace argand

@@ -25,7 +25,7 @@ RenderSettings with_pass_per_sample(RenderSettings settings) {
 RenderResult render_through(Session& session, World& world, Scene& scene, const Shutter& shutter,
                             std::uint32_t seed, const OnProgress& on_progress) {
     const auto move = [&](std::uint64_t pass) {
-        move_to(moment_of(shutter, pass, seed), scene);
+        move_without_vertices(moment_of(shutter, pass, seed), scene);
         world.update(scene);
     };
     move(0);

@@ -91,7 +91,7 @@ std::optional<RenderedFilm> render_film(Device& device, const DynamicScene& film
         device.reset_stage_times();
         MeasuredFrame measured{.frame = frame};
         const Clock::time_point start = Clock::now();
-        move_to(time_of(film, frame), scene);
+        move_without_vertices(time_of(film, frame), scene);
         world.update(scene);
         measured.update_seconds = seconds_since(start);
         session.begin_frame(settings.seed);

@@ -28,12 +28,12 @@ struct Piece {
 /// Divides triangles, and keeps the pieces that lie in the sampled part.
 class Pieces {
 public:
-    Pieces(const Scene& scene, const SampledPart& part)
-        : scene_(scene), part_(part), box_(bounds(scene)) {}
+    Pieces(const PlacedScene& placed, const SampledPart& part)
+        : placed_(placed), part_(part), box_(bounds(placed)) {}
 
     void add(std::uint32_t triangle, double area) {
-        const glm::uvec3& t = scene_.triangles[triangle];
-        corners_ = {scene_.positions[t.x], scene_.positions[t.y], scene_.positions[t.z]};
+        const glm::uvec3& t = placed_.scene.triangles[triangle];
+        corners_ = {placed_.positions[t.x], placed_.positions[t.y], placed_.positions[t.z]};
         add({triangle, whole_triangle, area, 0}, triangle_piece(whole_triangle));
     }
 
@@ -66,7 +66,7 @@ private:
         }
     }
 
-    const Scene& scene_;
+    const PlacedScene& placed_;
     const SampledPart& part_;
     Bounds box_;
     std::array<glm::vec3, 3> corners_{};
@@ -74,7 +74,8 @@ private:
 
 } // namespace
 
-std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness) {
+std::vector<double> areas_for_photons(const PlacedScene& placed, float follow_roughness) {
+    const Scene& scene = placed.scene;
     std::vector<bool> stores;
     for (const Material& material : scene.materials) {
         stores.push_back(estimated_lobes(material_record(material), follow_roughness) != 0);
@@ -87,19 +88,19 @@ std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness
         const glm::uvec3& t = scene.triangles[i];
         std::array<std::array<float, 3>, 3> v;
         for (int k = 0; k < 3; ++k) {
-            const glm::vec3& p = scene.positions[t[k]];
+            const glm::vec3& p = placed.positions[t[k]];
             v[static_cast<std::size_t>(k)] = {p.x, p.y, p.z};
         }
         std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
         const bool is_new = there.insert(std::bit_cast<Corners>(v)).second;
-        areas.push_back(is_new && stores[scene.triangle_material[i]] ? area(scene, i) : 0);
+        areas.push_back(is_new && stores[scene.triangle_material[i]] ? area(placed, i) : 0);
     }
     return areas;
 }
 
-AreaTable make_area_table(const Scene& scene, const std::vector<double>& areas,
+AreaTable make_area_table(const PlacedScene& placed, const std::vector<double>& areas,
                           const SampledPart& part) {
-    Pieces pieces(scene, part);
+    Pieces pieces(placed, part);
     for (std::uint32_t i = 0; i < areas.size(); ++i) {
         if (areas[i] > 0) {
             pieces.add(i, areas[i]);

@@ -23,12 +23,12 @@ struct AreaTable {
 
 /// Area of each triangle on which photons may lie: 0 for mirrors, glass and what is black, and 0
 /// for duplicates with the same front, of which rays hit only the first.
-std::vector<double> areas_for_photons(const Scene& scene, float follow_roughness);
+std::vector<double> areas_for_photons(const PlacedScene& placed, float follow_roughness);
 
 /// The table of the surfaces on which photons may lie, whose areas are given by triangle. It
 /// contains all of them that lie within the sampled part, and little else: large triangles are
 /// divided into pieces for that.
-AreaTable make_area_table(const Scene& scene, const std::vector<double>& areas,
+AreaTable make_area_table(const PlacedScene& placed, const std::vector<double>& areas,
                           const SampledPart& part);
 
 } // namespace argand

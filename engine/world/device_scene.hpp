@@ -39,9 +39,16 @@ struct DeviceScene {
     /// Area of each triangle on which photons may lie; null without a photon map.
     std::shared_ptr<const std::vector<double>> photon_areas;
     double surface_area = 0; ///< their sum; 0 without a photon map
+    /// Of all vertices on the host, if meshes move: those of the device, of moving meshes that
+    /// shine or on whose surfaces photons may lie. Others are of an earlier moment.
+    std::shared_ptr<const std::vector<glm::vec3>> moved_positions;
     SampledAreas areas;
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
+    /// The scene with its vertices where they are now.
+    PlacedScene placed(const Scene& of) const {
+        return moved_positions ? PlacedScene(of, *moved_positions) : PlacedScene(of);
+    }
     /// Buffers for the member `scene` of a kernel that shades.
     kernels::SceneBindings bindings() const;
     /// Specialization constants for the member `scene` of its constants.
@@ -51,13 +58,14 @@ struct DeviceScene {
 /// Memory to bind where a kernel does not read its buffer.
 Buffer unneeded(Device& device);
 
-/// The parts of a scene that belong to one render: its lights and how they are chosen.
-/// World::on_device() adds the others. Records only.
-DeviceScene prepare_scene(Device& device, const Scene& scene, const Plan& plan);
+/// Adds the parts of a scene that belong to one render: its lights and how they are chosen. Needs
+/// moved_positions. World::on_device() adds the others. Records only.
+void prepare_scene(Device& device, const Scene& scene, const Bounds& box, const Plan& plan,
+                   DeviceScene& result);
 
 /// Lets area samples lie in a part of the scene only: they can be as dense there as a small radius
-/// requires. areas: of each triangle (areas_for_photons()). Records only.
-SampledAreas sample_areas(Device& device, const Scene& scene, const std::vector<double>& areas,
+/// requires. Needs photon_areas and moved_positions. Records only.
+SampledAreas sample_areas(Device& device, const Scene& scene, const DeviceScene& on_device,
                           const SampledPart& part);
 
 /// Sets the probabilities with which each emitter is chosen for shadow rays and for photons, and

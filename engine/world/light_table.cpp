@@ -41,11 +41,11 @@ LightRecord record_of(const Light& light) {
     return record;
 }
 
-LightRecord record_of(const Scene& scene, std::size_t triangle, const Material& material) {
-    const glm::uvec3& corners = scene.triangles[triangle];
-    const glm::vec3& a = scene.positions[corners.x];
-    const glm::vec3& b = scene.positions[corners.y];
-    const glm::vec3& c = scene.positions[corners.z];
+LightRecord record_of(const PlacedScene& placed, std::size_t triangle, const Material& material) {
+    const glm::uvec3& corners = placed.scene.triangles[triangle];
+    const glm::vec3& a = placed.positions[corners.x];
+    const glm::vec3& b = placed.positions[corners.y];
+    const glm::vec3& c = placed.positions[corners.z];
     LightRecord record{};
     record.kind = light_triangle;
     record.x = a.x;
@@ -117,7 +117,8 @@ void add_light(LightTable& table, const LightRecord& light, float scene_radius) 
 
 } // namespace
 
-LightTable make_light_table(const Scene& scene, float scene_radius) {
+LightTable make_light_table(const PlacedScene& placed, float scene_radius) {
+    const Scene& scene = placed.scene;
     LightTable table;
     for (const Light& light : scene.lights) {
         add_light(table, record_of(light), scene_radius);
@@ -126,7 +127,7 @@ LightTable make_light_table(const Scene& scene, float scene_radius) {
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const Material& material = scene.materials[scene.triangle_material[i]];
         if (emits(material)) {
-            add_light(table, record_of(scene, i, material), scene_radius);
+            add_light(table, record_of(placed, i, material), scene_radius);
         }
     }
     table.triangle_count = static_cast<std::uint32_t>(table.lights.size()) - table.first_triangle;

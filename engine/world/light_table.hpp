@@ -22,7 +22,7 @@ struct LightTable {
 };
 
 /// scene_radius: of the bounding sphere, which determines the power of light from outside.
-LightTable make_light_table(const Scene& scene, float scene_radius);
+LightTable make_light_table(const PlacedScene& placed, float scene_radius);
 
 /// Probabilities with which each emitter is chosen if nothing is known about where its light
 /// arrives: half of them in proportion to power, and half the same for all emitters.

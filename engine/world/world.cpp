@@ -1,10 +1,9 @@
 #include "world/world.hpp"
 
+#include "base/same_bits.hpp"
 #include "scene/material_record.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -45,19 +44,22 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
     return materials;
 }
 
-/// The vectors of a moving mesh among those of all vertices.
-std::span<const glm::vec3> part_of(const std::vector<glm::vec3>& vectors, const MovingMesh& mesh) {
-    return std::span(vectors).subspan(mesh.first_vertex, mesh.positions.size());
-}
-
-bool is_same(std::span<const glm::vec3> a, const std::vector<glm::vec3>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end());
-}
-
-/// Whether records have the same bits.
-bool is_same(const MaterialRecord& a, const MaterialRecord& b) {
-    using Words = std::array<std::uint32_t, sizeof(MaterialRecord) / sizeof(std::uint32_t)>;
-    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
+/// The bounding box of the triangles that do not move.
+Bounds box_at_rest(const Scene& scene) {
+    std::vector<bool> moves(scene.triangles.size(), false);
+    for (const MovingMesh& mesh : scene.motion.meshes) {
+        const auto first = moves.begin() + static_cast<std::ptrdiff_t>(mesh.first_triangle);
+        std::fill(first, first + static_cast<std::ptrdiff_t>(mesh.triangles), true);
+    }
+    Bounds box;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        for (int corner = 0; corner < 3 && !moves[i]; ++corner) {
+            const glm::vec3& position = scene.positions[scene.triangles[i][corner]];
+            box.low = glm::min(box.low, position);
+            box.high = glm::max(box.high, position);
+        }
+    }
+    return box;
 }
 
 /// Uploads elements from index `first` on.
@@ -71,18 +73,19 @@ std::uint64_t upload_part(Device& device, const Buffer& to, std::size_t first,
 
 } // namespace
 
-World::World(Device& device, const Scene& scene) : device_(device) {
+World::World(Device& device, const Scene& scene)
+    : device_(device), meshes_(device, scene), box_at_rest_(box_at_rest(scene)) {
     const StageScope stage(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
     uploaded_materials_ = material_records(scene);
     materials_ = upload(device, "materials", uploaded_materials_);
+    mirrored_.reserve(scene.motion.meshes.size());
     for (const MovingMesh& mesh : scene.motion.meshes) {
-        const auto positions = part_of(scene.positions, mesh),
-                   normals = part_of(scene.normals, mesh);
-        uploaded_.push_back({{positions.begin(), positions.end()},
-                             {normals.begin(), normals.end()},
-                             mesh.mirrored});
+        mirrored_.push_back(mesh.mirrored);
+    }
+    if (!meshes_.empty()) {
+        meshes_.place(positions_, nullptr);
     }
     build_tree(scene);
 }
@@ -95,40 +98,49 @@ void World::build_tree(const Scene& scene) {
     cost_of_build_ = 0; // known when it is asked for
 }
 
-/// Uploads a mesh if it has moved. Returns whether the tree is affected.
-bool World::upload_moved(const Scene& scene, std::size_t mesh, WorldUpdate& update) {
-    const MovingMesh& moving = scene.motion.meshes[mesh];
-    Uploaded& last = uploaded_[mesh];
-    const auto positions = part_of(scene.positions, moving),
-               normals = part_of(scene.normals, moving);
-    const bool moved = !is_same(positions, last.positions),
-               turned = moving.mirrored != last.mirrored;
-    if (moved) {
-        update.uploaded_bytes +=
-            upload_part(device_, positions_, moving.first_vertex, padded(positions));
-        last.positions.assign(positions.begin(), positions.end());
-    }
-    if (!is_same(normals, last.normals)) {
-        if (normals_) {
+void World::upload_turned(const Scene& scene, WorldUpdate& update) {
+    for (std::size_t i = 0; i < mirrored_.size(); ++i) {
+        const MovingMesh& mesh = scene.motion.meshes[i];
+        if (mesh.mirrored != mirrored_[i]) {
             update.uploaded_bytes +=
-                upload_part(device_, normals_, moving.first_vertex, padded(normals));
+                upload_part(device_, triangles_, mesh.first_triangle,
+                            triangle_records(scene, mesh.first_triangle, mesh.triangles));
+            mirrored_[i] = mesh.mirrored;
+            ++update.turned_meshes;
         }
-        last.normals.assign(normals.begin(), normals.end());
     }
-    if (turned) {
-        update.uploaded_bytes +=
-            upload_part(device_, triangles_, moving.first_triangle,
-                        triangle_records(scene, moving.first_triangle, moving.triangles));
-        last.mirrored = moving.mirrored;
+}
+
+/// Places the vertices where the scene's moment moves them. Returns whether any mesh has moved.
+bool World::follow_meshes(const Scene& scene, WorldUpdate& update) {
+    PoseRecords pose = meshes_.pose_of(scene);
+    for (const std::size_t mesh : meshes_.moved_by(scene, pose)) {
+        update.moved.push_back({.mesh = mesh, .before = meshes_.boxes(scene)[mesh]});
     }
-    update.moved_meshes += moved || turned ? 1 : 0;
-    return moved || turned;
+    if (!update.moved.empty()) {
+        update.uploaded_bytes += meshes_.upload_pose(std::move(pose));
+        meshes_.place(positions_, normals_ ? &normals_ : nullptr);
+    }
+    upload_turned(scene, update);
+    return !update.moved.empty() || update.turned_meshes > 0;
+}
+
+/// The bounding box of the scene's triangles.
+Bounds World::box(const Scene& scene) {
+    Bounds box = box_at_rest_;
+    if (!meshes_.empty()) {
+        for (const Bounds& of_mesh : meshes_.boxes(scene)) {
+            box.low = glm::min(box.low, of_mesh.low);
+            box.high = glm::max(box.high, of_mesh.high);
+        }
+    }
+    return box;
 }
 
 void World::upload_changed_materials(const Scene& scene, WorldUpdate& update) {
     const std::vector<MaterialRecord> records = material_records(scene);
     for (std::size_t i = 0; i < records.size(); ++i) {
-        if (is_same(records[i], uploaded_materials_[i])) {
+        if (have_same_bits(records[i], uploaded_materials_[i])) {
             continue;
         }
         uploaded_materials_[i] = records[i];
@@ -141,9 +153,7 @@ WorldUpdate World::update(const Scene& scene) {
     const StageScope stage(device_, "update scene");
     WorldUpdate update;
     upload_changed_materials(scene, update);
-    for (std::size_t i = 0; i < scene.motion.meshes.size(); ++i) {
-        update.refitted = upload_moved(scene, i, update) || update.refitted;
-    }
+    update.refitted = !meshes_.empty() && follow_meshes(scene, update);
     if (update.uploaded_bytes > 0) {
         areas_.reset();
         ++revision_;
@@ -155,6 +165,9 @@ WorldUpdate World::update(const Scene& scene) {
         cost_of_build_ = traversal_cost(device_, bvh_);
     }
     refit_triangle_bvh(device_, bvh_, positions_, triangles_);
+    for (MovedMesh& moved : update.moved) {
+        moved.after = meshes_.boxes(scene)[moved.mesh];
+    }
     if (traversal_cost(device_, bvh_) > most_growth * cost_of_build_) {
         build_tree(scene);
         update.refitted = false;
@@ -170,9 +183,10 @@ void World::add_areas(const Scene& scene, DeviceScene& on_device) {
     }
     const float follow_roughness = on_device.plan.request.follow_roughness;
     if (!areas_ || areas_->follow_roughness != follow_roughness) {
-        auto by_triangle =
-            std::make_shared<const std::vector<double>>(areas_for_photons(scene, follow_roughness));
-        SampledAreas sampled = sample_areas(device_, scene, *by_triangle, {});
+        auto by_triangle = std::make_shared<const std::vector<double>>(
+            areas_for_photons(on_device.placed(scene), follow_roughness));
+        on_device.photon_areas = by_triangle;
+        SampledAreas sampled = sample_areas(device_, scene, on_device, {});
         areas_ = {follow_roughness, std::move(by_triangle), std::move(sampled)};
     }
     on_device.photon_areas = areas_->by_triangle;
@@ -184,8 +198,13 @@ DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
     const StageScope stage(device_, "upload scene");
     if (plan.needs(Feature::smooth_normals) && !normals_) {
         normals_ = upload(device_, "normals", padded(scene.normals));
+        if (!meshes_.empty()) {
+            meshes_.place(positions_, &normals_);
+        }
     }
-    DeviceScene result = prepare_scene(device_, scene, plan);
+    DeviceScene result;
+    result.moved_positions = meshes_.on_host(scene, plan.needs(Feature::photon_map));
+    prepare_scene(device_, scene, box(scene), plan, result);
     result.positions = positions_;
     result.normals = plan.needs(Feature::smooth_normals) ? normals_ : unneeded(device_);
     result.triangles = triangles_;

@@ -2,6 +2,7 @@
 
 #include "shared/material_record.h"
 #include "world/device_scene.hpp"
+#include "world/moving_meshes.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +13,17 @@
 
 namespace argand {
 
+/// A mesh that has moved: its index in Motion::meshes, and the bounding boxes of the vertices that
+/// its triangles use.
+struct MovedMesh {
+    std::size_t mesh = 0;
+    Bounds before, after;
+};
+
 /// What World::update() did.
 struct WorldUpdate {
-    std::size_t moved_meshes = 0;
+    std::vector<MovedMesh> moved;      ///< by rising index
+    std::size_t turned_meshes = 0;     ///< whose triangles are listed the other way round now
     std::size_t changed_materials = 0; ///< uploaded because a property has changed
     std::uint64_t uploaded_bytes = 0;
     bool refitted = false, rebuilt = false; ///< the tree; at most one of them
@@ -24,17 +33,22 @@ struct WorldUpdate {
 /// it follows the scene as it moves.
 class World {
 public:
-    /// Uploads the scene and builds the tree. Keeps a reference to the device. Records only.
+    /// Uploads the scene and builds the tree. The device places the vertices of meshes that move,
+    /// as update() does, so that a moment has the same bits after other moments. Keeps a reference
+    /// to the device. Records only.
     World(Device& device, const Scene& scene);
 
-    /// Follows the scene to which move_to() has been applied: uploads the materials that have
-    /// changed and the meshes that have moved, and refits the tree, or rebuilds it once its cost is
-    /// 1.3 times that after the last build. The scene must be the one of the constructor but for
-    /// that. Waits for the device if a mesh has moved.
+    /// Follows the scene to which move_to() or move_without_vertices() has been applied: uploads
+    /// the materials that have changed, places the vertices of the meshes if any has moved, by
+    /// their nodes' matrices and weights, and refits the tree, or rebuilds it once its cost is 1.3
+    /// times that after the last build. The scene must be the one of the constructor but for that.
+    /// The host does nothing per triangle, unless triangles turn. Waits for the device if a mesh
+    /// has moved. Throws Error if a position is not finite.
     WorldUpdate update(const Scene& scene);
 
     /// The scene as a render with this plan needs it. It shares this world's buffers: update()
-    /// changes what it holds. Records only.
+    /// changes what it holds. Records only, unless meshes move: it may have to fetch their boxes,
+    /// and the vertices of those that shine or on whose surfaces photons may lie.
     DeviceScene on_device(const Scene& scene, const Plan& plan);
 
     /// How many updates have changed anything.
@@ -45,7 +59,9 @@ public:
 private:
     void build_tree(const Scene& scene);
     void add_areas(const Scene& scene, DeviceScene& on_device);
-    bool upload_moved(const Scene& scene, std::size_t mesh, WorldUpdate& update);
+    bool follow_meshes(const Scene& scene, WorldUpdate& update);
+    void upload_turned(const Scene& scene, WorldUpdate& update);
+    Bounds box(const Scene& scene);
     void upload_changed_materials(const Scene& scene, WorldUpdate& update);
 
     Device& device_;
@@ -55,12 +71,9 @@ private:
     std::uint64_t revision_ = 0;
     double cost_of_build_ = 0; ///< see traversal_cost(); 0: not known yet
 
-    /// A moving mesh as it was uploaded last.
-    struct Uploaded {
-        std::vector<glm::vec3> positions, normals;
-        bool mirrored = false;
-    };
-    std::vector<Uploaded> uploaded_;
+    MovingMeshes meshes_;
+    Bounds box_at_rest_;         ///< of what does not move
+    std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
     std::vector<MaterialRecord> uploaded_materials_;
 
     /// The areas of all surfaces on which photons may lie.

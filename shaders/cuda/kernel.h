@@ -79,6 +79,7 @@ FN uint atomicMin(uint& to, uint value) {
 #define PhotonPathRecord(...) PhotonPathRecord{__VA_ARGS__}
 #define PhotonRange(...) PhotonRange{__VA_ARGS__}
 #define PhotonRecord(...) PhotonRecord{__VA_ARGS__}
+#define PoseBox(...) PoseBox{__VA_ARGS__}
 #define QueryRecord(...) QueryRecord{__VA_ARGS__}
 #define RayRecord(...) RayRecord{__VA_ARGS__}
 #define ShadowRecord(...) ShadowRecord{__VA_ARGS__}

@@ -195,6 +195,25 @@ TEST(Animation, AMomentDoesNotDependOnThoseBefore) {
     }
 }
 
+TEST(Animation, WithoutVerticesMovesAllElse) {
+    Animated file = moving_triangle();
+    file.animate(0, "scale", {0, 2}, {{1, 2, 3}, {-3, -2, -1}});
+    file.builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 5}}};
+    file.builder.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    Scene scene = file.load({});
+    const std::vector<glm::vec3> positions = scene.positions;
+    for (const double time : {3.0, 0.25, 1.5, 0.0}) {
+        move_without_vertices(time, scene);
+        const Scene moved = file.load(time);
+        EXPECT_EQ(scene.positions, positions);
+        EXPECT_EQ(scene.triangles, moved.triangles);
+        EXPECT_EQ(scene.lights, moved.lights);
+        EXPECT_EQ(scene.seconds, time);
+    }
+}
+
 TEST(Animation, WhatRestsIsNotKeptForMotion) {
     Animated file;
     file.builder.add_triangles(right_triangle());

@@ -31,6 +31,9 @@ public:
         return found != runs_.end() ? found->second : 0;
     }
 
+    /// Bytes uploaded so far.
+    std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
+
     /// Allocations so far by name.
     const std::map<std::string, std::uint64_t>& allocations() const { return allocations_; }
 
@@ -42,6 +45,7 @@ public:
         return device_.allocate(std::move(name), bytes);
     }
     void upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) override {
+        uploaded_bytes_ += data.size();
         device_.upload(to, offset, data);
     }
     void fill(const BufferView& to, std::uint32_t value) override { device_.fill(to, value); }
@@ -89,6 +93,7 @@ private:
     Device& device_;
     std::set<Variant> variants_;
     std::set<std::string> stages_;
+    std::uint64_t uploaded_bytes_ = 0;
     std::map<std::string, std::uint64_t> bytes_, runs_, allocations_;
 };
 

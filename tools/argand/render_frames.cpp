@@ -122,7 +122,7 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         }
         const Clock::time_point start = Clock::now();
         job.device->reset_stage_times();
-        move_to(seconds_of(frame), job.scene);
+        move_without_vertices(seconds_of(frame), job.scene);
         job.times.update = seconds_since(start);
         if (blurs) {
             const auto first = static_cast<double>(frame);
