@@ -152,6 +152,19 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
     b.smoothing = learnt > 0 ? learnt : 1;
 }
 
+Bandwidth narrowed(const Bandwidth& learnt, double by) {
+    constexpr double least_neighbours = 8;
+    Bandwidth b = learnt;
+    b.radii.indirect *= by;
+    b.radii.caustic *= by;
+    const double least = std::min<double>(least_neighbours, learnt.neighbours);
+    b.neighbours =
+        static_cast<std::uint32_t>(std::max(std::round(learnt.neighbours * by * by), least));
+    b.smoothing *= by;
+    b.caustic_smoothing *= by;
+    return b;
+}
+
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings) {
     const double by = shrinking(passes / learnt_for);

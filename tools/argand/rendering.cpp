@@ -138,7 +138,7 @@ Rendered render_on(RenderJob& job, const std::string& work) {
     World& world = *job.world;
     std::optional<Progress> progress;
     const OnProgress on_progress = [&](double done) {
-        progress->update(done);
+        progress->update(done, job.session ? job.session->describe() : "");
         return !interrupted();
     };
     if (!is_autotuned(options, job.command)) {
