@@ -154,12 +154,15 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
 
 Bandwidth narrowed(const Bandwidth& learnt, double by) {
     constexpr double least_neighbours = 8;
+    const auto narrow = [&](std::uint32_t k) {
+        return static_cast<std::uint32_t>(
+            std::max(std::round(k * by * by), std::min<double>(least_neighbours, k)));
+    };
     Bandwidth b = learnt;
     b.radii.indirect *= by;
     b.radii.caustic *= by;
-    const double least = std::min<double>(least_neighbours, learnt.neighbours);
-    b.neighbours =
-        static_cast<std::uint32_t>(std::max(std::round(learnt.neighbours * by * by), least));
+    b.neighbours = narrow(b.neighbours);
+    b.caustic_neighbours = narrow(b.caustic_neighbours);
     b.smoothing *= by;
     b.caustic_smoothing *= by;
     return b;

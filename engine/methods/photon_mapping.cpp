@@ -163,6 +163,7 @@ private:
     std::optional<StoredPhotons> trace(const PassNumbers& numbers);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
+    std::uint64_t wanted_area_samples(double radius) const;
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
@@ -256,21 +257,30 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, 
                                       {eye, reach * median(std::move(distances))});
 }
 
+/// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a
+/// pass alone is noisier anyway, and samples for its full number would soon take most of the time.
+std::uint64_t PhotonMapping::wanted_area_samples(double radius) const {
+    if (!strategy_->corrects_boundaries(c_.settings)) {
+        return 0;
+    }
+    const double by =
+        progressive_ ? image_.bandwidth.radii.indirect / image_.learnt.radii.indirect : 1;
+    return area_samples(c_.on_device.areas.area, radius,
+                        std::clamp(by * by, least_area_share, 1.0));
+}
+
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {
     image_.footprint_scale =
         strategy_->footprints(image_.bandwidth, c_.settings.footprints,
                               static_cast<double>(image_.split.photons), c_.on_device.record);
     const double radius = strategy_->typical_radius(image_.bandwidth);
-    PhotonMap map =
-        build_photon_map(c_.device, c_.on_device, photons_, stored,
-                         {.area_samples = strategy_->corrects_boundaries(c_.settings)
-                                              ? area_samples(c_.on_device.areas.area, radius)
-                                              : 0,
-                          .cover_height = disc_half_height * radius,
-                          .seed = area_seed(numbers),
-                          .leaf_size = c_.settings.leaf_size,
-                          .wide_codes = c_.settings.wide_codes,
-                          .footprints = image_.footprint_scale});
+    PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
+                                     {.area_samples = wanted_area_samples(radius),
+                                      .cover_height = disc_half_height * radius,
+                                      .seed = area_seed(numbers),
+                                      .leaf_size = c_.settings.leaf_size,
+                                      .wide_codes = c_.settings.wide_codes,
+                                      .footprints = image_.footprint_scale});
     image_.mean_footprints = map.mean_footprints;
     image_.leaf_size = map.leaf_size;
     return map;

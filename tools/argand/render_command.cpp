@@ -224,7 +224,10 @@ void add_render_command(CLI::App& app, MethodTable methods) {
     command->add_option("--checkpoint", options->checkpoint,
                         "File to which the state of the render is saved now and then and at its "
                         "end; the one before it stays, as FILE.old");
-    command->add_option("--every", options->every, "Seconds between checkpoints")
+    command
+        ->add_option("--every", options->every,
+                     "Seconds between checkpoints; a progressive render then also writes its "
+                     "picture so far")
         ->capture_default_str()
         ->check(number_between(0, 1e9));
     command->add_option("--resume", options->resume,
