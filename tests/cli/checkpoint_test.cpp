@@ -59,7 +59,7 @@ TEST_F(Checkpoints, GoOnAfterAKillAtAnyMoment) {
 }
 
 TEST_F(Checkpoints, OfAProgressiveRenderTakeMorePasses) {
-    const std::string progressive = "--method progressive --photons 2000 --spp 1 --r1 0.3 ";
+    const std::string progressive = "--method progressive --photons 2000 --r1 0.3 ";
     ASSERT_EQ(run(progressive + "--passes 5 -o whole.exr").exit_code, 0);
     ASSERT_EQ(run(progressive + "--passes 2 -o two.exr --checkpoint c --every 0").exit_code, 0);
     ASSERT_EQ(run(progressive + "--passes 5 -o five.exr --resume c").exit_code, 0);

@@ -45,6 +45,22 @@ TEST(MethodTable, AutotuningHasCandidatesAndAReference) {
     EXPECT_EQ(builtin_methods().unbiased()->name, "path");
 }
 
+TEST(MethodTable, LawsFollowTheExponentWhereWidthsFallFromPassToPass) {
+    RenderSettings settings;
+    settings.progressive.exponent = 0.2;
+    for (const MethodInfo& method : builtin_methods()) {
+        for (const bool on : {false, true}) {
+            settings.progressive.on = on;
+            const bool falls = method.name == "progressive" || (on && method.abilities.photon_map);
+            EXPECT_EQ(is_progressive(method, settings), falls) << method.name;
+            const ErrorLaw law = law_of(method, settings);
+            EXPECT_EQ(law.by_pass, falls) << method.name;
+            EXPECT_EQ(law.noise_growth, falls ? 0.4 : method.law.noise_growth) << method.name;
+            EXPECT_EQ(law.bias_fall, falls ? 0.4 : method.law.bias_fall) << method.name;
+        }
+    }
+}
+
 TEST(MethodTable, MethodsThatShareAnOptionAgreeOnIt) {
     for (const MethodInfo& method : builtin_methods()) {
         std::set<std::string> names;
