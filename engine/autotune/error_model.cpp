@@ -9,14 +9,15 @@ namespace argand {
 namespace {
 
 /// n^power, or if each pass has its own bandwidth the mean of i^power over the passes i from 1 to n
-/// (the trapezoidal rule, which the sum over integers is).
+/// (the first terms of Euler's and Maclaurin's formula).
 double power_of_passes(const ErrorLaw& law, double passes, double power) {
     const double last = std::pow(passes, power);
     if (!law.by_pass) {
         return last;
     }
     const double integral = (passes * last - 1) / (power + 1);
-    return (integral + 0.5 * (1 + last)) / passes;
+    const double ends = 0.5 * (1 + last) + power / 12 * (last / passes - 1);
+    return (integral + ends) / passes;
 }
 
 } // namespace

@@ -53,6 +53,7 @@ TEST_F(Progressive, UniformBallIsThePapersSumOverAnyPhotons) {
         return std::uniform_real_distribution<float>(low, high)(random);
     };
     std::vector<PhotonRecord> photons;
+    photons.reserve(5'000);
     for (int i = 0; i < 5'000; ++i) {
         const glm::vec3 normal =
             glm::normalize(glm::vec3(uniform(-1, 1), uniform(-1, 1), uniform(0.1f, 1)));
@@ -63,15 +64,16 @@ TEST_F(Progressive, UniformBallIsThePapersSumOverAnyPhotons) {
                            pack_unit(glm::normalize(glm::vec3(0.5f, above ? 1.0f : -1.0f, 0)))});
     }
     std::vector<Query> queries;
+    queries.reserve(100);
     for (int i = 0; i < 100; ++i) {
         queries.push_back({{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}});
     }
     const DeviceScene scene = upload_scene(device(), floor_scene(lambertian(glm::vec3(0.5f)), 1),
                                            make_plan({}, {.everything = true}));
     PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
-    // The samples of areas must not correct the formula.
     const PhotonMap map =
-        build_photon_map(device(), scene, workspace, store(device(), workspace, photons), {});
+        build_photon_map(device(), scene, workspace, store(device(), workspace, photons),
+                         {.area_samples = 1'000}); // which must not correct it
     for (const double radius : {0.2, 0.7, 4.0}) {
         RadiusEstimator estimator(device(), scene.plan, {radius, radius}, gather_budget,
                                   {.uniform_kernel = true, .ball = true});
