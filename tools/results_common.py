@@ -31,6 +31,7 @@ PAGES = [
     ("Fabianowski and Dingliana 2009", "fd09.md", "argand bench --paper fd09"),
     ("Bandwidth", "bandwidth.md", "a script outside the repository"),
     ("Footprints: choices", "footprints.md", "argand render, argand compare"),
+    ("Widths that fall from pass to pass", "progressive.md", "tools/results_progressive"),
     ("Final gather", "final_gather.md", "argand render, argand compare"),
     ("Quasi-random photons", "quasi_random.md", "argand render, argand compare"),
     ("Smaller records, faster arithmetic", "precision.md", "argand render, changed builds"),

@@ -6,15 +6,34 @@
 
 namespace argand {
 
+namespace {
+
+/// n^power, or if each pass has its own bandwidth the mean of i^power over the passes i from 1 to n
+/// (the first terms of Euler's and Maclaurin's formula).
+double power_of_passes(const ErrorLaw& law, double passes, double power) {
+    const double last = std::pow(passes, power);
+    if (!law.by_pass) {
+        return last;
+    }
+    const double integral = (passes * last - 1) / (power + 1);
+    const double ends = 0.5 * (1 + last) + power / 12 * (last / passes - 1);
+    return (integral + ends) / passes;
+}
+
+} // namespace
+
 double noise_after(const ErrorModel& model, double passes) {
     const double initial = std::min(model.initial_passes, passes) / passes;
-    const double growth = std::pow(passes, model.law.noise_growth);
+    const double growth = power_of_passes(model.law, passes, model.law.noise_growth);
     return (model.fixed + model.density * (initial + (1 - initial) * growth)) / passes;
 }
 
+double bias_at(const ErrorLaw& law, double passes) { return std::pow(passes, -law.bias_fall); }
+
 double bias_share(const ErrorLaw& law, double passes, double initial_passes) {
     const double initial = std::min(initial_passes, passes) / passes;
-    const double amplitude = initial + (1 - initial) * std::pow(passes, -0.5 * law.bias_fall);
+    const double amplitude =
+        initial + (1 - initial) * power_of_passes(law, passes, -0.5 * law.bias_fall);
     return amplitude * amplitude;
 }
 

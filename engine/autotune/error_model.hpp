@@ -19,6 +19,8 @@ struct ErrorModel {
 
 /// Variance of the mean of `passes` passes.
 double noise_after(const ErrorModel& model, double passes);
+/// Squared bias at the bandwidth of a render of `passes` passes, divided by that of one pass.
+double bias_at(const ErrorLaw& law, double passes);
 /// Squared bias after `passes` passes, divided by that of one pass. The first `initial_passes` of
 /// them have the initial bandwidth.
 double bias_share(const ErrorLaw& law, double passes, double initial_passes = 0);

@@ -41,7 +41,8 @@ std::optional<PassPlan> PilotControl::operator()(const PictureSoFar& so_far) {
         return std::nullopt;
     }
     return PassPlan{.expected = so_far.passes < initial_pilot_passes ? 1.0 : reduced_for_passes,
-                    .stream = static_cast<std::uint32_t>(so_far.passes % 2)};
+                    .stream = static_cast<std::uint32_t>(so_far.passes % 2),
+                    .keeps_width = true};
 }
 
 /// Adds the images of a pass. Images that are still missing repeat the existing ones.
@@ -120,7 +121,7 @@ ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& gue
     if (pilot.passes < 2) {
         return {.fixed = std::numeric_limits<double>::infinity()};
     }
-    const ErrorLaw& law = pilot.method->law;
+    const ErrorLaw law = law_of(*pilot.method, pilot.settings);
     const double initial = variance_of(pilot.initial.whole, guess);
     if (pilot.method->abilities.unbiased) {
         return {.fixed = 0.5 * (initial + variance_of(pilot.reduced.whole, guess)),
@@ -133,7 +134,7 @@ ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& gue
     ErrorModel model = fit_noise(initial, initial + growth, reduced_for_passes, law);
     // The bias at the reduced bandwidth is a fixed share of that at the initial one, and so is the
     // difference of the two.
-    const double reduced_share = bias_share(law, reduced_for_passes),
+    const double reduced_share = bias_at(law, reduced_for_passes),
                  lost = 1 - std::sqrt(reduced_share);
     std::vector<Estimate> estimates;
     const auto add = [&](const ImagePair& a, const ImagePair& b, double scale) {

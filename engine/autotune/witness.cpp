@@ -124,7 +124,7 @@ bool Witness::render_more(double passes, double seconds, double expected) {
                     return std::nullopt;
                 }
             }
-            return PassPlan{.expected = plan, .stream = whole.stream()};
+            return PassPlan{.expected = plan, .stream = whole.stream(), .keeps_width = true};
         });
     const double spent = seconds_since(start);
     seconds_ += spent;
@@ -148,7 +148,7 @@ double Witness::variance_per_pass(const Image& guess) const {
 }
 
 Testimony Witness::testimony(const ImagePair& picture, double bias, const Image& guess) const {
-    const double own = is_unbiased() ? 0 : std::sqrt(bias_share(method_.law, planned_for_)),
+    const double own = is_unbiased() ? 0 : std::sqrt(bias_at(law_of(method_, pass_), planned_for_)),
                  seen = 1 - own / bias;
     return testimony_on(picture, all_.images->whole, seen * seen, guess);
 }

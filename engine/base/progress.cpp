@@ -31,14 +31,15 @@ void print(int descriptor, std::string_view text) {
 
 } // namespace
 
-std::string progress_line(std::string_view work, double fraction, double seconds) {
+std::string progress_line(std::string_view work, double fraction, double seconds,
+                          std::string_view detail) {
     // Written so that NaN counts as nothing done.
     const double done = fraction > 0 ? std::min(fraction, 1.0) : 0.0;
     std::string line = fmt::format("{}  {:.0f} %", work, 100 * done);
     if (done >= too_early && done < 1) {
         line += fmt::format("  {} left", duration(seconds * (1 - done) / done));
     }
-    return line;
+    return detail.empty() ? line : fmt::format("{}  {}", line, detail);
 }
 
 Progress::Progress(std::string work, bool quiet, int descriptor)
@@ -47,13 +48,13 @@ Progress::Progress(std::string work, bool quiet, int descriptor)
 
 Progress::~Progress() { erase(); }
 
-void Progress::update(double fraction) {
+void Progress::update(double fraction, std::string_view detail) {
     const Clock::time_point now = Clock::now();
     if (!active_ || (drawn_ && now - last_drawn_ < between_lines)) {
         return;
     }
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    print(descriptor_, "\r\x1b[K" + progress_line(work_, fraction, seconds));
+    print(descriptor_, "\r\x1b[K" + progress_line(work_, fraction, seconds, detail));
     drawn_ = true;
     last_drawn_ = now;
 }

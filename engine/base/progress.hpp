@@ -18,7 +18,8 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     /// Reports the share of the work that is done, clamped to [0, 1].
-    void update(double fraction);
+    /// detail: a few words on the work so far.
+    void update(double fraction, std::string_view detail = {});
 
     /// Erases the line; also done on destruction.
     void erase();
@@ -33,6 +34,7 @@ private:
 };
 
 /// The line that `Progress` draws after `seconds` of work.
-std::string progress_line(std::string_view work, double fraction, double seconds);
+std::string progress_line(std::string_view work, double fraction, double seconds,
+                          std::string_view detail = {});
 
 } // namespace argand

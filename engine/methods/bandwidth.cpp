@@ -152,6 +152,22 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
     b.smoothing = learnt > 0 ? learnt : 1;
 }
 
+Bandwidth narrowed(const Bandwidth& learnt, double by) {
+    constexpr double least_neighbours = 8;
+    const auto narrow = [&](std::uint32_t k) {
+        return static_cast<std::uint32_t>(
+            std::max(std::round(k * by * by), std::min<double>(least_neighbours, k)));
+    };
+    Bandwidth b = learnt;
+    b.radii.indirect *= by;
+    b.radii.caustic *= by;
+    b.neighbours = narrow(b.neighbours);
+    b.caustic_neighbours = narrow(b.caustic_neighbours);
+    b.smoothing *= by;
+    b.caustic_smoothing *= by;
+    return b;
+}
+
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings) {
     const double by = shrinking(passes / learnt_for);

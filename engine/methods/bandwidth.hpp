@@ -48,6 +48,10 @@ void learn_smoothing(Bandwidth& bandwidth, const FirstPass& first,
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings);
 
+/// The bandwidth of a pass of which all widths are `by` times those learnt: radii and smoothing,
+/// and k with the area, as long as it is large enough to estimate a density.
+Bandwidth narrowed(const Bandwidth& learnt, double by);
+
 /// The scale of the footprints of a pass that emits `photons` photons.
 FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings,
                                double photons, const SceneRecord& scene);

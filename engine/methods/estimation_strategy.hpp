@@ -29,6 +29,9 @@ public:
         return std::nullopt;
     }
 
+    /// Whether estimates are divided by the share of their disc that lies on surfaces.
+    virtual bool corrects_boundaries(const RenderSettings&) const { return true; }
+
     /// Which queries share an answer, in cells of the given edge. may_part: the caustic part of the
     /// map may be queried by itself.
     virtual QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const = 0;

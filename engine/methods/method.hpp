@@ -26,6 +26,8 @@ struct PassNumbers {
 struct Pass {
     double expected = 1; ///< passes of the whole image, as far as is known
     PassNumbers numbers; ///< the random numbers that it takes
+    /// Widths that fall from pass to pass are those of pass `expected`, whichever pass this is.
+    bool keeps_width = false;
 };
 
 /// Eye paths of a pixel, and photons, that one seed can number. They are the points of a Sobol'
@@ -58,6 +60,10 @@ public:
     /// Saves or loads what later passes of the image depend on. Loading replaces begin_frame(), in
     /// a context whose lights are loaded; it throws Error on values that no method saves.
     virtual void persist(Archive& archive) = 0;
+
+    /// A few words on the last pass for those who watch: "radius 0.012". Empty if there is nothing
+    /// that changes from pass to pass.
+    virtual std::string describe_pass() const { return {}; }
 
     /// Writes what the method did for the image so far.
     virtual void report(RenderStatistics& statistics) const = 0;

@@ -17,8 +17,9 @@ struct RenderContext;
 /// What a method can do and needs. The rest of Argand reads these instead of comparing names.
 struct Abilities {
     bool unbiased = false; ///< the mean of its images is the truth, so that it serves as reference
-    bool photon_map = false; ///< it estimates radiance from photons
-    bool footprints = false; ///< its photons carry ray differentials
+    bool photon_map = false;  ///< it estimates radiance from photons
+    bool footprints = false;  ///< its photons carry ray differentials
+    bool progressive = false; ///< its widths fall from pass to pass, without an option for that
 };
 
 /// How the error of an image of n passes falls:
@@ -28,6 +29,9 @@ struct Abilities {
 struct ErrorLaw {
     double noise_growth = 0;
     double bias_fall = 0;
+    /// Pass i has the bandwidth of a render of i passes, not all passes that of n: the powers of n
+    /// are means of powers of i.
+    bool by_pass = false;
 };
 
 /// The law of all methods whose bandwidths shrink as n^(-1/6) (photon/radius.hpp), and areas as
@@ -35,6 +39,12 @@ struct ErrorLaw {
 /// n^(-2/3) on smooth surfaces, where it goes with the area, and as n^(-1/6) along edges, in bands
 /// as wide as the bandwidth: together about as n^(-1/3), as measured (docs/results/targets.md).
 inline constexpr ErrorLaw photon_mapping_law{.noise_growth = 1.0 / 3, .bias_fall = 1.0 / 3};
+
+/// The law of widths that fall from pass to pass, pass i having width i^(-exponent): that above
+/// with another exponent.
+constexpr ErrorLaw progressive_law(double exponent) {
+    return {.noise_growth = 2 * exponent, .bias_fall = 2 * exponent, .by_pass = true};
+}
 
 /// The place of a method in a search for the fastest one to an error (autotune/exploration.hpp).
 /// The first unbiased method is tried anyway: it tells the bias of the others. Exactly one method
@@ -55,5 +65,11 @@ struct MethodInfo {
     /// Null if the method does not have the option.
     const Option* option(std::string_view option_name) const;
 };
+
+/// Whether widths of estimation fall from pass to pass.
+bool is_progressive(const MethodInfo& method, const RenderSettings& settings);
+
+/// The law of the method with these settings.
+ErrorLaw law_of(const MethodInfo& method, const RenderSettings& settings);
 
 } // namespace argand

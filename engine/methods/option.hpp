@@ -48,6 +48,9 @@ struct Option {
     /// The option keeps bandwidths from shrinking from pass to pass, so that the error of a long
     /// render does not fall as the method's ErrorLaw says.
     bool fixes_bandwidth = false;
+    /// Passes do not depend on the option, only how many there are: a saved render may go on with
+    /// another value.
+    bool ends_render = false;
     /// The value in these settings; "auto": the method chooses.
     std::function<std::string(const RenderSettings&)> get;
     /// Throws UsageError if the text is no value of this option's type. Ranges are the command

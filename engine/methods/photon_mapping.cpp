@@ -11,6 +11,7 @@
 #include "shared/random.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace argand {
 
@@ -65,7 +66,7 @@ struct ImageState {
     std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
     PassSplit split;
     double flux_unit = 0; ///< of the fixed-point sums
-    Bandwidth learnt;     ///< for split.passes passes
+    Bandwidth learnt;     ///< for split.passes passes; progressive: for the first one
     // Of the last pass.
     Bandwidth bandwidth;
     std::optional<FootprintScale> footprint_scale;
@@ -73,6 +74,9 @@ struct ImageState {
     std::uint32_t leaf_size = 0;
     // Of all passes.
     std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
+    std::uint64_t paths = 0; ///< of photons, also those that the dark has not emitted
+    // Of the first pass.
+    std::uint64_t first_paths = 0;
 };
 
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
@@ -98,12 +102,15 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.passes);
     archive.value(image.photons_emitted);
     archive.value(image.photons_stored);
+    archive.value(image.paths);
+    archive.value(image.first_paths);
 }
 
 class PhotonMapping : public Method {
 public:
-    PhotonMapping(RenderContext& context, std::unique_ptr<EstimationStrategy> strategy)
-        : c_(context), strategy_(std::move(strategy)) {}
+    PhotonMapping(RenderContext& context, std::unique_ptr<EstimationStrategy> strategy,
+                  bool progressive)
+        : c_(context), strategy_(std::move(strategy)), progressive_(progressive) {}
 
     void begin_frame(Budget& budget) override {
         image_ = {};
@@ -121,14 +128,21 @@ public:
                                   .stored = *first_,
                                   .photons = sorted,
                                   .queries = queries,
-                                  .passes = static_cast<double>(image_.split.passes)};
-            const Bandwidth learnt = strategy_->learn(first, c_.settings);
+                                  .passes =
+                                      progressive_ ? 1 : static_cast<double>(image_.split.passes)};
+            RenderSettings settings = c_.settings;
+            if (progressive_) {
+                settings.radius = settings.progressive.first_radius;
+            }
+            const Bandwidth learnt = strategy_->learn(first, settings);
             sample_areas_in_view(queries, strategy_->typical_radius(learnt));
             return learnt;
         });
     }
 
-    std::uint64_t passes() const override { return image_.split.passes; }
+    std::uint64_t passes() const override {
+        return image_.split.passes * (progressive_ ? c_.settings.progressive.passes : 1);
+    }
 
     bool pass(const Pass& pass, const OnProgress& on_part) override;
 
@@ -138,26 +152,30 @@ public:
     }
 
     void persist(Archive& archive) override;
+    std::string describe_pass() const override;
     void report(RenderStatistics& statistics) const override;
 
 private:
     PhotonPass emission_of(const PassNumbers& numbers) const;
+    void set_bandwidth(const Pass& pass);
     void make_workspace();
     void sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius);
     std::optional<StoredPhotons> trace(const PassNumbers& numbers);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
+    std::uint64_t wanted_area_samples(double radius) const;
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
     std::unique_ptr<EstimationStrategy> strategy_;
+    bool progressive_; ///< widths fall from pass to pass
     PhotonWorkspace photons_;
     std::uint64_t room_ = 0; ///< photons of a pass for which the workspace was made
     ImageState image_;
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
 };
 
-/// The photons of a pass; none in the dark. If there are more passes than the settings request,
+/// The photons of a pass if there is light. If there are more passes than the settings request,
 /// their numbers continue.
 PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
     const std::uint64_t round = numbers.index / image_.split.passes;
@@ -166,7 +184,7 @@ PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
     const std::uint64_t end = image_.emitted * (in_round + 1) / image_.split.passes;
     return {.seed = numbers.seed,
             .first = round * image_.emitted + first,
-            .count = c_.on_device.record.light_count > 0 ? end - first : 0,
+            .count = end - first,
             .bounces = c_.settings.bounces};
 }
 
@@ -188,7 +206,9 @@ void PhotonMapping::make_workspace() {
 }
 
 std::optional<StoredPhotons> PhotonMapping::trace(const PassNumbers& numbers) {
-    return trace_photons(c_.device, c_.on_device, photons_, emission_of(numbers),
+    PhotonPass emission = emission_of(numbers);
+    emission.count = c_.on_device.record.light_count > 0 ? emission.count : 0;
+    return trace_photons(c_.device, c_.on_device, photons_, emission,
                          static_cast<float>(image_.flux_unit));
 }
 
@@ -237,13 +257,25 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, 
         sample_areas(c_.device, c_.scene, scene, {eye, reach * median(std::move(distances))});
 }
 
+/// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a
+/// pass alone is noisier anyway, and samples for its full number would soon take most of the time.
+std::uint64_t PhotonMapping::wanted_area_samples(double radius) const {
+    if (!strategy_->corrects_boundaries(c_.settings)) {
+        return 0;
+    }
+    const double by =
+        progressive_ ? image_.bandwidth.radii.indirect / image_.learnt.radii.indirect : 1;
+    return area_samples(c_.on_device.areas.area, radius,
+                        std::clamp(by * by, least_area_share, 1.0));
+}
+
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {
     image_.footprint_scale =
         strategy_->footprints(image_.bandwidth, c_.settings.footprints,
                               static_cast<double>(image_.split.photons), c_.on_device.record);
     const double radius = strategy_->typical_radius(image_.bandwidth);
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
-                                     {.area_samples = area_samples(c_.on_device.areas.area, radius),
+                                     {.area_samples = wanted_area_samples(radius),
                                       .cover_height = disc_half_height * radius,
                                       .seed = area_seed(numbers),
                                       .leaf_size = c_.settings.leaf_size,
@@ -254,9 +286,26 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
     return map;
 }
 
+/// Sets the bandwidth of the next pass. Of widths that fall from pass to pass, r(n) = r1
+/// (n/n1)^(-a), where n counts the photon paths of all passes so far and of this one, as in Keller
+/// et al. 2010, section 1, and n1 those of the first pass.
+void PhotonMapping::set_bandwidth(const Pass& pass) {
+    const std::uint64_t paths = std::max<std::uint64_t>(emission_of(pass.numbers).count, 1);
+    image_.paths += paths;
+    image_.first_paths = image_.passes > 0 ? image_.first_paths : paths;
+    if (!progressive_) {
+        image_.bandwidth = for_passes(image_.learnt, static_cast<double>(image_.split.passes),
+                                      pass.expected, c_.settings);
+        return;
+    }
+    const double times = pass.keeps_width ? pass.expected
+                                          : static_cast<double>(image_.paths) /
+                                                static_cast<double>(image_.first_paths);
+    image_.bandwidth = narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent));
+}
+
 bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
-    image_.bandwidth = for_passes(image_.learnt, static_cast<double>(image_.split.passes),
-                                  pass.expected, c_.settings);
+    set_bandwidth(pass);
     const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
     first_.reset();
     const PhotonMap map = build_map(pass.numbers, stored);
@@ -272,7 +321,8 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
                       .bounces = c_.settings.bounces};
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
     ++image_.passes;
-    image_.photons_emitted += emission_of(pass.numbers).count;
+    image_.photons_emitted +=
+        c_.on_device.record.light_count > 0 ? emission_of(pass.numbers).count : 0;
     image_.photons_stored += stored.photons;
     return finished;
 }
@@ -292,6 +342,10 @@ void PhotonMapping::persist(Archive& archive) {
         make_workspace();
     }
     persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
+}
+
+std::string PhotonMapping::describe_pass() const {
+    return progressive_ ? fmt::format("radius {:.3g}", image_.bandwidth.radii.indirect) : "";
 }
 
 void PhotonMapping::report(RenderStatistics& statistics) const {
@@ -315,8 +369,10 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
 } // namespace
 
 std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
-                                            std::unique_ptr<EstimationStrategy> strategy) {
-    return std::make_unique<PhotonMapping>(context, std::move(strategy));
+                                            std::unique_ptr<EstimationStrategy> strategy,
+                                            bool progressive) {
+    return std::make_unique<PhotonMapping>(context, std::move(strategy),
+                                           progressive || context.settings.progressive.on);
 }
 
 } // namespace argand

@@ -8,8 +8,10 @@ namespace argand {
 
 /// Photon mapping (Jensen 1996): photons from every light, a map of those that were scattered at
 /// least once, density estimation where eye rays meet estimated lobes, direct light by shadow rays.
-/// Each pass has its own photons and its own eye paths, so that memory is bounded.
+/// Each pass has its own photons and its own eye paths, so that memory is bounded. progressive:
+/// widths fall from pass to pass, whatever the settings say.
 std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
-                                            std::unique_ptr<EstimationStrategy> strategy);
+                                            std::unique_ptr<EstimationStrategy> strategy,
+                                            bool progressive = false);
 
 } // namespace argand

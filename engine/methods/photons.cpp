@@ -1,30 +1,11 @@
+#include "methods/fixed_radius.hpp"
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
-#include "photon/gather.hpp"
 
 namespace argand {
 
-namespace {
-
 /// Density over discs of one radius, as in each pass of progressive photon mapping (Hachisuka et
-/// al. 2008). Caustics have a radius of their own.
-class FixedRadius : public EstimationStrategy {
-public:
-    QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const override {
-        const bool sharp = bandwidth.radii.caustic < bandwidth.radii.indirect;
-        return {.cell = cell,
-                .caustics_apart = may_part && bandwidth.caustics && sharp,
-                .sharp_caustics = sharp};
-    }
-
-    std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
-                                          const Bandwidth& bandwidth) const override {
-        return std::make_unique<RadiusEstimator>(c.device, c.on_device.plan, bandwidth.radii);
-    }
-};
-
-} // namespace
-
+/// al. 2008).
 MethodInfo photons_method() {
     return {.name = "photons",
             .summary = "photon mapping, density over a fixed radius",
@@ -32,9 +13,9 @@ MethodInfo photons_method() {
             .abilities = {.photon_map = true},
             .law = photon_mapping_law,
             .trial = TrialOrder::first,
-            .options = all_photon_map_options({}),
+            .options = all_photon_map_options(fixed_radius_options()),
             .make = [](RenderContext& context) {
-                return make_photon_mapping(context, std::make_unique<FixedRadius>());
+                return make_photon_mapping(context, make_fixed_radius());
             }};
 }
 

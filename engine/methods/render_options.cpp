@@ -181,10 +181,33 @@ std::vector<Option> photon_map_options() {
             wide_codes_option(), photon_sampling_option(), final_gather_option()};
 }
 
+std::vector<Option> progressive_options() {
+    Option progressive = member_option(
+        "progressive",
+        "Let the widths of estimation fall from pass to pass, so that the picture converges to the "
+        "truth however many passes there are",
+        [](RenderSettings & s) -> auto& { return s.progressive.on; });
+    Option passes = member_option(
+        "passes", "Progressive passes, each of --photons and --spp",
+        [](RenderSettings & s) -> auto& { return s.progressive.passes; }, 1, 1'000'000'000);
+    passes.ends_render = true;
+    Option first_radius = member_option(
+        "r1",
+        "Radius of the first progressive pass; with knn its maximum; with footprints it bounds "
+        "their size (default: from the scene)",
+        [](RenderSettings & s) -> auto& { return s.progressive.first_radius; }, 1e-18, 1e18);
+    Option exponent = member_option(
+        "radius-exponent",
+        "a of the progressive radius r1 n^(-a) of the n-th pass, between 0 and 1/2: larger ones "
+        "lower the bias faster, and the noise more slowly",
+        [](RenderSettings & s) -> auto& { return s.progressive.exponent; }, 1e-6, 0.499999);
+    return {progressive, passes, first_radius, exponent};
+}
+
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {
     std::vector<Option> options{samples_option(), bounces_option(), follow_roughness_option(),
                                 aperture_option(), focus_option()};
-    for (const std::vector<Option>& more : {photon_map_options(), own}) {
+    for (const std::vector<Option>& more : {photon_map_options(), progressive_options(), own}) {
         options.insert(options.end(), more.begin(), more.end());
     }
     return options;

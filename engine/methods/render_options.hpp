@@ -17,6 +17,9 @@ Option focus_option();
 /// photon-sampling, final-gather.
 std::vector<Option> photon_map_options();
 
+/// Widths that fall from pass to pass: progressive, passes, r1, radius-exponent.
+std::vector<Option> progressive_options();
+
 /// `samples_option` and all that follow above, then a method's own.
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own);
 

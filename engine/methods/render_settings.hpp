@@ -1,6 +1,7 @@
 #pragma once
 
 #include "methods/table.hpp"
+#include "photon/disc_settings.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,16 @@ struct FootprintSettings {
     bool fixed_smoothing = false;
     bool paper_axes = false; ///< bounds differentials as they are, not the axes of the ellipse
     bool paper_reemission = false; ///< diffuse reflection spaces photons as the paper does
+};
+
+/// Widths of estimation that fall from pass to pass (docs/methods/progressive.md), for methods with
+/// a photon map.
+struct ProgressiveSettings {
+    bool on = false;
+    std::optional<double> first_radius; ///< r1, of the first pass, in scene units; none: from the
+                                        ///< scene
+    double exponent = 0.25;             ///< a in r(n) = r1 (n / n1)^(-a), between 0 and 1/2
+    std::uint32_t passes = 1;           ///< how often the image's photons and samples are repeated
 };
 
 /// Where the numbers come from that decide the first vertices of paths: Owen-scrambled Sobol'
@@ -70,6 +81,8 @@ struct RenderSettings {
     bool final_gather = false; ///< the photon map is queried one bounce later, except for caustics
     bool everything = false;   ///< also code, buffers and passes that the scene does not require
     FootprintSettings footprints;
+    DiscSettings disc; ///< of a fixed radius
+    ProgressiveSettings progressive;
     /// Values of options that have no member above, by name (own_option() of methods/option.hpp).
     std::map<std::string, std::string> own;
 };

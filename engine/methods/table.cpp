@@ -13,6 +13,7 @@
     METHOD(footprints)                                                                             \
     METHOD(photons)                                                                                \
     METHOD(knn)                                                                                    \
+    METHOD(progressive)                                                                            \
     METHOD(path)
 
 namespace argand {
@@ -90,6 +91,15 @@ const Option* MethodInfo::option(std::string_view option_name) const {
         return option.name == option_name;
     });
     return found == options.end() ? nullptr : &*found;
+}
+
+bool is_progressive(const MethodInfo& method, const RenderSettings& settings) {
+    return method.abilities.progressive || (method.abilities.photon_map && settings.progressive.on);
+}
+
+ErrorLaw law_of(const MethodInfo& method, const RenderSettings& settings) {
+    return is_progressive(method, settings) ? progressive_law(settings.progressive.exponent)
+                                            : method.law;
 }
 
 std::vector<std::string> method_names() { return builtin_methods().names(); }

@@ -13,6 +13,7 @@ void RadiusEstimator::estimate(const PhotonMap& map, const PhotonQueries& querie
     PhotonGatherParams all = gather_params(map, queries, budget_);
     all.radius = static_cast<float>(radii_.indirect);
     all.caustic_radius = static_cast<float>(radii_.caustic);
+    all.boundary_correction = disc_.ball ? 0u : all.boundary_correction;
     gather<kernels::photon_gather, kernels::photon_gather_texels>(
         device_, map, queries, all,
         [&]<class Kernel>(const PhotonGatherParams& params,
@@ -22,6 +23,8 @@ void RadiusEstimator::estimate(const PhotonMap& map, const PhotonQueries& querie
                                      .gathers = queries.suspended,
                                      .params = params,
                                      .constants = {.query = query_constants(plan_, queries),
+                                                   .uniform_kernel = disc_.uniform_kernel,
+                                                   .ball = disc_.ball,
                                                    .material_features = plan_.material_features()}},
                               queries.count.buffer, queries.count.index);
         });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "photon/disc_settings.hpp"
 #include "photon/estimator.hpp"
 
 namespace argand {
@@ -14,13 +15,13 @@ struct GatherRadii {
     double caustic = 0;
 };
 
-/// Density estimation with Epanechnikov's kernel over all photons within the radii, which are the
-/// same for all queries (as in each pass of Hachisuka et al. 2008).
+/// Density estimation over all photons within the radii, which are the same for all queries (as in
+/// each pass of Hachisuka et al. 2008).
 class RadiusEstimator final : public PhotonEstimator {
 public:
     RadiusEstimator(Device& device, const Plan& plan, const GatherRadii& radii,
-                    std::uint32_t budget = gather_budget)
-        : device_(device), plan_(plan), radii_(radii), budget_(budget) {}
+                    std::uint32_t budget = gather_budget, const DiscSettings& disc = {})
+        : device_(device), plan_(plan), radii_(radii), budget_(budget), disc_(disc) {}
 
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
 
@@ -29,6 +30,7 @@ private:
     const Plan& plan_;
     GatherRadii radii_;
     std::uint32_t budget_;
+    DiscSettings disc_;
 };
 
 /// Density estimation over the footprints that contain the query point (Fabianowski and Dingliana

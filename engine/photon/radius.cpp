@@ -91,11 +91,10 @@ bool has_room_for_area_samples(double surface_area, double radius) {
     return wanted_area_samples(surface_area, radius) <= most_area_samples;
 }
 
-std::uint64_t area_samples(double surface_area, double radius) {
-    constexpr double enough = 0.25; // of the samples
+std::uint64_t area_samples(double surface_area, double radius, double share) {
     const double wanted = wanted_area_samples(surface_area, radius);
-    return enough * wanted <= most_area_samples
-               ? static_cast<std::uint64_t>(std::min(wanted, most_area_samples))
+    return least_area_share * wanted <= most_area_samples
+               ? static_cast<std::uint64_t>(std::min(share * wanted, most_area_samples))
                : 0;
 }
 

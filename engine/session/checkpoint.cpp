@@ -133,7 +133,9 @@ CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
                                    settings.samples_per_pass, settings.least_passes)},
                       {"--everything", settings.everything ? "on" : "off"}};
     for (const Option& option : method.options) {
-        key.emplace_back("--" + option.name, option.get(settings));
+        if (!option.ends_render) {
+            key.emplace_back("--" + option.name, option.get(settings));
+        }
     }
     return key;
 }

@@ -127,7 +127,8 @@ bool Session::step(const PassPlan& plan, const OnProgress& on_part) {
         budget_.start_pass(); // what the caller did since the last one is no part of it
     }
     const Pass pass{.expected = plan.expected,
-                    .numbers = streams_.next(plan.stream, method_->passes_per_seed())};
+                    .numbers = streams_.next(plan.stream, method_->passes_per_seed()),
+                    .keeps_width = plan.keeps_width};
     const bool finished = method_->pass(pass, on_part);
     ++statistics_.passes;
     statistics_.interrupted = !finished;
@@ -136,6 +137,11 @@ bool Session::step(const PassPlan& plan, const OnProgress& on_part) {
 
 double Session::share(double part) const {
     return budget_.share(passes(), part, method_->passes());
+}
+
+std::string Session::describe() const {
+    const std::string words = passes() > 0 ? method_->describe_pass() : "";
+    return words.empty() ? words : fmt::format("pass {}, {}", passes(), words);
 }
 
 std::vector<Layer> Session::layers() {

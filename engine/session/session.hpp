@@ -20,6 +20,7 @@ struct PassPlan {
     double expected = 1;
     /// Passes of different streams have independent noise. The first pass must be of stream 0.
     std::uint32_t stream = 0;
+    bool keeps_width = false; ///< see Pass
 };
 
 /// A method at work on the images of a scene, one after the other. It owns what outlives a pass
@@ -69,6 +70,8 @@ public:
     std::uint64_t passes() const { return statistics_.passes; }
     /// The share of the image that is done, with `part` of the next pass.
     double share(double part) const;
+    /// A few words on the image so far for those who watch, or none.
+    std::string describe() const;
     /// The image so far, as in RenderResult. Waits for the device.
     std::vector<Layer> layers();
     /// The image so far, and what happened. Waits for the device.

@@ -41,5 +41,24 @@ TEST(ErrorModel, FirstPassesHaveTheInitialBandwidth) {
     EXPECT_NEAR(bias_after(model, 8).error, 0.001 * share * share, 1e-12);
 }
 
+// Pass i of a progressive render has the width i^(-a), and the image is the mean of the passes.
+TEST(ErrorModel, OfWidthsThatFallFromPassToPassIsThatOfTheMean) {
+    for (const double exponent : {1.0 / 6, 0.2, 0.25, 0.4}) {
+        const ErrorModel model{
+            .fixed = 0.03, .density = 0.01, .bias = {0.002, 0}, .law = progressive_law(exponent)};
+        double variances = 0, biases = 0;
+        for (int pass = 1; pass <= 1000; ++pass) {
+            const double width = std::pow(pass, -exponent);
+            variances += 0.03 + 0.01 / (width * width);
+            biases += std::sqrt(0.002) * width; // squared bias goes with the area
+            EXPECT_NEAR(noise_after(model, pass), variances / (double(pass) * pass),
+                        1e-3 * variances / (double(pass) * pass));
+            const double bias = biases / pass;
+            EXPECT_NEAR(bias_after(model, pass).value, bias * bias, 3e-3 * bias * bias);
+        }
+        EXPECT_DOUBLE_EQ(bias_at(model.law, 8), std::pow(8, -2 * exponent));
+    }
+}
+
 } // namespace
 } // namespace argand

@@ -48,6 +48,8 @@ TEST(Progress, LineShowsShareAndTimeLeft) {
     EXPECT_EQ(progress_line("tracing", 0.5, 90), "tracing  50 %  1 min 30 s left");
     EXPECT_EQ(progress_line("tracing", 0.5, 3720), "tracing  50 %  1 h 02 min left");
     EXPECT_EQ(progress_line("tracing", 1, 10), "tracing  100 %");
+    EXPECT_EQ(progress_line("tracing", 0.25, 10, "pass 3, radius 0.1"),
+              "tracing  25 %  30 s left  pass 3, radius 0.1");
     EXPECT_EQ(progress_line("tracing", 7, 10), "tracing  100 %");
     EXPECT_EQ(progress_line("tracing", -1, 10), "tracing  0 %");
     EXPECT_EQ(progress_line("tracing", std::numeric_limits<double>::quiet_NaN(), 10),

@@ -94,6 +94,30 @@ TEST_F(BadInput, OptionsThatTheMethodDoesNotUse) {
     }
 }
 
+TEST_F(BadInput, ProgressiveWidthsThatAreNone) {
+    const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
+    for (const char* option : {"--passes 0", "--passes 1.5", "--passes -1", "--radius-exponent 0",
+                               "--radius-exponent 0.5", "--radius-exponent nan",
+                               "--radius-exponent -0.25", "--r1 0", "--r1 -1", "--r1 nan"}) {
+        const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+        expect_failure(scene + "--progressive " + option, usage, name);
+        expect_failure(scene + "--method progressive " + option, usage, name);
+    }
+    expect_failure(scene + "--method path --progressive", usage, "--progressive: it has no effect");
+    for (const char* option : {"--passes 4", "--r1 0.1", "--radius-exponent 0.2"}) {
+        expect_failure(scene + option, usage, "add that");
+        expect_failure(scene + "--method path " + option, usage, "no effect with --method path");
+    }
+    expect_failure(scene + "--progressive --radius 0.1", usage, "--r1");
+    expect_failure(scene + "--method progressive --radius 0.1", usage, "--radius");
+    expect_failure(scene + "--method footprints --progressive --fixed-smoothing", usage,
+                   "--fixed-smoothing");
+    expect_failure(scene + "--method progressive --budget 1 --passes 4", usage, "--passes");
+    expect_failure(scene + "--progressive --target-error 0.1 --passes 4", usage, "--passes");
+    expect_failure(scene + "--method photons --kernel gauss", usage, "--kernel");
+    expect_failure(scene + "--method knn --support ball", usage, "it is for photons, progressive");
+}
+
 TEST_F(BadInput, NumbersOutOfRange) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' ";
     struct Case {

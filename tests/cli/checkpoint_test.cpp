@@ -58,6 +58,17 @@ TEST_F(Checkpoints, GoOnAfterAKillAtAnyMoment) {
     EXPECT_EQ(read_text(file("whole.exr")), read_text(file("resumed.exr")));
 }
 
+TEST_F(Checkpoints, OfAProgressiveRenderTakeMorePasses) {
+    const std::string progressive = "--method progressive --photons 2000 --r1 0.3 ";
+    ASSERT_EQ(run(progressive + "--passes 5 -o whole.exr").exit_code, 0);
+    ASSERT_EQ(run(progressive + "--passes 2 -o two.exr --checkpoint c --every 0").exit_code, 0);
+    ASSERT_EQ(run(progressive + "--passes 5 -o five.exr --resume c").exit_code, 0);
+    EXPECT_EQ(read_text(file("whole.exr")), read_text(file("five.exr")));
+    EXPECT_NE(read_text(file("whole.exr")), read_text(file("two.exr")));
+    expect_error(progressive + "--passes 5 --radius-exponent 0.2 -o no.exr --resume c",
+                 "--radius-exponent");
+}
+
 TEST_F(Checkpoints, AreReplacedByTheOlderOneWhereTheyAreDamaged) {
     ASSERT_EQ(run(std::string(long_render) + "-o whole.exr --checkpoint c --every 0").exit_code, 0);
     ASSERT_TRUE(std::filesystem::exists(file("c.old")));

@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(MethodTable, UsersKnowTheBuiltInMethodsByTheseNames) {
-    EXPECT_THAT(method_names(), ElementsAre("footprints", "photons", "knn", "path"));
+    EXPECT_THAT(method_names(), ElementsAre("footprints", "photons", "knn", "progressive", "path"));
     EXPECT_EQ(RenderSettings().method, "footprints");
 }
 
@@ -21,7 +21,7 @@ TEST(MethodTable, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
     EXPECT_EQ(builtin_methods().find("rays"), nullptr);
     const std::string message = error_of([] { builtin_methods().at("rays"); });
     EXPECT_THAT(message, HasSubstr("'rays'"));
-    EXPECT_THAT(message, HasSubstr("footprints, photons, knn, path"));
+    EXPECT_THAT(message, HasSubstr("footprints, photons, knn, progressive, path"));
 }
 
 TEST(MethodTable, EveryMethodDescribesItself) {
@@ -43,6 +43,22 @@ TEST(MethodTable, AutotuningHasCandidatesAndAReference) {
     EXPECT_EQ(first, 1);
     ASSERT_NE(builtin_methods().unbiased(), nullptr);
     EXPECT_EQ(builtin_methods().unbiased()->name, "path");
+}
+
+TEST(MethodTable, LawsFollowTheExponentWhereWidthsFallFromPassToPass) {
+    RenderSettings settings;
+    settings.progressive.exponent = 0.2;
+    for (const MethodInfo& method : builtin_methods()) {
+        for (const bool on : {false, true}) {
+            settings.progressive.on = on;
+            const bool falls = method.name == "progressive" || (on && method.abilities.photon_map);
+            EXPECT_EQ(is_progressive(method, settings), falls) << method.name;
+            const ErrorLaw law = law_of(method, settings);
+            EXPECT_EQ(law.by_pass, falls) << method.name;
+            EXPECT_EQ(law.noise_growth, falls ? 0.4 : method.law.noise_growth) << method.name;
+            EXPECT_EQ(law.bias_fall, falls ? 0.4 : method.law.bias_fall) << method.name;
+        }
+    }
 }
 
 TEST(MethodTable, MethodsThatShareAnOptionAgreeOnIt) {

@@ -41,7 +41,12 @@ TEST(SweepValues, OfTheFullSweep) {
     EXPECT_EQ(values("path", Extent::full), (Values{{"default", {""}},
                                                     {"spp", {"1", "4", "16", "64", "256"}},
                                                     {"bounces", {"1", "4"}}}));
-    EXPECT_EQ(values("photons", Extent::full), of_all_maps);
+    Values discs = of_all_maps;
+    discs.merge(Values{{"kernel", {"uniform"}}, {"support", {"ball"}}});
+    EXPECT_EQ(values("photons", Extent::full), discs);
+    discs.erase("radius");
+    discs.merge(Values{{"passes", {"4", "16", "64"}}, {"r1", {"0.125", "0.5"}}});
+    EXPECT_EQ(values("progressive", Extent::full), discs);
     Values knn = of_all_maps;
     knn["k"] = {"25", "100"};
     EXPECT_EQ(values("knn", Extent::full), knn);

@@ -68,6 +68,32 @@ void check_checkpoints(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+/// Throws UsageError on options that do not go with widths that fall from pass to pass, or not
+/// without.
+void check_progressive(const RenderOptions& options, const CLI::App& command) {
+    if (!is_progressive(options.method(), options.settings)) {
+        for (const char* option : {"--passes", "--r1", "--radius-exponent"}) {
+            if (is_given(command, option)) {
+                throw UsageError(fmt::format(
+                    "reading {}: it has no effect without --progressive; add that", option));
+            }
+        }
+        return;
+    }
+    for (const char* option : {"--radius", "--fixed-smoothing"}) {
+        if (is_given(command, option)) {
+            throw UsageError(
+                fmt::format("reading {}: progressive widths fall from that of the first "
+                            "pass; set that with --r1 or --smoothing",
+                            option));
+        }
+    }
+    if (is_given(command, "--passes") && (options.settings.budget || options.target_error)) {
+        throw UsageError("reading --passes: with --budget or --target-error there are as many "
+                         "passes as that takes; leave one of the two out");
+    }
+}
+
 void check(const RenderOptions& options, const CLI::App& command) {
     check_methods({options.settings.method}, options.methods);
     check_checkpoints(options, command);
@@ -75,6 +101,7 @@ void check(const RenderOptions& options, const CLI::App& command) {
         check_autotuned(options, command);
     }
     check_method_options(command, options.method(), options.methods);
+    check_progressive(options, command);
     check_frames(options, command);
     std::vector<std::string> files{options.scene};
     for (const std::string& checkpoint : {options.checkpoint, options.resume}) {
@@ -197,7 +224,10 @@ void add_render_command(CLI::App& app, MethodTable methods) {
     command->add_option("--checkpoint", options->checkpoint,
                         "File to which the state of the render is saved now and then and at its "
                         "end; the one before it stays, as FILE.old");
-    command->add_option("--every", options->every, "Seconds between checkpoints")
+    command
+        ->add_option("--every", options->every,
+                     "Seconds between checkpoints; a progressive render then also writes its "
+                     "picture so far")
         ->capture_default_str()
         ->check(number_between(0, 1e9));
     command->add_option("--resume", options->resume,

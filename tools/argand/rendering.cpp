@@ -70,8 +70,8 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
                                      std::vector<std::string>& notes) {
     const RenderOptions& options = job.options;
     Session& session = *job.session;
-    const CheckpointKey key = checkpoint_key(
-        job.scene, job.settings, options.methods.at(job.settings.method), job.device->info());
+    const MethodInfo& method = options.methods.at(job.settings.method);
+    const CheckpointKey key = checkpoint_key(job.scene, job.settings, method, job.device->info());
     if (options.resume.empty()) {
         session.begin_frame(job.settings.seed);
     } else {
@@ -82,9 +82,14 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         }
     }
     bool can_save = !options.checkpoint.empty();
-    const auto save = [&] {
+    const auto save = [&](bool shows) {
         try {
             save_checkpoint(options.checkpoint, key, session.save());
+            if (shows) { // the picture of a render that may have no end
+                for (const std::string& output : options.outputs) {
+                    write_image(output, session.layers(), options.exposure);
+                }
+            }
         } catch (const DeviceFault&) {
             throw;
         } catch (const Error& error) { // such as a full disk: the picture is worth more
@@ -109,7 +114,7 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
             }
             if (can_save && so_far.passes > saved &&
                 (!plan || seconds_since(last) >= options.every)) {
-                save();
+                save(plan && is_progressive(method, job.settings));
                 saved = so_far.passes;
                 last = Clock::now();
             }
@@ -138,7 +143,7 @@ Rendered render_on(RenderJob& job, const std::string& work) {
     World& world = *job.world;
     std::optional<Progress> progress;
     const OnProgress on_progress = [&](double done) {
-        progress->update(done);
+        progress->update(done, job.session ? job.session->describe() : "");
         return !interrupted();
     };
     if (!is_autotuned(options, job.command)) {

@@ -1,4 +1,5 @@
-// Density estimation over the photons within a radius, with Epanechnikov's kernel.
+// Density estimation over the photons within a radius, with Epanechnikov's kernel or a uniform one.
+// With `ball` all photons of a ball count, whatever their surface: Keller et al. 2010, section 1.
 #include "shared/kernels/photon/query_state.h"
 
 struct Bandwidth {
@@ -17,19 +18,35 @@ FN Bandwidth make_bandwidth() {
 
 FN real search_radius2(IN(Bandwidth) b) { return b.r2; }
 
+// Over kernel_scale times the inverse of the squared radius.
+FN real disc_weight(real squared_distance) {
+    return !uniform_kernel                ? kernel_weight(squared_distance)
+           : squared_distance < real(1.0) ? real(0.5)
+                                          : real(0.0);
+}
+
+// Whether a photon of the ball comes from the side of the surface that the eye sees. BRDFs are 0
+// for the others.
+FN bool from_above(IN(Query) q, uvec4 carried) {
+    return dot3(unpack_unit(carried.w), q.normal) > real(0.0);
+}
+
 FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf) {
     uvec4 place = PHOTONS(2u * j);
     vec3 d = bits_float(uvec3(place)) - q.p;
-    real height = dot3(d, q.normal);
+    real height = ball ? real(0.0) : dot3(d, q.normal);
     real d2 = dot3(d, d) - height * height;
-    if (d2 < b.r2 && on_same_surface(q, place.w, d)) {
+    if (d2 < b.r2 && (ball || on_same_surface(q, place.w, d))) {
         uvec4 carried = PHOTONS(2u * j + 1u);
+        if (ball && !from_above(q, carried)) {
+            return;
+        }
         if ((place.w & area_sample_bit) != 0u) {
-            leaf.area += open_area(q, carried) * kernel_weight(d2 * b.inverse_r2);
+            leaf.area += open_area(q, carried) * disc_weight(d2 * b.inverse_r2);
         } else if (is_caustic(place)) {
-            leaf.caustic += scattered(q, carried) * kernel_weight(d2 * b.inverse_caustic_r2);
+            leaf.caustic += scattered(q, carried) * disc_weight(d2 * b.inverse_caustic_r2);
         } else {
-            leaf.indirect += scattered(q, carried) * kernel_weight(d2 * b.inverse_r2);
+            leaf.indirect += scattered(q, carried) * disc_weight(d2 * b.inverse_r2);
         }
     }
 }
