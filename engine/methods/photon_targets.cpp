@@ -127,4 +127,28 @@ void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points) {
     }
 }
 
+void aim_at_view(RenderContext& context, std::span<const glm::vec4> points) {
+    constexpr double within = 0.8; // share of the points
+    constexpr double margin = 1.2;
+    constexpr double most_extent = 0.25; // over the scene's; more is hit often enough
+    const double share = getenv("ARGAND_SHARE") ? atof(getenv("ARGAND_SHARE")) : 0.1; // of the photons scattered elsewhere
+    DeviceScene& scene = context.on_device;
+    if (points.empty()) {
+        return;
+    }
+    const ViewExtent view = view_extent(points);
+    std::vector<double> distances;
+    distances.reserve(points.size());
+    for (const glm::vec4& point : points) {
+        distances.push_back(glm::distance(glm::dvec3(point), view.middle));
+    }
+    const auto nth = distances.begin() + static_cast<std::ptrdiff_t>(within * static_cast<double>(distances.size() - 1));
+    std::nth_element(distances.begin(), nth, distances.end());
+    const double radius = margin * *nth;
+    if (getenv("ARGAND_DEBUG_DIR")) fprintf(stderr, "view %g %g %g radius %g scene %g\n", view.middle.x, view.middle.y, view.middle.z, radius, scene.record.radius);
+    if (radius > 0 && radius < most_extent * scene.record.radius) {
+        set_view(context.device, scene, {view.middle, radius}, share);
+    }
+}
+
 } // namespace argand

@@ -1,11 +1,5 @@
 #include "shared/kernels/scene.h"
 
-// The logarithm that photon_aimed_shift describes.
-FN uint aimed_by(real concentration) {
-    real most = real(1u << largest_photon_aimed);
-    return uint(findMSB(uint(clamp(concentration, real(1.0), most))));
-}
-
 FN void main() {
     uint slot = THREAD_INDEX;
     if (slot >= batch.count) {
