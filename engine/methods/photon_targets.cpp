@@ -128,26 +128,27 @@ void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points) {
 }
 
 void aim_at_view(RenderContext& context, std::span<const glm::vec4> points) {
-    constexpr double within = 0.8; // share of the points
+    constexpr double share = 0.1;  // of the photons
+    constexpr double within = 0.8; // share of the points in the sphere, but for the margin
     constexpr double margin = 1.2;
     constexpr double most_extent = 0.25; // over the scene's; more is hit often enough
-    const double share = getenv("ARGAND_SHARE") ? atof(getenv("ARGAND_SHARE")) : 0.1; // of the photons scattered elsewhere
     DeviceScene& scene = context.on_device;
-    if (points.empty()) {
+    // Mirrors and glass show what lies elsewhere, at which no photons are aimed.
+    if (points.empty() || scene.plan.needs(Feature::followed_paths)) {
         return;
     }
-    const ViewExtent view = view_extent(points);
+    const glm::dvec3 middle = view_extent(points).middle;
     std::vector<double> distances;
     distances.reserve(points.size());
     for (const glm::vec4& point : points) {
-        distances.push_back(glm::distance(glm::dvec3(point), view.middle));
+        distances.push_back(glm::distance(glm::dvec3(point), middle));
     }
-    const auto nth = distances.begin() + static_cast<std::ptrdiff_t>(within * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), nth, distances.end());
-    const double radius = margin * *nth;
-    if (getenv("ARGAND_DEBUG_DIR")) fprintf(stderr, "view %g %g %g radius %g scene %g\n", view.middle.x, view.middle.y, view.middle.z, radius, scene.record.radius);
+    const auto rank = static_cast<std::size_t>(within * static_cast<double>(distances.size() - 1));
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(rank),
+                     distances.end());
+    const double radius = margin * distances[rank];
     if (radius > 0 && radius < most_extent * scene.record.radius) {
-        set_view(context.device, scene, {view.middle, radius}, share);
+        set_view(context.device, scene, {middle, radius}, share);
     }
 }
 

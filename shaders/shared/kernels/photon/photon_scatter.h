@@ -124,7 +124,7 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
                              real survival) {
     BsdfSample s = out_of.sampled;
     roulette_differential(d, s.probability * survival * out_of.concentration);
-    real emitted = real(1.0) / batch.inverse_total;
+    real emitted = out_of.concentration / batch.inverse_total;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
     } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {
@@ -234,14 +234,15 @@ FN void main() {
     real choice = real(1.0);
     if (aims_at_view) {
         view = view_from(a);
-        choice = photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, false).x;
+        choice =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, false).x;
     }
     bool is_elsewhere = view.height > real(0.0);
     Departure out_of = depart(a, m, followed, estimated, view, u, choice);
     bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
     uint for_view = (path.state >> photon_view_shift) & photon_view_mask;
-    uint leaves = stays_followed ? 0u
-                                 : (path.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
+    uint leaves =
+        stays_followed ? 0u : (path.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
     real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
     if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
         ledgers[slot].absorbed += units_of(a.flux);
