@@ -51,7 +51,8 @@ double largest_radius(std::span<const glm::vec4> queries) {
 double in_disc(const FirstPass& first, std::uint64_t photons, bool caustic,
                std::optional<std::uint32_t> neighbours) {
     return neighbours ? *neighbours
-                      : in_disc_of_pass(static_cast<double>(photons), first.passes, caustic);
+                      : in_disc_of_pass(static_cast<double>(photons), first.passes, caustic) /
+                            first.evenness;
 }
 
 /// The radius in which discs at the query points hold enough of these photons.
@@ -147,7 +148,7 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
                    photons);
     const double on_point =
         footprints_for_disc *
-        in_disc_of_pass(static_cast<double>(first.stored.photons), first.passes);
+        in_disc_of_pass(static_cast<double>(first.stored.photons), first.passes) / first.evenness;
     const double learnt = median_smoothing(first.device, photons, first.queries, on_point);
     b.smoothing = learnt > 0 ? learnt : 1;
 }

@@ -28,6 +28,8 @@ struct FirstPass {
     std::span<const glm::vec4> queries; ///< points at which the picture queries the photon map; the
                                         ///< fourth component does not count
     double passes = 1; ///< of as many photons each, over which the picture averages
+    /// Photons of equal flux that would have as much noise as one photon in view; at most 1.
+    double evenness = 1;
 };
 
 /// The photons that one pass should find in a disc (or k), so that all passes together find the

@@ -16,8 +16,8 @@ constexpr double typical_over_max = 0.3;
 constexpr double reach = 2.5;
 
 std::uint32_t automatic_neighbours(double photons, const FirstPass& first, bool caustic) {
-    return static_cast<std::uint32_t>(
-        std::max(std::round(in_disc_of_pass(photons, first.passes, caustic)), 2.0));
+    return static_cast<std::uint32_t>(std::max(
+        std::round(in_disc_of_pass(photons, first.passes, caustic) / first.evenness), 2.0));
 }
 
 /// Density over the disc that the k nearest photons fill (Jensen 1996). Caustic photons have a k

@@ -151,7 +151,8 @@ void persist_lights(Archive& archive, RenderContext& context) {
                            [](double share) { return share >= 0 && share <= 1.001; });
     };
     if (!are_shares(learnt.ray_shares) || !are_shares(learnt.photon_shares) ||
-        learnt.record.target_count > most_targets) {
+        learnt.record.target_count > most_targets ||
+        !(learnt.record.view_share >= 0 && learnt.record.view_share < 0.5f)) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
     keep_learnt(context, learnt);

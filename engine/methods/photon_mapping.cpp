@@ -119,6 +119,7 @@ public:
         const std::vector<glm::vec4> queries = sample_queries(
             c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
         aim_at_casters(c_, queries);
+        aim_at_view(c_, queries);
         first_ = trace_first(budget);
         image_.learnt = budget.once([&] {
             const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
@@ -129,7 +130,8 @@ public:
                                   .photons = sorted,
                                   .queries = queries,
                                   .passes =
-                                      progressive_ ? 1 : static_cast<double>(image_.split.passes)};
+                                      progressive_ ? 1 : static_cast<double>(image_.split.passes),
+                                  .evenness = evenness_in_view()};
             RenderSettings settings = c_.settings;
             if (progressive_) {
                 settings.radius = settings.progressive.first_radius;
@@ -164,6 +166,7 @@ private:
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
     std::uint64_t wanted_area_samples(double radius) const;
+    double evenness_in_view();
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
@@ -237,6 +240,38 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
         }
         image_.split = split(c_.settings, image_.emitted, image_.split.photons / 2);
     }
+}
+
+/// Of photons that were aimed at what is in view, many carry little flux and a few much. The noise
+/// of n of them is that of (Σ flux)² / Σ flux² photons of equal flux. Surfaces that face away from
+/// the camera do not count: a sun may shine on the outer side of a room's walls.
+double PhotonMapping::evenness_in_view() {
+    const SceneRecord& scene = c_.on_device.record;
+    if (!(scene.view_share > 0)) {
+        return 1;
+    }
+    constexpr double least = 1.0 / 64;
+    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
+    double count = 0;
+    double sum = 0;
+    double squares = 0;
+    for (const PhotonRecord& photon :
+         download<PhotonRecord>(c_.device, photons_.photons, first_->slots)) {
+        if (photon.normal == no_photon) {
+            continue;
+        }
+        const glm::vec3 place(photon.x, photon.y, photon.z);
+        const glm::vec3 normal = unpack_photon_normal(photon.normal);
+        const bool in_view = glm::distance(place, glm::vec3(scene.view)) < scene.view.w &&
+                             glm::dot(normal, eye - place) > 0;
+        if (in_view) {
+            const double flux = double(photon.flux_r) + photon.flux_g + photon.flux_b;
+            ++count;
+            sum += flux;
+            squares += flux * flux;
+        }
+    }
+    return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
 }
 
 /// Samples areas only where most of what is in view lies, if the radius needs more samples than

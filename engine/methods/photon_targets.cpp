@@ -128,4 +128,29 @@ void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points) {
     }
 }
 
+void aim_at_view(RenderContext& context, std::span<const glm::vec4> points) {
+    constexpr double share = 0.1;  // of the photons
+    constexpr double within = 0.8; // share of the points in the sphere, but for the margin
+    constexpr double margin = 1.2;
+    constexpr double most_extent = 0.25; // over the scene's; more is hit often enough
+    DeviceScene& scene = context.on_device;
+    // Mirrors and glass show what lies elsewhere, at which no photons are aimed.
+    if (points.empty() || scene.plan.needs(Feature::followed_paths)) {
+        return;
+    }
+    const glm::dvec3 middle = view_extent(points).middle;
+    std::vector<double> distances;
+    distances.reserve(points.size());
+    for (const glm::vec4& point : points) {
+        distances.push_back(glm::distance(glm::dvec3(point), middle));
+    }
+    const auto rank = static_cast<std::size_t>(within * static_cast<double>(distances.size() - 1));
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(rank),
+                     distances.end());
+    const double radius = margin * distances[rank];
+    if (radius > 0 && radius < most_extent * scene.record.radius) {
+        set_view(context.device, scene, {middle, radius}, share);
+    }
+}
+
 } // namespace argand

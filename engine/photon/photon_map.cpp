@@ -118,6 +118,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                    .reemission = w.reemission,
                                    .quasi_random = w.quasi_random,
                                    .followed_paths = plan.needs(Feature::followed_paths),
+                                   .aims_at_view = scene.record.view_share > 0,
                                    .scene = scene.constants(),
                                    .material_features = plan.material_features()}},
                  active);

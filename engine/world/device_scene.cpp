@@ -111,6 +111,12 @@ void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> 
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
 }
 
+void set_view(Device& device, DeviceScene& scene, const glm::vec4& sphere, double share) {
+    scene.record.view = sphere;
+    scene.record.view_share = static_cast<float>(share);
+    scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
+}
+
 CameraRecord camera_record(const Camera& camera, int width, int height) {
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);

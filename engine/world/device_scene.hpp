@@ -78,6 +78,10 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
 void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> spheres,
                  double share);
 
+/// Aims a share of the photons that are scattered outside a sphere (center, radius) at it, and
+/// uploads `record` with it. Records only.
+void set_view(Device& device, DeviceScene& scene, const glm::vec4& sphere, double share);
+
 /// The camera for a picture of this size in pixels. The vertical angle does not depend on the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);
 

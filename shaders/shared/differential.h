@@ -148,9 +148,10 @@ FN void refract_differential(INOUT(PhotonDifferential) d, vec3 direction,
 
 // Russian roulette (section 4.2): the photon survived with this probability, so its footprint's
 // area is divided by it. Also accounts for the choice of a lobe and for light that a thin or partly
-// covering surface lets straight through.
+// covering surface lets straight through, and above 1 for photons that are denser than without
+// aiming.
 FN void roulette_differential(INOUT(PhotonDifferential) d, real probability) {
-    real factor = real(1.0) / sqrt(clamp(probability, real(1e-6), real(1.0)));
+    real factor = real(1.0) / sqrt(clamp(probability, real(1e-6), real(1e9)));
     d.dp_du = limit_length(d.dp_du * factor, LARGEST_OFFSET);
     d.dp_dv = limit_length(d.dp_dv * factor, LARGEST_OFFSET);
     d.dd_du = limit_length(d.dd_du * factor, LARGEST_SPREAD);

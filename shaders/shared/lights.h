@@ -3,6 +3,7 @@
 #ifndef ARGAND_SHARED_LIGHTS_H
 #define ARGAND_SHARED_LIGHTS_H
 
+#include "shared/cone.h"
 #include "shared/frame.h"
 #include "shared/geometry_records.h"
 #include "shared/intersect.h"
@@ -33,6 +34,8 @@ struct EmittedPhoton {
     // Density of photons like this one over that of even emission: of positions across their
     // direction if they come from outside, else of directions.
     real concentration;
+    // The part of it that is due to photons aimed at what is in view, and at targets.
+    real for_view, for_targets;
 };
 
 struct Sphere {
@@ -78,39 +81,9 @@ struct Targets {
     vec4 spheres[most_targets];
     uint count;
     real share; // of the photons, for each sphere
+    vec4 view;  // the sphere around what is in view
+    real view_share;
 };
-
-// Directions in which a sphere is seen from a point: those within an angle of the axis.
-struct Cone {
-    vec3 axis;
-    real sine2;  // of the angle, squared
-    real height; // 1 - cosine of the angle; 0: the point is in the sphere, or nearly
-};
-
-FN Cone cone_of(vec4 sphere, vec3 from) {
-    Cone c;
-    real distance;
-    c.axis = unit_and_length(vec3(sphere) - from, distance);
-    bool outside = real(sphere.w) * real(1.1) < distance;
-    real sine = outside ? real(sphere.w) / distance : real(1.0);
-    c.sine2 = sine * sine;
-    c.height = outside ? c.sine2 / (real(1.0) + sqrt(real(1.0) - c.sine2)) : real(0.0);
-    return c;
-}
-
-FN bool is_in_cone(IN(Cone) c, vec3 direction) {
-    vec3 across = cross3(c.axis, direction);
-    return dot3(c.axis, direction) > real(0.0) && dot3(across, across) <= c.sine2;
-}
-
-// A direction in the cone, evenly distributed over its solid angle.
-FN vec3 sample_cone(IN(Cone) c, vec2 u) {
-    real below = u.x * c.height;
-    real s, k;
-    sincos_2pi(u.y, s, k);
-    real sine = safe_sqrt(below * (real(2.0) - below));
-    return to_world(make_frame(c.axis), vec3(sine * k, sine * s, real(1.0) - below));
-}
 
 // Whether the light is of this kind. `kinds` (1u << light_*) are the kinds that the scene has;
 // where a kernel knows them at compile time, code for other kinds vanishes.
@@ -279,7 +252,7 @@ FN bool emit_evenly(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, ve
     p.direction = light_direction(l);
     p.normal = vec3(real(0.0));
     p.flux = light_power(l, kinds, bounds.radius);
-    p.concentration = real(1.0);
+    p.concentration = p.for_view = p.for_targets = real(1.0);
     if (is_light(l, kinds, light_point)) {
         p.direction = sample_sphere(vec2(u.x, u.y));
         return true;
@@ -360,16 +333,36 @@ FN real emission_density(IN(LightRecord) l, uint kinds, vec3 front, vec3 directi
     return UNIFORM_SPHERE_PDF;
 }
 
-// Aims a photon from inside the scene at the targets, in proportion to their shares. Returns false
-// if the light does not shine in the direction chosen.
+// Solid-angle density of photons aimed at a sphere with this share of them all. Photons that start
+// in the sphere are not aimed: they keep the density `even`.
+FN real aimed_density(vec4 sphere, real share, IN(EmittedPhoton) p, bool is_aimed, real even) {
+    Cone c = cone_of(sphere, p.origin);
+    if (!(c.height > real(0.0))) {
+        return even * share;
+    }
+    bool inside = is_aimed || is_in_cone(c, p.direction); // the former whatever the rounding
+    return inside ? share / cone_solid_angle(c) : real(0.0);
+}
+
+// Aims a photon from inside the scene at the targets and at what is in view, in proportion to their
+// shares. Returns false if the light does not shine in the direction chosen.
 FN bool aim_at_targets(IN(LightRecord) l, uint kinds, IN(Targets) targets, vec2 u, real choice,
                        INOUT(EmittedPhoton) p) {
-    uint aimed = min(uint(choice / targets.share), most_targets);
+    const uint at_view = most_targets;
+    const uint at_nothing = most_targets + 1u;
+    real at_targets = real(targets.count) * targets.share;
+    uint aimed = choice < at_targets + targets.view_share ? at_view : at_nothing;
+    if (choice < at_targets) {
+        aimed = min(uint(choice / targets.share), targets.count - 1u);
+    }
     real area;
     vec3 front = light_normal(l, area);
-    if (aimed < targets.count) {
-        Cone c = cone_of(targets.spheres[aimed], p.origin);
-        // Photons that start in a target are not aimed.
+    if (aimed != at_nothing) {
+        vec4 sphere = targets.view;
+        if (aimed != at_view) {
+            sphere = targets.spheres[aimed];
+        }
+        Cone c = cone_of(sphere, p.origin);
         if (c.height > real(0.0)) {
             p.direction = sample_cone(c, u);
             if (is_light(l, kinds, light_triangle)) {
@@ -377,20 +370,20 @@ FN bool aim_at_targets(IN(LightRecord) l, uint kinds, IN(Targets) targets, vec2 
                     is_double_sided(l) && dot3(front, p.direction) < real(0.0) ? -front : front;
             }
         } else {
-            aimed = most_targets;
+            aimed = at_nothing;
         }
     }
     real even = emission_density(l, kinds, front, p.direction);
-    real density = even * (real(1.0) - real(targets.count) * targets.share);
+    real density = even * (real(1.0) - at_targets - targets.view_share);
+    if (targets.view_share > real(0.0)) {
+        density += aimed_density(targets.view, targets.view_share, p, aimed == at_view, even);
+        p.for_view = density / (even * (real(1.0) - at_targets));
+    }
     for (uint i = 0u; i < targets.count; ++i) {
-        Cone c = cone_of(targets.spheres[i], p.origin);
-        if (!(c.height > real(0.0))) {
-            density += even * targets.share;
-        } else if (i == aimed || is_in_cone(c, p.direction)) { // the former whatever the rounding
-            density += targets.share / (real(2.0) * PI * c.height);
-        }
+        density += aimed_density(targets.spheres[i], targets.share, p, i == aimed, even);
     }
     p.concentration = density / even;
+    p.for_targets = p.concentration / p.for_view;
     return even > real(0.0) && is_finite(p.concentration);
 }
 
@@ -406,7 +399,7 @@ FN bool light_emit_aimed(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Fo
             aim_at_focus(bounds, focus, u, choice, p);
             p.flux = p.flux / p.concentration;
         }
-    } else if (targets.count > 0u && emitted) {
+    } else if ((targets.count > 0u || targets.view_share > real(0.0)) && emitted) {
         emitted = aim_at_targets(l, kinds, targets, vec2(u.x, u.y), choice, p);
         p.flux = p.flux / (emitted ? p.concentration : real(1.0));
     }

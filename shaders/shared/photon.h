@@ -72,6 +72,13 @@ CONSTANT real steepest_chord = real(0.302);
 // Photons whose normal is at an angle with a cosine below this belong to another surface.
 CONSTANT real same_surface_cosine = real(0.5);
 
+// The logarithm to base 2, rounded down, of the density of aimed photons over that without aiming;
+// 0 where it is below 2.
+FN uint aimed_by(real concentration) {
+    real most = real(1u << largest_photon_aimed);
+    return uint(findMSB(uint(clamp(concentration, real(1.0), most))));
+}
+
 // Rounds a flux to units of the fixed-point sums, which hold at most 2^32 - 2^8.
 FN uint flux_units(real flux, real unit) {
     return uint(min(floor(flux / unit + real(0.5)), real(4294967040.0)));

@@ -20,11 +20,17 @@ struct PhotonRecord {
 // A photon that is being traced, one per slot.
 struct PhotonPathRecord {
     float32 flux_r, flux_g, flux_b;
-    uint state; // scatterings so far in the low half; photon_followed; photon_aimed_shift
+    // Scatterings so far in the low half; photon_followed; photon_view_shift; photon_aimed_shift.
+    uint state;
 };
 
 CONSTANT uint photon_depth_mask = 0xffffu;
 CONSTANT uint photon_followed = 0x10000u; // only followed lobes scattered the photon so far
+// From this bit on: the logarithm to base 2, rounded down, of the density of photons that were
+// aimed at what is in view when they were last scattered outside it, over the density without
+// aiming.
+CONSTANT uint photon_view_shift = 17u;
+CONSTANT uint photon_view_mask = 31u;
 // From this bit on: the logarithm to base 2 of the density of photons aimed at a caster of caustics
 // over that of even emission, rounded down; 0 after other scatterings.
 CONSTANT uint photon_aimed_shift = 24u;

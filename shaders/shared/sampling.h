@@ -19,6 +19,8 @@ FN vec4 eye_random4(uint seed, uint pixel, uint sample_index, uint dimension) {
 
 // A dimension that no vertex of a photon reaches.
 CONSTANT uint dimension_of_choices = 0x10000000u;
+// From this dimension on: whether each scattering is aimed.
+CONSTANT uint dimension_of_aims = 0x10000001u;
 
 // Photons: one sequence over all of them or, for comparison, the hash at all vertices.
 FN vec4 photon_random4(uint seed, uint photon, uint dimension, bool quasi_random) {

@@ -164,6 +164,38 @@ TEST(LightEmission, AimingAtTargetsChangesNoFlux) {
     }
 }
 
+/// The same with half of the photons aimed at a sphere in view, which overlaps with two targets.
+Targets targets_and_view() {
+    Targets targets = four_targets();
+    targets.view = vec4(0.8f, 1, 1.1f, 0.4f);
+    targets.view_share = 0.5f;
+    return targets;
+}
+
+TEST(LightEmission, AimingAtWhatIsInViewChangesNoFlux) {
+    Targets only_view = targets_and_view();
+    only_view.count = 0;
+    only_view.share = 0;
+    const std::vector<vec4> spheres{only_view.view, vec4(1.2f, 1, 1.1f, 0.1f), // across rims
+                                    vec4(0, 2, 1, 0.8f),                       // beside them
+                                    vec4(1, 1.5f, 5, 50)};                     // everything
+    for (const LightRecord& l : one_of_each()) {
+        if (l.kind == light_directional || l.kind == light_sky) {
+            continue;
+        }
+        for (const vec4& sphere : spheres) {
+            const Mean even = flux_through(l, sphere, {});
+            for (const Targets& targets : {only_view, targets_and_view()}) {
+                const Mean aimed = flux_through(l, sphere, targets);
+                EXPECT_NEAR(aimed.value(), even.value(),
+                            5 * std::hypot(aimed.deviation(), even.deviation()) +
+                                1e-5 * even.value())
+                    << l.kind << ", " << sphere.x << ", " << targets.count;
+            }
+        }
+    }
+}
+
 // Photons that start in a target are emitted evenly, and a target of a millionth of the scene's
 // size is hit by those that are aimed at it.
 TEST(LightEmission, TargetsOfAnySize) {

@@ -3,6 +3,7 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene_bindings.glsl"
 #include "material_features.glsl"
+#include "shared/cone.h"
 #include "shared/differential_record.h"
 #include "shared/follow.h"
 #include "shared/footprint.h"
@@ -28,5 +29,7 @@ layout(constant_id = 2) const bool quasi_random = true;
 // Whether paths are followed through some lobe of the scene (shared/follow.h); else there are no
 // caustics.
 layout(constant_id = 3) const bool followed_paths = true;
+// Whether some photons are aimed at what is in view.
+layout(constant_id = 4) const bool aims_at_view = true;
 
 #include "shared/kernels/photon/photon_scatter.h"

@@ -1,11 +1,5 @@
 #include "shared/kernels/scene.h"
 
-// The logarithm that photon_aimed_shift describes.
-FN uint aimed_by(real concentration) {
-    real most = real(1u << largest_photon_aimed);
-    return uint(findMSB(uint(clamp(concentration, real(1.0), most))));
-}
-
 FN void main() {
     uint slot = THREAD_INDEX;
     if (slot >= batch.count) {
@@ -36,6 +30,8 @@ FN void main() {
     targets.spheres[3] = vec4(s.target_3);
     targets.count = s.target_count;
     targets.share = s.target_share;
+    targets.view = vec4(s.view);
+    targets.view_share = s.view_share;
     EmittedPhoton p;
     bool emitted = light_emit_aimed(light, light_kinds, bounds, focus, targets, u,
                                     vec4(v.z, v.w, v.x, v.y), w.y, p);
@@ -48,10 +44,12 @@ FN void main() {
     }
     rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
                            p.direction.x, p.direction.y, p.direction.z, 0u);
-    bool at_target = targets.count > 0u && ((1u << light.kind) & light_kinds_from_outside) == 0u;
-    uint aimed = at_target && emitted ? aimed_by(p.concentration) : 0u;
-    paths[slot] =
-        PhotonPathRecord(flux.x, flux.y, flux.z, photon_followed | (aimed << photon_aimed_shift));
+    uint state = photon_followed;
+    if (emitted && ((1u << light.kind) & light_kinds_from_outside) == 0u) {
+        state |= (aimed_by(p.for_targets) << photon_aimed_shift) |
+                 (aimed_by(p.for_view) << photon_view_shift);
+    }
+    paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, state);
     ledgers[slot] =
         FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u), uvec4(0u));
     active_slots[slot] = slot;

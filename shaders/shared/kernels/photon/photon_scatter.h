@@ -44,15 +44,56 @@ struct Departure {
     BsdfSample sampled;
     vec3 flux; // before roulette
     vec3 direction;
+    // Density of photons that leave in this direction over that without aiming at what is in view.
+    real concentration;
 };
 
-// Samples how the photon leaves the surface. lobes: lobes to sample from; u: in [0,1).
-FN Departure depart(Arrival a, MaterialRecord m, uint lobes, vec4 u) {
+// Aims some of the photons that rough reflection scatters at what is in view. lobes: as in depart;
+// view: where it is seen, from outside; u: where in the cone; choice: whether to aim; both in
+// [0,1). The flux of all photons in such directions is divided by their concentration (balance
+// heuristic). Returns false where no light is scattered.
+FN bool aim_at_view(Arrival a, MaterialRecord m, uint lobes, Cone view, vec2 u, real choice,
+                    INOUT(Departure) d) {
+    real share = real(scene[0].view_share);
+    vec3 wo = to_local(a.frame, -a.direction);
+    vec3 probabilities = lobe_probabilities(m, wo.z, lobes);
+    bool aims = choice < share;
+    if (aims) {
+        d.sampled.wi = to_local(a.frame, sample_cone(view, u));
+        vec3 f = bsdf_eval_and_pdf(reflection_parameters(m), wo, d.sampled.wi, lobes, probabilities,
+                                   d.sampled.pdf);
+        d.sampled.weight = f * (d.sampled.wi.z / d.sampled.pdf);
+    }
+    bool in_view = aims || is_in_cone(view, to_world(a.frame, d.sampled.wi));
+    real rough = probabilities.x + probabilities.y;
+    real aimed = in_view ? share * rough / (cone_solid_angle(view) * d.sampled.pdf) : real(0.0);
+    if (!(d.sampled.pdf > real(0.0)) || !is_finite(aimed)) {
+        return false;
+    }
+    d.concentration = real(1.0) - share + aimed;
+    d.sampled.weight = d.sampled.weight / d.concentration;
+    return true;
+}
+
+// The cone in which a photon that arrives here sees what is in view. Its height is 0 if photons
+// are not aimed from here.
+FN Cone view_from(Arrival a) { return cone_of(vec4(scene[0].view), a.surface.position); }
+
+// Samples how the photon leaves the surface. followed, estimated: the lobes to sample from. u,
+// choice: in [0,1).
+FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, Cone view, vec4 u,
+                    real choice) {
     Departure d;
+    uint lobes = followed | estimated;
+    d.concentration = real(1.0);
     d.flux = vec3(real(0.0));
     d.direction = a.direction;
     vec3 wo = to_local(a.frame, -a.direction);
     bool scatters = bsdf_sample(m, wo, a.surface.front, lobes, u, d.sampled);
+    if (aims_at_view && view.height > real(0.0) && (lobes & LOBE_GLOSSY & followed) == 0u &&
+        (d.sampled.lobe & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+        scatters = aim_at_view(a, m, lobes, view, vec2(u.y, u.z), choice, d);
+    }
     if (has(LOBE_PASS) && scatters && d.sampled.lobe == LOBE_PASS) {
         d.flux = a.flux * d.sampled.weight;
     } else if (scatters) {
@@ -67,20 +108,23 @@ FN Departure depart(Arrival a, MaterialRecord m, uint lobes, vec4 u) {
 }
 
 // Probability with which Russian roulette lets a photon continue; it keeps the flux of photons
-// roughly equal. aimed: how many photons of little flux were aimed in the place of one, as a
-// logarithm; it is 0 unless the photon leaves the caustic that it was aimed for.
+// roughly equal, but for the flux of aimed ones, which are the more for it. aimed: how many photons
+// of little flux were aimed in the place of one, as a logarithm; it is 0 unless the photon leaves
+// what it was aimed for.
 FN real survival_probability(Arrival a, Departure d, uint aimed) {
-    return min(max_component(d.flux) / max_component(a.flux),
-               a.depth < 64u ? real(1.0) : real(0.95)) /
-           real(1u << aimed);
+    real kept = max_component(d.flux) / max_component(a.flux);
+    if (aims_at_view) {
+        kept *= max(d.concentration, real(1.0));
+    }
+    return min(kept, a.depth < 64u ? real(1.0) : real(0.95)) / real(1u << aimed);
 }
 
 // Updates the photon's differential, transferred to the hit, for the scattering.
 FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure out_of,
                              real survival) {
     BsdfSample s = out_of.sampled;
-    roulette_differential(d, s.probability * survival);
-    real emitted = real(1.0) / batch.inverse_total;
+    roulette_differential(d, s.probability * survival * out_of.concentration);
+    real emitted = out_of.concentration / batch.inverse_total;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
     } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {
@@ -185,10 +229,21 @@ FN void main() {
     }
 
     vec4 u = scattering_random(slot, a.depth);
-    Departure out_of = depart(a, m, followed | estimated, u);
+    Cone view;
+    view.height = real(0.0);
+    real choice = real(1.0);
+    if (aims_at_view) {
+        view = view_from(a);
+        choice =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, false).x;
+    }
+    bool is_elsewhere = view.height > real(0.0);
+    Departure out_of = depart(a, m, followed, estimated, view, u, choice);
     bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
-    real survival =
-        survival_probability(a, out_of, stays_followed ? 0u : path.state >> photon_aimed_shift);
+    uint for_view = (path.state >> photon_view_shift) & photon_view_mask;
+    uint leaves =
+        stays_followed ? 0u : (path.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
+    real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
     if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
         ledgers[slot].absorbed += units_of(a.flux);
         return;
@@ -201,7 +256,9 @@ FN void main() {
         scatter_differential(d, a, out_of, survival);
         differentials[slot] = differential_record(d);
     }
+    uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
     continue_path(slot, a, out_of.direction, flux,
-                  stays_followed ? path.state & ~photon_depth_mask : 0u);
+                  stays_followed ? path.state & ~photon_depth_mask
+                                 : next_for_view << photon_view_shift);
     alive[i] = 1u;
 }
