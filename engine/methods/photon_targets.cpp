@@ -63,15 +63,21 @@ double natural_share(const LightTable& table, const glm::vec4& sphere) {
     return all > 0 ? hits / all : 1;
 }
 
+/// For each material whether its light is followed: glass, mirrors, and what is nearly one.
+std::vector<bool> are_followed(const Scene& scene, float follow_roughness) {
+    std::vector<bool> followed;
+    followed.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        followed.push_back(followed_lobes(material_record(material), follow_roughness) != 0);
+    }
+    return followed;
+}
+
 } // namespace
 
 std::vector<glm::vec4> caustic_casters(const PlacedScene& placed, float follow_roughness) {
     const Scene& scene = placed.scene;
-    std::vector<bool> casts;
-    casts.reserve(scene.materials.size());
-    for (const Material& material : scene.materials) {
-        casts.push_back(followed_lobes(material_record(material), follow_roughness) != 0);
-    }
+    const std::vector<bool> casts = are_followed(scene, follow_roughness);
     // Casting triangles that have a corner at the same place belong to one caster.
     DisjointSets sets(scene.triangles.size());
     std::unordered_map<std::array<float, 3>, std::uint32_t, HashFloats> triangle_at;
@@ -134,8 +140,13 @@ void aim_at_view(RenderContext& context, std::span<const glm::vec4> points) {
     constexpr double margin = 1.2;
     constexpr double most_extent = 0.25; // over the scene's; more is hit often enough
     DeviceScene& scene = context.on_device;
-    // Mirrors and glass show what lies elsewhere, at which no photons are aimed.
-    if (points.empty() || scene.plan.needs(Feature::followed_paths)) {
+    // Mirrors and glass show what lies elsewhere, at which no photons are aimed. (The plan has
+    // followed paths with --everything, too, which must not change the picture.)
+    const std::vector<bool> followed =
+        are_followed(context.scene, scene.plan.request.follow_roughness);
+    const std::vector<std::uint32_t>& used = context.scene.triangle_material;
+    if (points.empty() || std::any_of(used.begin(), used.end(),
+                                      [&](std::uint32_t material) { return followed[material]; })) {
         return;
     }
     const glm::dvec3 middle = view_extent(points).middle;

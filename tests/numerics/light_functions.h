@@ -186,7 +186,7 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         targets.count = 2u;
         targets.share = real(0.25);
         targets.view = vec4(real(0.0), real(0.5), real(0.25), real(0.125)) * bounds.radius;
-        targets.view_share = real(0.125);
+        targets.view_share = real(0.25);
         EmittedPhoton p;
         bool emitted =
             light_emit_aimed(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
