@@ -1,5 +1,7 @@
 #include "compare/comparison.hpp"
 
+#include "device/device.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>

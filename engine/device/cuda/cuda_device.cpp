@@ -93,7 +93,7 @@ Buffer CudaDevice::allocate(std::string name, std::uint64_t bytes) {
         return block;
     };
     // Commands that still use a free block come first in the stream.
-    const Buffer buffer(memory_->allocate(info_, name, bytes, allocate));
+    Buffer buffer(memory_->allocate(info_, name, bytes, allocate));
     if (poisons_) {
         fill(buffer, undefined_word);
     }

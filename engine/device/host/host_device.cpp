@@ -68,7 +68,7 @@ Buffer HostDevice::allocate(std::string name, std::uint64_t bytes) {
         block->data = static_cast<std::byte*>(::operator new(size, alignment, std::nothrow));
         return block->data != nullptr ? std::move(block) : nullptr;
     };
-    const Buffer buffer(memory_->allocate(info_, std::move(name), bytes, allocate));
+    Buffer buffer(memory_->allocate(info_, std::move(name), bytes, allocate));
     if (poisons_) {
         fill(buffer, undefined_word);
     }

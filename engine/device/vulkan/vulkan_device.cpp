@@ -133,7 +133,7 @@ VkCommandBuffer VulkanDevice::commands() {
 
 Buffer VulkanDevice::allocate(std::string name, std::uint64_t bytes) {
     check_allocation(info_, memory_->ledger(), name, bytes);
-    const Buffer buffer = allocate(std::move(name), bytes, MemoryKind::device);
+    Buffer buffer = allocate(std::move(name), bytes, MemoryKind::device);
     if (poisons_) {
         fill(buffer, undefined_word);
     }
@@ -145,8 +145,8 @@ Buffer VulkanDevice::allocate(std::string name, std::uint64_t bytes, MemoryKind 
     const auto allocate_one = [&](std::uint64_t size) {
         return allocate_block(physical_, device_, size, kind);
     };
-    const Buffer buffer(memory_->allocate(info_, std::move(name), bytes, allocate_one,
-                                          static_cast<std::uint32_t>(kind)));
+    Buffer buffer(memory_->allocate(info_, std::move(name), bytes, allocate_one,
+                                    static_cast<std::uint32_t>(kind)));
     vulkan(buffer).prepare(bytes);
     return buffer;
 }
