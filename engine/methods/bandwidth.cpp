@@ -84,11 +84,12 @@ double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
 }
 
 /// The radii for a picture. That of caustics is measured where caustic photons lie.
-GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neighbours) {
+GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neighbours,
+                       std::optional<std::uint32_t> caustic_neighbours) {
     const SortedPhotons& photons = first.photons;
     const double of_all = radius_at_queries(first, photons, neighbours);
     const double of_caustics = median_caustic_radius(
-        first.device, photons, in_disc(first, photons.caustics, true, neighbours));
+        first.device, photons, in_disc(first, photons.caustics, true, caustic_neighbours));
     const double least = sharpest_caustic * of_all;
     // A radius that is little smaller than the other gains nothing, and loses the boundary
     // correction.
@@ -125,12 +126,14 @@ double in_disc_of_pass(double photons, double passes, bool caustic) {
 }
 
 Bandwidth learn_radii(const FirstPass& first, const RenderSettings& settings,
-                      std::optional<std::uint32_t> neighbours) {
+                      std::optional<std::uint32_t> neighbours,
+                      std::optional<std::uint32_t> caustic_neighbours) {
     Bandwidth b;
     b.caustics = first.photons.caustics > 0;
     const double radius = first.scene.record.radius;
     const double given = std::max(settings.radius.value_or(0), least_radius * radius);
-    b.radii = settings.radius ? GatherRadii{given, given} : radii_from(first, neighbours);
+    b.radii = settings.radius ? GatherRadii{given, given}
+                              : radii_from(first, neighbours, caustic_neighbours);
     return b;
 }
 
@@ -153,15 +156,15 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
     b.smoothing = learnt > 0 ? learnt : 1;
 }
 
-Bandwidth narrowed(const Bandwidth& learnt, double by) {
+Bandwidth narrowed(const Bandwidth& learnt, double by, double scene_radius) {
     constexpr double least_neighbours = 8;
     const auto narrow = [&](std::uint32_t k) {
         return static_cast<std::uint32_t>(
             std::max(std::round(k * by * by), std::min<double>(least_neighbours, k)));
     };
     Bandwidth b = learnt;
-    b.radii.indirect *= by;
-    b.radii.caustic *= by;
+    b.radii.indirect = std::max(by * b.radii.indirect, least_radius * scene_radius);
+    b.radii.caustic = std::max(by * b.radii.caustic, least_radius * scene_radius);
     b.neighbours = narrow(b.neighbours);
     b.caustic_neighbours = narrow(b.caustic_neighbours);
     b.smoothing *= by;
@@ -173,8 +176,13 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings) {
     const double by = shrinking(passes / learnt_for);
     Bandwidth b = learnt;
+    // The photons that a disc should hold fix its radius.
     if (!settings.radius && !settings.neighbours) {
         b.radii.indirect *= by;
+    }
+    const bool fixes_caustic = b.caustic_neighbours > 0 ? settings.caustic_neighbours.has_value()
+                                                        : settings.neighbours.has_value();
+    if (!settings.radius && !fixes_caustic) {
         b.radii.caustic *= by;
     }
     const auto scale_neighbours = [&](std::uint32_t& k, bool is_given) {

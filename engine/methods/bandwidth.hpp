@@ -37,10 +37,11 @@ struct FirstPass {
 double in_disc_of_pass(double photons, double passes, bool caustic = false);
 
 /// The radii for a picture, from the density of the first pass's photons at its query points, and
-/// whether there are caustics. A radius that the user has set is kept. neighbours: photons that a
-/// disc should hold, if that is given. Waits for the device.
+/// whether there are caustics. A radius that the user has set is kept. neighbours,
+/// caustic_neighbours: photons that a disc should hold, if that is given. Waits for the device.
 Bandwidth learn_radii(const FirstPass& first, const RenderSettings& settings,
-                      std::optional<std::uint32_t> neighbours = std::nullopt);
+                      std::optional<std::uint32_t> neighbours = std::nullopt,
+                      std::optional<std::uint32_t> caustic_neighbours = std::nullopt);
 
 /// Adds the smoothing of footprints to a bandwidth that has radii, in the same way.
 void learn_smoothing(Bandwidth& bandwidth, const FirstPass& first,
@@ -51,8 +52,9 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings);
 
 /// The bandwidth of a pass of which all widths are `by` times those learnt: radii and smoothing,
-/// and k with the area, as long as it is large enough to estimate a density.
-Bandwidth narrowed(const Bandwidth& learnt, double by);
+/// and k with the area, as long as it is large enough to estimate a density. scene_radius: radii
+/// stay above the rounding of positions in a scene of this size.
+Bandwidth narrowed(const Bandwidth& learnt, double by, double scene_radius);
 
 /// The scale of the footprints of a pass that emits `photons` photons.
 FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings,

@@ -4,6 +4,7 @@
 #include "kernels/eye_vertex.hpp"
 #include "kernels/film_add.hpp"
 #include "kernels/shadow_add.hpp"
+#include "methods/lens.hpp"
 #include "parallel/compact.hpp"
 #include "shared/geometry_records.h"
 #include "shared/random.h"
@@ -262,8 +263,7 @@ Buffer camera_of(Device& device, const EyeBatch& batch, const Camera& camera,
                  const CameraRecord& of_image) {
     CameraRecord record =
         camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
-    record.lens_radius = of_image.lens_radius;
-    record.inverse_focus = of_image.inverse_focus;
+    copy_lens(of_image, record);
     return upload<CameraRecord>(device, "camera", std::span(&record, 1));
 }
 

@@ -26,7 +26,8 @@ std::uint32_t automatic_neighbours(double photons, const FirstPass& first, bool 
 class Nearest : public EstimationStrategy {
 public:
     Bandwidth learn(const FirstPass& first, const RenderSettings& settings) const override {
-        Bandwidth bandwidth = learn_radii(first, settings, settings.neighbours);
+        Bandwidth bandwidth =
+            learn_radii(first, settings, settings.neighbours, settings.caustic_neighbours);
         bandwidth.neighbours =
             settings.neighbours.value_or(automatic_neighbours(first.photons.others, first, false));
         if (bandwidth.caustics) {

@@ -3,10 +3,18 @@
 #include "accel/triangle_bvh.hpp"
 #include "shared/geometry_records.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
 namespace argand {
+
+namespace {
+
+// As of --focus. A camera may lie on a surface.
+constexpr double least_focus = 1e-9;
+
+} // namespace
 
 double middle_distance(Device& device, const DeviceScene& scene, const CameraRecord& camera,
                        int width, int height) {
@@ -31,6 +39,11 @@ double middle_distance(Device& device, const DeviceScene& scene, const CameraRec
     return hit.triangle == no_triangle ? std::numeric_limits<double>::infinity() : hit.t;
 }
 
+void copy_lens(const CameraRecord& from, CameraRecord& to) {
+    to.lens_radius = from.lens_radius;
+    to.inverse_focus = from.inverse_focus;
+}
+
 CameraRecord camera_with_lens(Device& device, const DeviceScene& scene, const Camera& camera,
                               const RenderSettings& settings) {
     CameraRecord record = camera_record(camera, settings.width, settings.height);
@@ -39,7 +52,7 @@ CameraRecord camera_with_lens(Device& device, const DeviceScene& scene, const Ca
                                             : middle_distance(device, scene, record, settings.width,
                                                               settings.height);
         record.lens_radius = static_cast<float>(0.5 * settings.aperture);
-        record.inverse_focus = static_cast<float>(1 / focus);
+        record.inverse_focus = static_cast<float>(1 / std::max(focus, least_focus));
     }
     return record;
 }

@@ -11,6 +11,9 @@ namespace argand {
 double middle_distance(Device& device, const DeviceScene& scene, const CameraRecord& camera,
                        int width, int height);
 
+/// Gives a camera the lens of another one.
+void copy_lens(const CameraRecord& from, CameraRecord& to);
+
 /// The camera of a picture with these settings, lens included. Waits for the device if the lens
 /// focuses on what is in the middle.
 CameraRecord camera_with_lens(Device& device, const DeviceScene& scene, const Camera& camera,

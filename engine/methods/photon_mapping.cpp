@@ -242,6 +242,22 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     }
 }
 
+/// Records from all over the slots of a pass: its bounces follow one another there.
+std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots) {
+    constexpr std::uint64_t runs = 64, in_run = 4096;
+    if (slots <= runs * in_run) {
+        return download<PhotonRecord>(device, photons, slots);
+    }
+    std::vector<PhotonRecord> found;
+    found.reserve(runs * in_run);
+    for (std::uint64_t i = 0; i < runs; ++i) {
+        const std::vector<PhotonRecord> run =
+            download<PhotonRecord>(device, photons, in_run, (slots - in_run) * i / (runs - 1));
+        found.insert(found.end(), run.begin(), run.end());
+    }
+    return found;
+}
+
 /// Of photons that were aimed at what is in view, many carry little flux and a few much. The noise
 /// of n of them is that of (Σ flux)² / Σ flux² photons of equal flux. Surfaces that face away from
 /// the camera do not count: a sun may shine on the outer side of a room's walls.
@@ -251,19 +267,20 @@ double PhotonMapping::evenness_in_view() {
         return 1;
     }
     constexpr double least = 1.0 / 64;
-    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
+    const Camera& camera = c_.scene.cameras[c_.settings.camera];
+    const bool perspective = camera.kind == CameraKind::perspective;
     double count = 0;
     double sum = 0;
     double squares = 0;
-    for (const PhotonRecord& photon :
-         download<PhotonRecord>(c_.device, photons_.photons, first_->slots)) {
+    for (const PhotonRecord& photon : some_photons(c_.device, photons_.photons, first_->slots)) {
         if (photon.normal == no_photon) {
             continue;
         }
         const glm::vec3 place(photon.x, photon.y, photon.z);
         const glm::vec3 normal = unpack_photon_normal(photon.normal);
+        const glm::vec3 to_eye = perspective ? camera.position - place : -camera.forward;
         const bool in_view = glm::distance(place, glm::vec3(scene.view)) < scene.view.w &&
-                             glm::dot(normal, eye - place) > 0;
+                             glm::dot(normal, to_eye) > 0;
         if (in_view) {
             const double flux = double(photon.flux_r) + photon.flux_g + photon.flux_b;
             ++count;
@@ -336,7 +353,8 @@ void PhotonMapping::set_bandwidth(const Pass& pass) {
     const double times = pass.keeps_width ? pass.expected
                                           : static_cast<double>(image_.paths) /
                                                 static_cast<double>(image_.first_paths);
-    image_.bandwidth = narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent));
+    image_.bandwidth = narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent),
+                                c_.on_device.record.radius);
 }
 
 bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {

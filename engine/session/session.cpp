@@ -64,7 +64,10 @@ void Session::follow() {
     plan.required.insert(before.plan.required.begin(), before.plan.required.end());
     const bool requires_more = plan.required.size() != before.plan.required.size();
     context_->on_device = world_.on_device(scene_, plan);
-    const CameraRecord view = camera(context_->on_device);
+    CameraRecord view =
+        camera_record(scene_.cameras[settings_.camera], settings_.width, settings_.height);
+    // What crosses the middle of the picture does not take the focus while the shutter is open.
+    copy_lens(context_->eye.queries.view, view);
     if (requires_more) {
         const Film film = context_->eye.film;
         context_->eye = {}; // frees its memory before the new one takes its own

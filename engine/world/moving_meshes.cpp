@@ -113,18 +113,23 @@ const std::vector<Bounds>& MovingMeshes::boxes(const Scene& scene) {
     }
     const std::vector<PoseBox> parts =
         download<PoseBox>(device_, part_boxes_, tables_.parts.size());
-    std::vector<Bounds> boxes(tables_.meshes.size());
+    boxes_.assign(tables_.meshes.size(), Bounds());
+    const MovingMesh* not_finite = nullptr;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::uint32_t mesh = tables_.parts[i].mesh;
         const PoseBox& part = parts[i];
         if (part.not_finite > 0) {
-            fail("posing '{}': a vertex of {} has a position that is not finite in world space",
-                 scene.name, scene.motion.meshes[mesh].name);
+            not_finite = &scene.motion.meshes[mesh];
         }
-        boxes[mesh].low = glm::min(boxes[mesh].low, {part.low_x, part.low_y, part.low_z});
-        boxes[mesh].high = glm::max(boxes[mesh].high, {part.high_x, part.high_y, part.high_z});
+        Bounds& box = boxes_[mesh];
+        box.low = glm::min(box.low, {part.low_x, part.low_y, part.low_z});
+        box.high = glm::max(box.high, {part.high_x, part.high_y, part.high_z});
     }
-    boxes_ = std::move(boxes);
+    // A later moment may be finite again, and asks for these boxes first.
+    if (not_finite) {
+        fail("posing '{}': a vertex of {} has a position that is not finite in world space",
+             scene.name, not_finite->name);
+    }
     return boxes_;
 }
 

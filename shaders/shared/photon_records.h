@@ -27,8 +27,8 @@ struct PhotonPathRecord {
 CONSTANT uint photon_depth_mask = 0xffffu;
 CONSTANT uint photon_followed = 0x10000u; // only followed lobes scattered the photon so far
 // From this bit on: the logarithm to base 2, rounded down, of the density of photons that were
-// aimed at what is in view when they were last scattered outside it, over the density without
-// aiming.
+// aimed at what is in view when they were last emitted or scattered outside it, over the density
+// without aiming.
 CONSTANT uint photon_view_shift = 17u;
 CONSTANT uint photon_view_mask = 31u;
 // From this bit on: the logarithm to base 2 of the density of photons aimed at a caster of caustics

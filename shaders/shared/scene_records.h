@@ -31,7 +31,7 @@ struct SceneRecord {
     lane4 target_0, target_1, target_2, target_3;
     uint target_count;
     float32 target_share;
-    float32 view_share; // of the photons scattered outside `view` that are aimed at it
+    float32 view_share; // of the photons emitted or scattered outside `view` that are aimed at it
     uint pad5;
     lane4 view; // sphere (center, radius) around most of what is in view
 };

@@ -82,6 +82,7 @@ TEST_F(BadInput, OptionsThatTheMethodDoesNotUse) {
     expect_failure(scene + "knn --caustic-k 0", usage, "--caustic-k");
     expect_failure(scene + "photons --k 50", usage, "--k");
     expect_failure(scene + "path --aperture -0.1", usage, "--aperture");
+    expect_failure(scene + "path --focus 2", usage, "--aperture");
     expect_failure(scene + "path --aperture nan", usage, "--aperture");
     expect_failure(scene + "path --aperture 0.1 --focus 0", usage, "--focus");
     expect_failure(scene + "path --aperture 0.1 --focus near", usage, "--focus");

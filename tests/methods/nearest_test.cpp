@@ -367,6 +367,22 @@ TEST_F(GatherNearest, CausticPartHasItsOwnNeighbours) {
     }
 }
 
+TEST_F(GatherNearest, EachPartReachesAsFarAsItsOwnNeighbours) {
+    const Scene scene = load_asset("cornell_glass.glb");
+    RenderSettings settings = settings_of("knn", 8, 1);
+    settings.photons = 20'000;
+    const RenderStatistics automatic = render(scene, settings).statistics;
+    settings.neighbours = 4;
+    const RenderStatistics few = render(scene, settings).statistics;
+    EXPECT_LT(few.radius, 0.7 * automatic.radius);
+    EXPECT_EQ(few.caustic_neighbours, automatic.caustic_neighbours);
+    settings.neighbours.reset();
+    settings.caustic_neighbours = 16 * automatic.caustic_neighbours;
+    const RenderStatistics many = render(scene, settings).statistics;
+    EXPECT_EQ(many.neighbours, automatic.neighbours);
+    EXPECT_GT(many.caustic_radius, 2 * automatic.caustic_radius);
+}
+
 TEST_F(GatherNearest, EvenlySpreadPhotonsGiveTheirDensity) {
     // The mean is right for any k, and at edges and in corners too, thanks to the area samples.
     const std::size_t count = 40'000;

@@ -141,7 +141,8 @@ TEST_F(Extremes, FootprintsFromZeroToTheSizeOfTheScene) {
 
 TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(1)));
-    // Sees so much of the box that no photons are aimed at what is in view: roulette thins them out.
+    // Sees so much of the box that no photons are aimed at what is in view: roulette thins them
+    // out.
     scene.cameras = {look_at({0, 0, 0.9f}, {0, 0, -1}, 90)};
     Largest cut;
     double least = HUGE_VAL;

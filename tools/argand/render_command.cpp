@@ -80,8 +80,11 @@ void check_progressive(const RenderOptions& options, const CLI::App& command) {
         }
         return;
     }
-    for (const char* option : {"--radius", "--fixed-smoothing"}) {
-        if (is_given(command, option)) {
+    const RenderSettings& settings = options.settings;
+    for (const auto& [option, fixes] :
+         {std::pair{"--radius", settings.radius.has_value()},
+          std::pair{"--fixed-smoothing", settings.footprints.fixed_smoothing}}) {
+        if (fixes) {
             throw UsageError(
                 fmt::format("reading {}: progressive widths fall from that of the first "
                             "pass; set that with --r1 or --smoothing",
@@ -94,7 +97,14 @@ void check_progressive(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+void check_lens(const RenderOptions& options) {
+    if (options.settings.focus && !(options.settings.aperture > 0)) {
+        throw UsageError("reading --focus: it has no effect without --aperture; add that");
+    }
+}
+
 void check(const RenderOptions& options, const CLI::App& command) {
+    check_lens(options);
     check_methods({options.settings.method}, options.methods);
     check_checkpoints(options, command);
     if (is_autotuned(options, command)) {

@@ -82,19 +82,28 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         }
     }
     bool can_save = !options.checkpoint.empty();
+    bool can_show = true;
     const auto save = [&](bool shows) {
         try {
             save_checkpoint(options.checkpoint, key, session.save());
-            if (shows) { // the picture of a render that may have no end
-                for (const std::string& output : options.outputs) {
-                    write_image(output, session.layers(), options.exposure);
-                }
-            }
         } catch (const DeviceFault&) {
             throw;
         } catch (const Error& error) { // such as a full disk: the picture is worth more
             can_save = false;
             notes.push_back(fmt::format("{}; there are no more checkpoints", error.what()));
+        }
+        if (shows && can_show) { // the picture of a render that may have no end
+            try {
+                const std::vector<Layer> layers = session.layers();
+                for (const std::string& output : options.outputs) {
+                    write_image(output, layers, options.exposure);
+                }
+            } catch (const DeviceFault&) {
+                throw;
+            } catch (const Error& error) { // the end writes it again
+                can_show = false;
+                notes.push_back(fmt::format("{}; the picture appears at the end", error.what()));
+            }
         }
     };
     std::uint64_t saved = session.passes();
