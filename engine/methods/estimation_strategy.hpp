@@ -16,6 +16,9 @@ public:
         return learn_radii(first, settings);
     }
 
+    /// Whether photons may carry flux of very different size, as those aimed at what is in view do.
+    virtual bool takes_uneven_photons() const { return true; }
+
     /// The typical radius of an estimate. Area samples are as dense, and cells of shared answers as
     /// large, as suits it.
     virtual double typical_radius(const Bandwidth& bandwidth) const {

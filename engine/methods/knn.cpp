@@ -16,8 +16,8 @@ constexpr double typical_over_max = 0.3;
 constexpr double reach = 2.5;
 
 std::uint32_t automatic_neighbours(double photons, const FirstPass& first, bool caustic) {
-    return static_cast<std::uint32_t>(std::max(
-        std::round(in_disc_of_pass(photons, first.passes, caustic) / first.evenness), 2.0));
+    return static_cast<std::uint32_t>(
+        std::max(std::round(in_disc_of_pass(photons, first.passes, caustic)), 2.0));
 }
 
 /// Density over the disc that the k nearest photons fill (Jensen 1996). Caustic photons have a k
@@ -40,6 +40,10 @@ public:
         }
         return bandwidth;
     }
+
+    // k photons fill a small disc where most of them carry little flux. One that carries much would
+    // be a firefly there.
+    bool takes_uneven_photons() const override { return false; }
 
     double typical_radius(const Bandwidth& bandwidth) const override {
         return typical_over_max * bandwidth.radii.indirect;

@@ -119,7 +119,9 @@ public:
         const std::vector<glm::vec4> queries = sample_queries(
             c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
         aim_at_casters(c_, queries);
-        aim_at_view(c_, queries);
+        if (strategy_->takes_uneven_photons()) {
+            aim_at_view(c_, queries);
+        }
         first_ = trace_first(budget);
         image_.learnt = budget.once([&] {
             const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
