@@ -2,8 +2,10 @@
 
 #include "device_fixture.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 namespace argand {
 
@@ -21,6 +23,10 @@ protected:
         const ScopedEnvironment threads("LP_NUM_THREADS", "1");
         Device& device = open_anew();
         if (device.info().driver.find("llvmpipe") != std::string::npos) {
+            // A thread names itself once it runs, which takes a while on a busy machine.
+            for (int wait = 0; wait < 1000 && lavapipe_threads() == 0; ++wait) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            }
             EXPECT_EQ(lavapipe_threads(), 1);
         }
         return device;
