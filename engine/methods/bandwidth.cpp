@@ -91,9 +91,10 @@ GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neig
     const double of_caustics = median_caustic_radius(
         first.device, photons, in_disc(first, photons.caustics, true, caustic_neighbours));
     const double least = sharpest_caustic * of_all;
-    // A radius that is little smaller than the other gains nothing, and loses the boundary
-    // correction.
-    if (!(of_caustics > 0 && of_caustics < 2 * least)) {
+    // A single caustic photon, or all of them in one point, tell nothing. A radius that is little
+    // smaller than the other gains nothing, and loses the boundary correction.
+    const bool is_learnt = of_caustics > least_radius * first.scene.record.radius;
+    if (!(is_learnt && of_caustics < 2 * least)) {
         return {of_all, of_all};
     }
     SortedPhotons others = photons;
