@@ -150,6 +150,15 @@ TEST_P(PhotonTargets, ACloseUpInAHallHasItsLight) {
     EXPECT_LT(std::sqrt(squares), aims ? 0.045 : 0.15);
 }
 
+// A single photon passes the veil: the distance to its nearest is 0, which is no radius. render()
+// expects finite samples.
+TEST_P(PhotonTargets, ASingleCausticPhotonHasNoRadiusOfItsOwn) {
+    RenderSettings s = settings_of(GetParam(), 8, 1);
+    s.photons = 200;
+    const RenderStatistics found = render(load_asset("veil.glb"), s).statistics;
+    EXPECT_EQ(found.caustic_radius, found.radius);
+}
+
 INSTANTIATE_METHODS(PhotonTargets);
 
 } // namespace
