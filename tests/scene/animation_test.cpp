@@ -176,13 +176,19 @@ TEST(Animation, TurnsTrianglesWhereANodeMirrors) {
     }
 }
 
-TEST(Animation, AMomentDoesNotDependOnThoseBefore) {
+/// A triangle and a directional light, both of which a node turns over.
+Animated turning_light() {
     Animated file = moving_triangle();
     file.animate(0, "scale", {0, 2}, {{1, 2, 3}, {-3, -2, -1}});
     file.builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
     file.builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 5}}};
     file.builder.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    return file;
+}
+
+TEST(Animation, AMomentDoesNotDependOnThoseBefore) {
+    Animated file = turning_light();
     Scene scene = file.load({});
     for (const double time : {3.0, 0.25, 1.5, 0.0}) { // at 1.5 s the light has no direction
         move_to(time, scene);
@@ -196,12 +202,7 @@ TEST(Animation, AMomentDoesNotDependOnThoseBefore) {
 }
 
 TEST(Animation, WithoutVerticesMovesAllElse) {
-    Animated file = moving_triangle();
-    file.animate(0, "scale", {0, 2}, {{1, 2, 3}, {-3, -2, -1}});
-    file.builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
-    file.builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "directional"}, {"intensity", 5}}};
-    file.builder.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    Animated file = turning_light();
     Scene scene = file.load({});
     const std::vector<glm::vec3> positions = scene.positions;
     for (const double time : {3.0, 0.25, 1.5, 0.0}) {
