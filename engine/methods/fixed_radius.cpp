@@ -1,6 +1,7 @@
 #include "methods/fixed_radius.hpp"
 
 #include "methods/render_options.hpp"
+#include "methods/search_options.hpp"
 #include "photon/gather.hpp"
 
 namespace argand {
@@ -51,14 +52,19 @@ Option choice_of_two(const std::string& name, const std::string& help,
 std::unique_ptr<EstimationStrategy> make_fixed_radius() { return std::make_unique<FixedRadius>(); }
 
 std::vector<Option> fixed_radius_options() {
-    return {choice_of_two(
-                "kernel", "Weight of the photons within the radius", {"epanechnikov", "uniform"},
-                [](RenderSettings & s) -> auto& { return s.disc.uniform_kernel; }),
-            choice_of_two(
-                "support",
-                "Photons that count: those of the query's surface, corrected where little of the "
-                "disc lies on surfaces, or all in a ball, uncorrected",
-                {"disc", "ball"}, [](RenderSettings & s) -> auto& { return s.disc.ball; })};
+    std::vector<Option> options{
+        choice_of_two(
+            "kernel", "Weight of the photons within the radius", {"epanechnikov", "uniform"},
+            [](RenderSettings & s) -> auto& { return s.disc.uniform_kernel; }),
+        choice_of_two(
+            "support",
+            "Photons that count: those of the query's surface, corrected where little of the "
+            "disc lies on surfaces, or all in a ball, uncorrected",
+            {"disc", "ball"}, [](RenderSettings & s) -> auto& { return s.disc.ball; })};
+    for (const Option& option : search_options()) {
+        options.push_back(option);
+    }
+    return options;
 }
 
 } // namespace argand

@@ -11,7 +11,7 @@ namespace argand {
 /// make_photon_mapping().
 std::unique_ptr<EstimationStrategy> make_fixed_radius();
 
-/// Its options: kernel, support.
+/// Its options: kernel, support, those of search_options().
 std::vector<Option> fixed_radius_options();
 
 } // namespace argand

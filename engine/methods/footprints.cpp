@@ -1,5 +1,6 @@
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
+#include "methods/search_options.hpp"
 #include "photon/gather.hpp"
 
 namespace argand {
@@ -89,14 +90,18 @@ std::vector<Option> footprint_options() {
         "paper-reemission",
         "Space photons evenly over the sphere after diffuse reflection, not as they are sampled",
         [](RenderSettings & s) -> auto& { return s.footprints.paper_reemission; });
-    return {smoothing_option(),
-            caustic_smoothing_option(),
-            largest,
-            swept(flatness, {"0.1", "1"}),
-            swept(uniform, {"on"}),
-            fixed,
-            swept(axes, {"on"}),
-            swept(reemission, {"on"})};
+    std::vector<Option> options{smoothing_option(),
+                                caustic_smoothing_option(),
+                                largest,
+                                swept(flatness, {"0.1", "1"}),
+                                swept(uniform, {"on"}),
+                                fixed,
+                                swept(axes, {"on"}),
+                                swept(reemission, {"on"})};
+    for (const Option& option : search_options()) {
+        options.push_back(option);
+    }
+    return options;
 }
 
 } // namespace

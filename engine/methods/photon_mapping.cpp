@@ -5,6 +5,7 @@
 #include "methods/bandwidth.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_targets.hpp"
+#include "methods/search_options.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
@@ -334,7 +335,8 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
                                       .seed = area_seed(numbers),
                                       .leaf_size = c_.settings.leaf_size,
                                       .wide_codes = c_.settings.wide_codes,
-                                      .footprints = image_.footprint_scale});
+                                      .footprints = image_.footprint_scale,
+                                      .frontier = frontier_of(c_.settings)});
     image_.mean_footprints = map.mean_footprints;
     image_.leaf_size = map.leaf_size;
     return map;

@@ -2,6 +2,7 @@
 
 #include "methods/table.hpp"
 #include "photon/disc_settings.hpp"
+#include "photon/frontier_settings.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,10 @@ struct ProgressiveSettings {
 /// points, or a hash.
 enum class Sampling { sobol, random };
 
+/// How a photon map's queries find photons: each by itself through a tree over the photons, or all
+/// together without one (Keller et al. 2010).
+enum class QuerySearch : std::uint8_t { automatic, tree, simultaneous };
+
 /// A request for an image.
 struct RenderSettings {
     std::string method = default_method(); ///< a name in the method table
@@ -77,6 +82,8 @@ struct RenderSettings {
     double query_cell = 0.25;
     std::uint32_t leaf_size = 0; ///< photons in a leaf of the photon map; 0: 16
     bool wide_codes = false;     ///< photons are sorted by 63-bit Morton codes, not 30-bit ones
+    QuerySearch query = QuerySearch::automatic;
+    FrontierSettings frontier; ///< of queries that are answered together
     Sampling photon_sampling = Sampling::sobol;
     bool final_gather = false; ///< the photon map is queried one bounce later, except for caustics
     bool everything = false;   ///< also code, buffers and passes that the scene does not require

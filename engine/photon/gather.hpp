@@ -26,6 +26,8 @@ public:
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
 
 private:
+    void estimate_simultaneously(const PhotonMap& map, const PhotonQueries& queries);
+
     Device& device_;
     const Plan& plan_;
     GatherRadii radii_;
@@ -45,6 +47,8 @@ public:
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override;
 
 private:
+    void estimate_simultaneously(const PhotonMap& map, const PhotonQueries& queries);
+
     Device& device_;
     const Plan& plan_;
     bool uniform_kernel_;

@@ -385,7 +385,12 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
     map.corrected = {scene.areas.part.center, inner_share * scene.areas.part.reach};
-    {
+    map.frontier = settings.frontier;
+    // Footprints of area samples are made from those of their neighbours in the order.
+    if (map.frontier && !settings.footprints) {
+        const StageScope stage(device, "build photon map");
+        list_places(device, w);
+    } else {
         const StageScope stage(device, "sort photons");
         sort_places(device, w, map.photons, settings.wide_codes);
     }
@@ -398,8 +403,10 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     if (settings.footprints) {
         make_footprints(device, scene, w, *settings.footprints, map);
     }
-    map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
-    build_tree(device, w, settings.wide_codes, map);
+    if (!map.frontier) {
+        map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
+        build_tree(device, w, settings.wide_codes, map);
+    }
     map.counters = device.allocate("photon map counters", counter_count * 4);
     copy_bytes(device, w.counters, map.counters, counter_count * 4);
     return map;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/lbvh.hpp"
+#include "photon/frontier_settings.hpp"
 #include "shared/differential.h"
 #include "shared/footprint_records.h"
 #include "shared/photon_records.h"
@@ -24,6 +25,9 @@ struct PhotonMap {
     float flatness = 1;             ///< of the footprints
     double mean_footprints = 0;     ///< summed area of all footprints over that of the surfaces
     std::uint32_t leaf_size = 0;    ///< photons in a leaf at most
+    /// How queries are answered together; none: each by itself, through the tree. Maps that have
+    /// this have no tree, and without footprints their photons are in no order.
+    std::optional<FrontierSettings> frontier;
 };
 
 /// Which photons a pass emits, and how far they go.
@@ -85,6 +89,8 @@ struct PhotonMapSettings {
                                     ///< far from each other
     std::optional<FootprintScale> footprints; ///< leaves' boxes bound footprints of this scale;
                                               ///< none: they bound points
+    std::optional<FrontierSettings> frontier; ///< the map is one without a tree, whose queries are
+                                              ///< answered together
 };
 
 /// Builds the map over the stored photons and over samples of the surfaces' area, which tell a

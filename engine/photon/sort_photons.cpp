@@ -4,7 +4,9 @@
 #include "kernels/photon_count.hpp"
 #include "kernels/photon_footprints.hpp"
 #include "kernels/photon_order.hpp"
+#include "kernels/photon_places.hpp"
 #include "kernels/photon_points.hpp"
+#include "parallel/compact.hpp"
 #include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"
 #include "shared/geometry_records.h"
@@ -42,6 +44,15 @@ Buffer sort_places(Device& device, PhotonWorkspace& w, const Buffer& boxes, bool
                  .codes = w.codes, .counters = w.counters, .constants = {.codes64 = wide_codes}},
              slots);
     return bounds;
+}
+
+void list_places(Device& device, PhotonWorkspace& w) {
+    const Count slots(w.counters, counter_stored_slots, w.capacity);
+    dispatch(device,
+             kernels::photon_places{
+                 .photons = w.photons, .counters = w.counters, .heads = w.heads, .places = w.codes},
+             slots);
+    compact(device, w.heads, w.codes, w.order, {w.counters, counter_stored}, slots);
 }
 
 SortedPhotons sort_photons(Device& device, PhotonWorkspace& w, const StoredPhotons& stored) {

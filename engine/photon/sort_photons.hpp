@@ -13,6 +13,10 @@ namespace argand {
 Buffer sort_places(Device& device, PhotonWorkspace& workspace, const Buffer& boxes,
                    bool wide_codes);
 
+/// Lists the places of the workspace's records as they lie in workspace.order, and counts them
+/// (counter_stored).
+void list_places(Device& device, PhotonWorkspace& workspace);
+
 /// The photons of a pass in the order of a space-filling curve, those that are not caustic before
 /// the caustic ones. They lie in the workspace's memory: they are valid until it traces photons or
 /// builds a map.

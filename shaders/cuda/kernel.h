@@ -70,6 +70,7 @@ FN uint atomicMin(uint& to, uint value) {
 #define FluxLedger(...) FluxLedger{__VA_ARGS__}
 #define Footprint(...) Footprint{__VA_ARGS__}
 #define ForestCost(...) ForestCost{__VA_ARGS__}
+#define FrontierNode(...) FrontierNode{__VA_ARGS__}
 #define GatherRecord(...) GatherRecord{__VA_ARGS__}
 #define HitRecord(...) HitRecord{__VA_ARGS__}
 #define LayersRecord(...) LayersRecord{__VA_ARGS__}
@@ -83,6 +84,7 @@ FN uint atomicMin(uint& to, uint value) {
 #define QueryRecord(...) QueryRecord{__VA_ARGS__}
 #define RayRecord(...) RayRecord{__VA_ARGS__}
 #define ShadowRecord(...) ShadowRecord{__VA_ARGS__}
+#define SegmentRange(...) SegmentRange{__VA_ARGS__}
 #define Sum(...) Sum{__VA_ARGS__}
 // clang-format on
 #endif

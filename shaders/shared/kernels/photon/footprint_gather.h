@@ -1,52 +1,7 @@
-// Density estimation over the footprints that contain a query point: Fabianowski and Dingliana
-// 2009, eq. 1 and section 6.3.
+// Density estimation over the footprints that contain a query point, by a walk through the map's
+// tree.
 #include "shared/kernels/photon/query_state.h"
 
-// Footprints have their own sizes; this is common to all of them.
-struct Bandwidth {
-    real flatness;
-};
-
-FN Bandwidth make_bandwidth() {
-    Bandwidth b;
-    b.flatness = params.flatness;
-    return b;
-}
-
-// Boxes enclose whole footprints, so look for boxes that contain the point.
-FN real search_radius2(IN(Bandwidth)) { return real(0.0); }
-
-FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf) {
-    uvec4 place = PHOTONS(2u * j);
-    vec3 offset = q.p - bits_float(uvec3(place));
-    FootprintDuals duals = unpack_duals(FOOTPRINTS(j));
-    real x = dot3(duals.a, offset);
-    real y = dot3(duals.b, offset);
-    if (!(x * x + y * y > real(1.0)) && on_same_surface(q, place.w, offset)) {
-        vec3 normal = unpack_photon_normal(place.w);
-        real weight = footprint_weight(duals, normal, q.normal, offset, b.flatness, uniform_kernel);
-        if (weight > real(0.0)) {
-            uvec4 carried = PHOTONS(2u * j + 1u);
-            if ((place.w & area_sample_bit) != 0u) {
-                q.coverage += open_area(q, carried) * weight;
-            } else if (is_caustic(place)) {
-                leaf.caustic += scattered(q, carried) * weight;
-            } else {
-                leaf.indirect += scattered(q, carried) * weight;
-            }
-        }
-    }
-}
-
-FN void add_leaf(IN(Bandwidth), IN(LeafSums) leaf, INOUT(Query) q) {
-    add(q.indirect, leaf.indirect);
-    if (caustics) {
-        add(q.caustic, leaf.caustic);
-    }
-}
-
-// Area samples have the footprints of the diffusely scattered photons around them, and tell nothing
-// of caustic ones.
-FN real caustic_scale(IN(Bandwidth), real) { return real(1.0); }
+#include "shared/kernels/photon/footprint_density.h"
 
 #include "shared/kernels/photon/query_walk.h"

@@ -12,6 +12,8 @@
 //   which the nearest are selected.
 // Epanechnikov's kernel is linear in the squared distance, so the sums of flux and of flux times
 // squared distance are enough: the kernel's radius need not be known during the walk.
+#include "shared/kernels/photon/answer.h"
+#include "shared/kernels/photon/map_walk.h"
 #include "shared/kernels/photon/query.h"
 
 // Bin 0 holds bits below `low`, bin i those from low + ((i - 1) << shift) to low + (i << shift); no
@@ -297,10 +299,10 @@ FN void finish(Query q, INOUT(Search) s) {
     real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
     real trust =
         clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
-    real scale = is_corrected(q)
+    real scale = is_corrected(q.p)
                      ? mix(real(1.0), real(1.0) / max(coverage * density, least_coverage), trust)
                      : real(1.0);
-    store_estimate(q, scale * density * indirect, scale * density * caustic);
+    store_estimate(q.slot, scale * density * indirect, scale * density * caustic);
     s.low = last_bits;
     s.phase = nearest_done;
 }

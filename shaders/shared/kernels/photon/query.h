@@ -1,6 +1,5 @@
-// Shared by all estimators: reading a query, the flux of a photon that the query's surface scatters
-// towards the eye, and writing the estimate.
-#include "shared/kernels/photon/map_walk.h"
+// Shared by all estimators: reading a query, and the flux of a photon that the query's surface
+// scatters towards the eye.
 
 // A compensated sum, in which a million photons at one point add up.
 struct Sum {
@@ -25,10 +24,10 @@ struct Query {
     vec3 wo;
     Sum indirect, caustic;
     real coverage; // sum of the weighted areas
-    uint node;     // at which the walk continues
+    uint node;     // at which a walk through the map's tree continues
 };
 
-// The query of a slot, at the beginning of its walk.
+// The query of a slot, without any photon yet.
 FN Query make_query(uint slot) {
     Query q;
     q.slot = slot;
@@ -36,7 +35,7 @@ FN Query make_query(uint slot) {
     q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.coverage = real(0.0);
-    q.node = first_node(params.part);
+    q.node = 0u;
     q.lobes = record.flags >> query_lobes_shift;
     q.most_scatterings = (record.flags >> query_scatterings_shift) & query_scatterings_mask;
     q.lambertian = !glossy || (record.flags & query_lambertian) != 0u;
@@ -85,14 +84,6 @@ FN real open_area(IN(Query) q, uvec4 carried) {
     return bits_float(q.front ? carried.x : carried.y);
 }
 
-// Whether the area samples around the query tell how much of its disc lies on surfaces.
-FN bool is_corrected(IN(Query) q) {
-    vec3 center = vec3(params.corrected_x, params.corrected_y, params.corrected_z);
-    vec3 d = q.p - center;
-    return params.boundary_correction != 0u &&
-           dot3(d, d) <= params.corrected_distance * params.corrected_distance;
-}
-
 // Radiance that the surface scatters towards the eye from a photon's flux. carried: the photon's
 // second four words.
 FN vec3 scattered(IN(Query) q, uvec4 carried) {
@@ -109,8 +100,3 @@ FN vec3 scattered(IN(Query) q, uvec4 carried) {
 
 // place: a photon's first four words.
 FN bool is_caustic(uvec4 place) { return caustics && photon_is_caustic(place.w); }
-
-FN void store_estimate(IN(Query) q, vec3 indirect, vec3 caustic) {
-    estimates[q.slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x,
-                                       caustic.y, caustic.z, real(0.0));
-}

@@ -1,9 +1,10 @@
-// One walk of a query through the map, from leaf to leaf, and may be resumed in a later dispatch.
-// The including file defines the estimator:
+// One walk of a query through the map, from leaf to leaf, which may be resumed in a later dispatch.
+// The including file defines the estimator, as disc_density.h and footprint_density.h do:
 // - Bandwidth make_bandwidth(): what it needs to know for every query;
-// - real search_radius2(Bandwidth): square of the distance within which leaves count;
-// - void add_photon(Bandwidth, uint j, Query, LeafSums): adds photon j of a leaf;
-// - void add_leaf(Bandwidth, LeafSums, Query): adds a leaf's sums to the query's;
+// - real search_radius2(Bandwidth): square of the distance within which a leaf's box counts;
+// - bool may_reach(Bandwidth, vec3 d): whether a photon at the end of chord d may count;
+// - void add_photon(Bandwidth, uint j, Query, LeafSums): adds photon j;
+// - void add_leaf(Bandwidth, LeafSums, Query): adds the sums of a few photons to the query's;
 // - real caustic_scale(Bandwidth, real): from the scale of indirect light.
 FN void main() {
     Query q;
@@ -24,8 +25,6 @@ FN void main() {
         }
         add_leaf(bandwidth, leaf, q);
     }
-    // Photons cover only the part of the kernel's support that lies on surfaces. The area samples
-    // give that part once the walk has seen all of them.
-    real scale = is_corrected(q) ? real(1.0) / max(q.coverage, least_coverage) : real(1.0);
+    real scale = answer_scale(q.p, q.coverage);
     store_query(q, scale, caustic_scale(bandwidth, scale));
 }

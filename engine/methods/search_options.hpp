@@ -1,0 +1,16 @@
+#pragma once
+
+#include "methods/option.hpp"
+
+#include <optional>
+
+namespace argand {
+
+/// Options of methods that can answer queries of the photon map together: query, query-leaf,
+/// frontier-memory.
+std::vector<Option> search_options();
+
+/// How a map answers queries together; none if each finds its photons through a tree.
+std::optional<FrontierSettings> frontier_of(const RenderSettings& settings);
+
+} // namespace argand

@@ -1,0 +1,602 @@
+#include "photon/frontier.hpp"
+
+#include "base/error.hpp"
+#include "kernels/frontier_begin.hpp"
+#include "kernels/frontier_copy.hpp"
+#include "kernels/frontier_count.hpp"
+#include "kernels/frontier_divide.hpp"
+#include "kernels/frontier_divide_again.hpp"
+#include "kernels/frontier_enter.hpp"
+#include "kernels/frontier_move.hpp"
+#include "kernels/frontier_nodes.hpp"
+#include "kernels/frontier_parts.hpp"
+#include "kernels/frontier_queries.hpp"
+#include "kernels/frontier_root.hpp"
+#include "kernels/frontier_sides.hpp"
+#include "parallel/scan.hpp"
+#include "parallel/segments.hpp"
+#include "shared/frontier.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace argand {
+
+namespace {
+
+// References that an invocation takes. Lanes of a CPU go through memory one after another, each in
+// its own stream; those of a GPU should read what lies side by side.
+constexpr std::uint32_t chunk_on_cpu = 256;
+constexpr std::uint32_t chunk_on_gpu = 16;
+
+/// Nodes of a level, or parts of them.
+struct Nodes {
+    Buffer ranges;    ///< SegmentRange: their queries
+    Buffer boxes;     ///< BoxRecord: of their queries
+    Buffer nodes;     ///< FrontierNode
+    Buffer ancestors; ///< uint: the node of the level before
+};
+
+/// Queries in the order of nodes.
+struct Places {
+    Buffer places;   ///< uvec4 per query: its position and slot
+    Buffer segments; ///< uint per query: its node, or no_segment
+};
+
+/// Nodes of a level that lie side by side, as their queries and references do.
+struct Part {
+    std::uint32_t side = 0; ///< where the queries are
+    std::uint32_t first_node = 0, end_node = 0;
+    std::uint32_t first_query = 0, end_query = 0;
+    std::uint32_t first_photon = 0, end_photon = 0; ///< references
+    std::uint32_t active = 0;                       ///< nodes with children
+    std::uint32_t chunks = 0;                       ///< of their references
+};
+
+/// A part that waits for room. Its queries stay where they are: no other part moves them.
+struct Waiting {
+    Part part;
+    Nodes nodes;
+    std::uint32_t place = 0; ///< of its references among those that wait
+};
+
+class Search {
+public:
+    Search(Device& device, const PhotonMap& map, const PhotonQueries& queries, double reach,
+           const FrontierSettings& settings, const std::function<void(const FrontierLeaves&)>& add,
+           FrontierStatistics* statistics);
+
+    void run();
+
+private:
+    void search_among(std::uint32_t first, std::uint32_t end);
+    void take_levels(Part part);
+    std::uint32_t divide_queries(Part& part);
+    std::uint32_t partition_queries(Part& part, std::uint32_t level_side, std::uint32_t nodes,
+                                    std::uint32_t parts, bool again);
+    void divide_photons(const Part& part, std::uint32_t children);
+    Part split(const Part& part, std::uint32_t children);
+    void wait_or_finish(const Part& part);
+    Part resume();
+    void add_leaves(const Part& part, std::uint32_t most_photons);
+    void count_leaves(const Part& part);
+    void count_photons(const Part& part, std::uint32_t children);
+    std::vector<std::uint32_t> read_counters();
+    FrontierParams params(std::uint32_t first, std::uint32_t end) const;
+
+    Device& device_;
+    const PhotonMap& map_;
+    const PhotonQueries& queries_;
+    FrontierSettings settings_;
+    const std::function<void(const FrontierLeaves&)>& add_;
+    FrontierStatistics* statistics_;
+    float reach_;
+    bool of_footprints_;
+    std::uint32_t chunk_;
+    std::uint32_t query_count_;
+    std::uint32_t photon_count_;
+    std::uint32_t most_references_ = 0; ///< of a level
+    /// Photons taken together. The two parts of a single node have room, even if each photon goes
+    /// to both.
+    std::uint32_t batch_ = 0;
+    bool careful_ = false; ///< children are made by a single partition
+
+    Nodes now_;                           ///< of the level
+    Nodes parts_, other_parts_;           ///< of the nodes' queries
+    std::array<Places, 3> places_;        ///< of the level, and of parts
+    Buffer references_, next_references_; ///< uvec4: position and index of a photon
+    Buffer copies_, first_copies_, chunks_, first_chunks_, families_; ///< per node
+    Buffer sources_, query_lefts_;                                    ///< uint per part
+    Buffer chunk_sources_;                                            ///< uint per chunk
+    Buffer counts_, sums_;                                            ///< uint per chunk and child
+    Buffer flags_, flag_sums_, to_;                                   ///< uint per query
+    Buffer photon_flags_, photon_sums_; ///< uint per photon of a batch
+    Buffer extents_;                    ///< vec4 per photon: half sizes of footprints
+    Buffer counters_;
+    Buffer waiting_references_;
+    std::vector<Waiting> waiting_;
+};
+
+Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& queries, double reach,
+               const FrontierSettings& settings,
+               const std::function<void(const FrontierLeaves&)>& add,
+               FrontierStatistics* statistics)
+    : device_(device), map_(map), queries_(queries), settings_(settings), add_(add),
+      statistics_(statistics),
+      // Enlarged, for the roundings of differences between positions.
+      reach_(static_cast<float>(reach * 1.00001)),
+      of_footprints_(static_cast<bool>(map.footprints)),
+      chunk_(device.info().lane_serial() ? chunk_on_cpu : chunk_on_gpu),
+      query_count_(download_word(device, queries.count.buffer, queries.count.index)),
+      photon_count_(download_word(device, map.counters, counter_stored)) {
+    if (settings.memory < least_frontier_memory) {
+        fail("answering queries simultaneously: {} bytes are too few for the frontier; it takes {} "
+             "at least",
+             settings.memory, least_frontier_memory);
+    }
+    const std::uint64_t wanted =
+        std::max<std::uint64_t>(4 * std::uint64_t(photon_count_), least_frontier_references);
+    most_references_ = static_cast<std::uint32_t>(
+        std::min({settings.memory / bytes_a_frontier_reference, wanted,
+                  device.info().limits.storage_range / sizeof(glm::uvec4)}));
+    const std::uint64_t queries_room = std::max<std::uint64_t>(query_count_, 1);
+    // Nodes that are partitioned have more than query_leaf queries.
+    const std::uint64_t nodes =
+        std::min(most_frontier_children * queries_room / (settings.query_leaf + 1), queries_room) +
+        most_frontier_children;
+    const std::uint64_t chunks = most_references_ / chunk_ + nodes;
+    batch_ = most_references_ / 2;
+    const auto allocate = [&](std::uint64_t count, std::uint64_t bytes) {
+        return device.allocate("simultaneous search", count * bytes);
+    };
+    for (Nodes* some : {&now_, &parts_, &other_parts_}) {
+        *some = {.ranges = allocate(nodes, sizeof(SegmentRange)),
+                 .boxes = allocate(nodes, sizeof(BoxRecord)),
+                 .nodes = allocate(nodes, sizeof(FrontierNode)),
+                 .ancestors = allocate(nodes, 4)};
+    }
+    for (Places& places : places_) {
+        places = {.places = allocate(queries_room, sizeof(glm::uvec4)),
+                  .segments = allocate(queries_room, 4)};
+    }
+    references_ = allocate(most_references_, sizeof(glm::uvec4));
+    next_references_ = allocate(most_references_, sizeof(glm::uvec4));
+    copies_ = allocate(nodes, 4);
+    first_copies_ = allocate(nodes, 4);
+    chunks_ = allocate(nodes, 4);
+    first_chunks_ = allocate(nodes, 4);
+    families_ = allocate(nodes, 8);
+    sources_ = allocate(nodes, 4);
+    query_lefts_ = allocate(nodes, 4);
+    chunk_sources_ = allocate(chunks, 4);
+    counts_ = allocate(most_frontier_children * chunks, 4);
+    sums_ = allocate(most_frontier_children * chunks, 4);
+    flags_ = allocate(queries_room, 4);
+    flag_sums_ = allocate(queries_room, 4);
+    to_ = allocate(queries_room, 4);
+    photon_flags_ = allocate(batch_, 4);
+    photon_sums_ = allocate(batch_, 4);
+    extents_ = allocate(of_footprints_ ? std::max(photon_count_, 1u) : 1, sizeof(glm::vec4));
+    counters_ = allocate(frontier_counters, 4);
+}
+
+FrontierParams Search::params(std::uint32_t first, std::uint32_t end) const {
+    return {.first = first,
+            .end = end,
+            .query_leaf = settings_.query_leaf,
+            .cost = settings_.partition_cost,
+            .reach = reach_,
+            .part = queries_.part,
+            .flatness = map_.flatness,
+            .chunk = chunk_};
+}
+
+std::vector<std::uint32_t> Search::read_counters() {
+    return download<std::uint32_t>(device_, counters_, frontier_counters);
+}
+
+void Search::run() {
+    if (query_count_ == 0) {
+        return;
+    }
+    std::uint32_t first = 0;
+    do {
+        dispatch(device_,
+                 kernels::frontier_queries{.active_slots = queries_.slots,
+                                           .queries = queries_.points,
+                                           .places = places_[0].places,
+                                           .segments = places_[0].segments,
+                                           .gathers = queries_.suspended,
+                                           .params = params(first, query_count_)},
+                 query_count_);
+        const std::uint32_t end = first + std::min(batch_, photon_count_ - first);
+        if (end > first) {
+            search_among(first, end);
+        }
+        first = end;
+    } while (first < photon_count_);
+}
+
+/// Searches among the photons first <= i < end of the map.
+void Search::search_among(std::uint32_t first, std::uint32_t end) {
+    segment_boxes(device_, places_[0].places, Lanes::point,
+                  {.of_elements = places_[0].segments, .end = query_count_}, 1, now_.boxes);
+    dispatch(device_,
+             kernels::frontier_enter{.photons = map_.photons,
+                                     .boxes = now_.boxes,
+                                     .flags = photon_flags_,
+                                     .footprints = of_footprints_ ? map_.footprints : map_.photons,
+                                     .extents = extents_,
+                                     .params = params(first, end),
+                                     .constants = {.of_footprints = of_footprints_}},
+             end - first);
+    exclusive_scan(device_, photon_flags_, photon_sums_, end - first);
+    dispatch(device_,
+             kernels::frontier_root{.photons = map_.photons,
+                                    .flags = photon_flags_,
+                                    .sums = photon_sums_,
+                                    .references = references_,
+                                    .params = params(first, end)},
+             end - first);
+    dispatch(device_,
+             kernels::frontier_begin{.boxes = now_.boxes,
+                                     .flags = photon_flags_,
+                                     .sums = photon_sums_,
+                                     .ranges = now_.ranges,
+                                     .nodes = now_.nodes,
+                                     .counters = counters_,
+                                     .params = params(end - first, query_count_)},
+             1);
+    const auto counters = read_counters();
+    const Part root{.end_node = 1,
+                    .end_query = query_count_,
+                    .end_photon = counters[frontier_references],
+                    .active = counters[frontier_parents],
+                    .chunks = counters[frontier_chunks]};
+    if (statistics_ != nullptr) {
+        statistics_->photons += end - first;
+        statistics_->entered += root.end_photon;
+        statistics_->box_tests += end - first;
+    }
+    add_leaves(root, ~counters[frontier_most]);
+    take_levels(root);
+}
+
+/// Divides a part of a level until no node is active, and then the parts that waited meanwhile.
+void Search::take_levels(Part part) {
+    for (;;) {
+        while (part.active == 0) {
+            if (waiting_.empty()) {
+                return;
+            }
+            part = resume();
+        }
+        Part next = part;
+        const std::uint32_t children = divide_queries(next);
+        divide_photons(part, children);
+        const auto counters = read_counters();
+        if (counters[frontier_references] > most_references_) {
+            part = split(part, children);
+            continue;
+        }
+        careful_ = false;
+        count_photons(part, children);
+        dispatch(device_,
+                 kernels::frontier_copy{.references = references_,
+                                        .sources = chunk_sources_,
+                                        .first_chunks = first_chunks_,
+                                        .nodes = now_.nodes,
+                                        .families = families_,
+                                        .boxes = parts_.boxes,
+                                        .extents = extents_,
+                                        .places = sums_,
+                                        .next_references = next_references_,
+                                        .params = params(0, part.chunks),
+                                        .constants = {.of_footprints = of_footprints_}},
+                 part.chunks);
+        std::swap(now_, parts_);
+        std::swap(references_, next_references_);
+        part = {.side = next.side,
+                .end_node = children,
+                .first_query = part.first_query,
+                .end_query = part.end_query,
+                .end_photon = counters[frontier_references],
+                .active = counters[frontier_parents],
+                .chunks = counters[frontier_chunks]};
+        add_leaves(part, ~counters[frontier_most]);
+        device_.submit();
+    }
+}
+
+/// Partitions the queries of active nodes, and the parts again, as often as the settings say. The
+/// parts are the children of the nodes. Returns their number.
+std::uint32_t Search::divide_queries(Part& part) {
+    dispatch(device_,
+             kernels::frontier_divide{.nodes = now_.nodes,
+                                      .copies = copies_,
+                                      .chunks = chunks_,
+                                      .params = params(part.first_node, part.end_node)},
+             part.end_node);
+    expand(device_, chunks_, part.end_node, part.chunks, first_chunks_, chunk_sources_);
+    const std::uint32_t side = part.side;
+    std::uint32_t parts = partition_queries(part, side, part.end_node, 2 * part.active, false);
+    for (std::uint32_t k = 1; k < settings_.partitions && !careful_; ++k) {
+        upload_word(device_, counters_, frontier_parents, 0);
+        dispatch(device_,
+                 kernels::frontier_divide_again{.ranges = parts_.ranges,
+                                                .boxes = parts_.boxes,
+                                                .copies = copies_,
+                                                .counters = counters_,
+                                                .params = params(0, parts)},
+                 parts);
+        const std::uint32_t again = download_word(device_, counters_, frontier_parents);
+        if (again == 0) {
+            break;
+        }
+        parts = partition_queries(part, side, parts, parts + again, true);
+    }
+    return parts;
+}
+
+/// Makes `parts` parts of `nodes` nodes, or of parts of nodes, as copies_ says. They become parts_.
+/// level_side: where the level's queries are.
+std::uint32_t Search::partition_queries(Part& part, std::uint32_t level_side, std::uint32_t nodes,
+                                        std::uint32_t parts, bool again) {
+    const Nodes& from = again ? parts_ : now_;
+    // The queries of the level stay where they are, for they may be divided again (split()).
+    const std::uint32_t side = again ? 3 - level_side - part.side : (level_side + 1) % 3;
+    const Places& queries = places_[part.side];
+    const Places& next = places_[side];
+    const FrontierParams of_queries = params(part.first_query, part.end_query);
+    const std::uint64_t query_threads = part.end_query - part.first_query;
+    expand(device_, copies_, nodes, parts, first_copies_, sources_);
+    dispatch(device_,
+             kernels::frontier_sides{.places = queries.places,
+                                     .segments = queries.segments,
+                                     .copies = copies_,
+                                     .boxes = from.boxes,
+                                     .flags = flags_,
+                                     .params = of_queries},
+             query_threads);
+    partition_segments(device_, flags_,
+                       {.of_elements = queries.segments,
+                        .ranges = from.ranges,
+                        .first = part.first_query,
+                        .end = part.end_query},
+                       flag_sums_, to_, query_lefts_);
+    dispatch(device_,
+             kernels::frontier_move{.places = queries.places,
+                                    .segments = queries.segments,
+                                    .copies = copies_,
+                                    .parts = first_copies_,
+                                    .flags = flags_,
+                                    .to = to_,
+                                    .next_places = next.places,
+                                    .next_segments = next.segments,
+                                    .params = of_queries},
+             query_threads);
+    dispatch(device_,
+             kernels::frontier_parts{.sources = sources_,
+                                     .ranges = from.ranges,
+                                     .copies = copies_,
+                                     .parts = first_copies_,
+                                     .lefts = query_lefts_,
+                                     .ancestors = from.ancestors,
+                                     .next_ranges = other_parts_.ranges,
+                                     .next_ancestors = other_parts_.ancestors,
+                                     .families = families_,
+                                     .params = params(again ? 1 : 0, parts)},
+             parts);
+    segment_boxes(device_, next.places, Lanes::point,
+                  {.of_elements = next.segments, .first = part.first_query, .end = part.end_query},
+                  parts, other_parts_.boxes);
+    std::swap(parts_, other_parts_);
+    part.side = side;
+    return parts;
+}
+
+/// Counts the photons that go to each child, and decides what becomes of the children.
+void Search::divide_photons(const Part& part, std::uint32_t children) {
+    dispatch(device_,
+             kernels::frontier_count{.references = references_,
+                                     .sources = chunk_sources_,
+                                     .first_chunks = first_chunks_,
+                                     .nodes = now_.nodes,
+                                     .families = families_,
+                                     .boxes = parts_.boxes,
+                                     .extents = extents_,
+                                     .counts = counts_,
+                                     .params = params(0, part.chunks),
+                                     .constants = {.of_footprints = of_footprints_}},
+             part.chunks);
+    exclusive_scan(device_, counts_, sums_, most_frontier_children * part.chunks);
+    device_.fill(BufferView(counters_, 0, frontier_most * 4), 0);
+    upload_word(device_, counters_, frontier_most, 0xffffffffu);
+    dispatch(device_,
+             kernels::frontier_nodes{.ancestors = parts_.ancestors,
+                                     .first_chunks = first_chunks_,
+                                     .nodes = now_.nodes,
+                                     .families = families_,
+                                     .ranges = parts_.ranges,
+                                     .boxes = parts_.boxes,
+                                     .counts = counts_,
+                                     .sums = sums_,
+                                     .next_nodes = parts_.nodes,
+                                     .counters = counters_,
+                                     .params = params(0, children)},
+             children);
+}
+
+/// Splits a part whose children have more references than there is room for. Returns its first
+/// nodes, for whose children there is room; the others wait. If there is room for those of no node,
+/// the part is to have fewer.
+Part Search::split(const Part& part, std::uint32_t children) {
+    const auto ancestors = download<std::uint32_t>(device_, parts_.ancestors, children);
+    const auto of_children = download<FrontierNode>(device_, parts_.nodes, children);
+    const auto nodes = download<FrontierNode>(device_, now_.nodes, part.end_node);
+    const auto ranges = download<SegmentRange>(device_, now_.ranges, part.end_node);
+    std::uint32_t child = 0;
+    while (of_children[child].first + of_children[child].count <= most_references_) {
+        ++child;
+    }
+    const std::uint32_t node = ancestors[child];
+    if (node == ancestors[0]) {
+        careful_ = true;
+        return part;
+    }
+    Part taken = part;
+    Part rest = part;
+    taken.end_node = rest.first_node = node;
+    taken.end_query = rest.first_query = ranges[node].first;
+    taken.end_photon = rest.first_photon = nodes[node].first;
+    rest.active = rest.chunks = 0;
+    for (std::uint32_t i = node; i < part.end_node; ++i) {
+        if (nodes[i].state == frontier_active) {
+            ++rest.active;
+            rest.chunks += chunks_of(nodes[i].count, chunk_);
+        }
+    }
+    taken.active -= rest.active;
+    taken.chunks -= rest.chunks;
+    wait_or_finish(rest);
+    return taken;
+}
+
+/// Copies `count` elements of `bytes` bytes between two buffers.
+void copy_elements(Device& device, const Buffer& from, std::uint64_t first, const Buffer& to,
+                   std::uint64_t place, std::uint64_t count, std::uint64_t bytes) {
+    if (count > 0) {
+        device.copy(BufferView(from, first * bytes, count * bytes),
+                    BufferView(to, place * bytes, count * bytes));
+    }
+}
+
+/// Copies `count` nodes of a level.
+void copy_nodes(Device& device, const Nodes& from, std::uint32_t first, const Nodes& to,
+                std::uint32_t place, std::uint32_t count) {
+    copy_elements(device, from.ranges, first, to.ranges, place, count, sizeof(SegmentRange));
+    copy_elements(device, from.boxes, first, to.boxes, place, count, sizeof(BoxRecord));
+    copy_elements(device, from.nodes, first, to.nodes, place, count, sizeof(FrontierNode));
+}
+
+/// Keeps a part until resume(). If there is no room for its references, its active nodes become
+/// leaves instead, which takes longer but no memory.
+void Search::wait_or_finish(const Part& part) {
+    const std::uint32_t photons = part.end_photon - part.first_photon;
+    const std::uint32_t count = part.end_node - part.first_node;
+    const std::uint32_t place = waiting_.empty()
+                                    ? 0
+                                    : waiting_.back().place + waiting_.back().part.end_photon -
+                                          waiting_.back().part.first_photon;
+    if (photons > most_references_ - place) {
+        auto nodes = download<FrontierNode>(device_, now_.nodes, count, part.first_node);
+        std::uint32_t most = 0;
+        for (FrontierNode& node : nodes) {
+            // The leaves have been added already.
+            node.state = node.state == frontier_active ? frontier_leaf : frontier_ended;
+            most = node.state == frontier_leaf ? std::max(most, node.count) : most;
+        }
+        device_.upload(now_.nodes, part.first_node * sizeof(FrontierNode),
+                       std::as_bytes(std::span(nodes)));
+        add_leaves(part, most);
+        return;
+    }
+    if (!waiting_references_) {
+        waiting_references_ =
+            device_.allocate("simultaneous search", most_references_ * sizeof(glm::uvec4));
+    }
+    Waiting waiting{.part = part, .place = place};
+    waiting.nodes = {
+        .ranges = device_.allocate("simultaneous search", count * sizeof(SegmentRange)),
+        .boxes = device_.allocate("simultaneous search", count * sizeof(BoxRecord)),
+        .nodes = device_.allocate("simultaneous search", count * sizeof(FrontierNode))};
+    copy_nodes(device_, now_, part.first_node, waiting.nodes, 0, count);
+    copy_elements(device_, references_, part.first_photon, waiting_references_, place, photons,
+                  sizeof(glm::uvec4));
+    waiting_.push_back(std::move(waiting));
+    if (statistics_ != nullptr) {
+        ++statistics_->waits;
+    }
+}
+
+/// The part that has waited for the shortest time, where it was.
+Part Search::resume() {
+    const Waiting waiting = std::move(waiting_.back());
+    waiting_.pop_back();
+    const Part part = waiting.part;
+    copy_nodes(device_, waiting.nodes, 0, now_, part.first_node, part.end_node - part.first_node);
+    copy_elements(device_, waiting_references_, waiting.place, references_, part.first_photon,
+                  part.end_photon - part.first_photon, sizeof(glm::uvec4));
+    return part;
+}
+
+void Search::add_leaves(const Part& part, std::uint32_t most_photons) {
+    count_leaves(part);
+    if (most_photons > 0) {
+        add_({.places = places_[part.side].places,
+              .segments = places_[part.side].segments,
+              .nodes = now_.nodes,
+              .references = references_,
+              .first = part.first_query,
+              .end = part.end_query,
+              .most_photons = most_photons});
+    }
+}
+
+void Search::count_leaves(const Part& part) {
+    if (statistics_ == nullptr) {
+        return;
+    }
+    ++statistics_->levels;
+    const std::uint32_t count = part.end_node - part.first_node;
+    const auto nodes = download<FrontierNode>(device_, now_.nodes, count, part.first_node);
+    const auto ranges = download<SegmentRange>(device_, now_.ranges, count, part.first_node);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (nodes[i].state == frontier_leaf) {
+            ++statistics_->leaves;
+            statistics_->pairs += std::uint64_t(nodes[i].count) * ranges[i].count;
+        }
+    }
+}
+
+/// Counts the references that go to no child, and those that go to several.
+void Search::count_photons(const Part& part, std::uint32_t children) {
+    if (statistics_ == nullptr) {
+        return;
+    }
+    const auto nodes = download<FrontierNode>(device_, now_.nodes, part.end_node);
+    const auto references = download<glm::uvec4>(device_, references_, part.end_photon);
+    const auto families = download<glm::uvec2>(device_, families_, part.end_node);
+    const auto boxes = download<BoxRecord>(device_, parts_.boxes, children);
+    const auto extents = download<glm::vec4>(device_, extents_, of_footprints_ ? photon_count_ : 0);
+    for (std::uint32_t i = part.first_node; i < part.end_node; ++i) {
+        if (nodes[i].state != frontier_active) {
+            continue;
+        }
+        for (std::uint32_t j = nodes[i].first; j < nodes[i].first + nodes[i].count; ++j) {
+            const glm::vec3 p = glm::uintBitsToFloat(glm::uvec3(references[j]));
+            const glm::vec3 extent =
+                of_footprints_ ? glm::vec3(extents[references[j].w]) : glm::vec3(reach_);
+            std::uint32_t to = 0;
+            for (std::uint32_t c = families[i].x; c < families[i].y; ++c) {
+                to += reaches(p, extent, box_low(boxes[c]), box_high(boxes[c])) ? 1 : 0;
+            }
+            statistics_->box_tests += families[i].y - families[i].x;
+            statistics_->discarded += to == 0 ? 1 : 0;
+            statistics_->replicated += to > 1 ? to - 1 : 0;
+        }
+    }
+}
+
+} // namespace
+
+void search_simultaneously(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+                           double reach, const FrontierSettings& settings,
+                           const std::function<void(const FrontierLeaves&)>& add,
+                           FrontierStatistics* statistics) {
+    Search(device, map, queries, reach, settings, add, statistics).run();
+}
+
+} // namespace argand

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "kernels/frontier_answer.hpp"
+#include "kernels/frontier_bindings.hpp"
+#include "photon/frontier.hpp"
+#include "photon/gather_dispatch.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+/// What an estimator says of its answers.
+struct Answering {
+    double reach = 0;               ///< distance within which photons count
+    std::uint32_t area_samples = 0; ///< that correct estimates
+    bool caustic_correction = true; ///< whether they correct caustics, too
+    std::uint32_t budget = 0;       ///< photons that a dispatch adds to a query at most
+};
+
+/// Specialization constants for the member `frontier` of a leaf kernel's constants.
+inline kernels::FrontierConstants frontier_constants(const Plan& plan,
+                                                     const PhotonQueries& queries) {
+    return {.glossy = plan.needs(Feature::glossy_estimates),
+            .final_gather = queries.final_gather,
+            .caustics = plan.needs(Feature::caustics)};
+}
+
+/// Turns the sums of queries into their answers.
+inline void store_answers(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+                          const Answering& how) {
+    const PhotonGatherParams params = gather_params(map, queries, 0);
+    const std::uint32_t count = download_word(device, queries.count.buffer, queries.count.index);
+    dispatch(
+        device,
+        kernels::frontier_answer{.active_slots = queries.slots,
+                                 .queries = queries.points,
+                                 .gathers = queries.suspended,
+                                 .estimates = queries.estimates,
+                                 .params = {.end = count,
+                                            .boundary_correction = how.area_samples > 0 ? 1u : 0u,
+                                            .caustic_correction = how.caustic_correction ? 1u : 0u,
+                                            .corrected_x = params.corrected_x,
+                                            .corrected_y = params.corrected_y,
+                                            .corrected_z = params.corrected_z,
+                                            .corrected_distance = params.corrected_distance}},
+        count);
+}
+
+/// Answers all queries at once. Calls run.operator()<Kernel>(params, bindings, threads) for the
+/// leaves of each level, as often as their photons require: Kernel adds them to the sums, and reads
+/// the map from storage buffers, or as texels where that is faster.
+template <class Storage, class Texels, class Run>
+void answer_simultaneously(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+                           const Answering& how, const Run& run) {
+    const auto add = [&](const FrontierLeaves& leaves) {
+        const kernels::FrontierBindings bindings{.photons = map.photons,
+                                                 .queries = queries.points,
+                                                 .query_bsdfs = queries.bsdfs,
+                                                 .gathers = queries.suspended,
+                                                 .places = leaves.places,
+                                                 .segments = leaves.segments,
+                                                 .frontier = leaves.nodes,
+                                                 .references = leaves.references};
+        for (std::uint32_t first = 0; first < leaves.most_photons; first += how.budget) {
+            const FrontierGatherParams params{.first = leaves.first,
+                                              .end = leaves.end,
+                                              .first_photon = first,
+                                              .photons = how.budget};
+            const std::uint64_t threads = leaves.end - leaves.first;
+            if (read_as_texels(device, map.photons, map.photons)) {
+                run.template operator()<Texels>(params, bindings, threads);
+            } else {
+                run.template operator()<Storage>(params, bindings, threads);
+            }
+        }
+    };
+    search_simultaneously(device, map, queries, how.reach, *map.frontier, add);
+    store_answers(device, map, queries, how);
+}
+
+} // namespace argand

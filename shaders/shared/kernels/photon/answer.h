@@ -1,0 +1,20 @@
+// The answer to a query: its estimate, from the sums over photons.
+
+// Whether the area samples around a query at p tell how much of its disc lies on surfaces.
+FN bool is_corrected(IN(vec3) p) {
+    vec3 center = vec3(params.corrected_x, params.corrected_y, params.corrected_z);
+    vec3 d = p - center;
+    return params.boundary_correction != 0u &&
+           dot3(d, d) <= params.corrected_distance * params.corrected_distance;
+}
+
+// Photons cover only the part of the kernel's support that lies on surfaces. The area samples give
+// that part once all of them have been seen.
+FN real answer_scale(IN(vec3) p, real coverage) {
+    return is_corrected(p) ? real(1.0) / max(coverage, least_coverage) : real(1.0);
+}
+
+FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic) {
+    estimates[slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x,
+                                     caustic.y, caustic.z, real(0.0));
+}

@@ -1,0 +1,29 @@
+// The sums of a query between two dispatches (GatherRecord).
+#include "shared/kernels/photon/query.h"
+
+// Contributions of a few photons, which are added up before they are added to the query's
+// compensated sums.
+struct LeafSums {
+    vec3 indirect, caustic;
+    real area; // of area samples, weighted
+};
+
+FN void load_sums(INOUT(Query) q) {
+    GatherRecord g = gathers[q.slot];
+    q.indirect.value = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
+    q.caustic.value = vec3(g.caustic_r, g.caustic_g, g.caustic_b);
+    q.indirect.compensation =
+        vec3(g.indirect_compensation_r, g.indirect_compensation_g, g.indirect_compensation_b);
+    q.caustic.compensation =
+        vec3(g.caustic_compensation_r, g.caustic_compensation_g, g.caustic_compensation_b);
+    q.coverage = g.coverage;
+    q.node = g.node;
+}
+
+FN void store_sums(IN(Query) q) {
+    vec3 a = q.indirect.compensation;
+    vec3 b = q.caustic.compensation;
+    gathers[q.slot] = GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z,
+                                   q.node, q.caustic.value.x, q.caustic.value.y, q.caustic.value.z,
+                                   q.coverage, a.x, a.y, a.z, real(0.0), b.x, b.y, b.z, real(0.0));
+}
