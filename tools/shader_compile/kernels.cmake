@@ -7,7 +7,8 @@
 # With TWINS, other backends run the kernels too. FOLDER/NAME.comp then needs a body, shaders/shared/kernels/FOLDER/NAME.h,
 # from which shader_compile writes the twin generated/kernels/NAME.cu and the header NAME.twin.h. A twin that needs more than
 # the body is written by hand, as FOLDER/NAME.cu in the directory TWINS. FOLDER/NAME_texels.comp shares the twin of NAME.comp.
-# Kernels in the folders parallel and device have no twin: the other backends use libraries instead.
+# Kernels in the folders parallel and device have a twin only if they have a body: for the others, the other backends use
+# libraries.
 #
 # Sets the global property ARGAND_TWINS to the sources of all twins, and adds the target TARGET_twins, which writes the
 # generated ones.
@@ -32,7 +33,11 @@ function(argand_add_kernels target)
         endif()
         get_filename_component(parent ${file} DIRECTORY)
         get_filename_component(folder ${parent} NAME)
-        if(ARG_TWINS AND NOT folder MATCHES "^(parallel|device)$" AND NOT name MATCHES "_bindings$")
+        set(may_lack_twin FALSE)
+        if(folder MATCHES "^(parallel|device)$" AND NOT EXISTS ${CMAKE_SOURCE_DIR}/shaders/shared/kernels/${folder}/${name}.h)
+            set(may_lack_twin TRUE)
+        endif()
+        if(ARG_TWINS AND NOT may_lack_twin AND NOT name MATCHES "_bindings$")
             string(REGEX REPLACE "_texels$" "" twin ${name})
             set(options --twin ${twin})
             set(by_hand ${ARG_TWINS}/${folder}/${twin}.cu)
