@@ -575,6 +575,7 @@ void Search::count_photons(const Part& part, std::uint32_t children) {
         if (nodes[i].state != frontier_active) {
             continue;
         }
+        statistics_->references += nodes[i].count;
         for (std::uint32_t j = nodes[i].first; j < nodes[i].first + nodes[i].count; ++j) {
             const glm::vec3 p = glm::uintBitsToFloat(glm::uvec3(references[j]));
             const glm::vec3 extent =

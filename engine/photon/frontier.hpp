@@ -22,10 +22,11 @@ struct FrontierLeaves {
 /// What a search did.
 struct FrontierStatistics {
     std::uint64_t levels = 0;
-    std::uint64_t photons = 0;   ///< of the map
-    std::uint64_t entered = 0;   ///< photons in the box of all queries' balls
-    std::uint64_t box_tests = 0; ///< of photons
-    std::uint64_t discarded = 0; ///< references that went to no child
+    std::uint64_t photons = 0;    ///< of the map
+    std::uint64_t entered = 0;    ///< photons in the box of all queries' balls
+    std::uint64_t box_tests = 0;  ///< of photons
+    std::uint64_t references = 0; ///< divided, on all levels
+    std::uint64_t discarded = 0;  ///< references that went to no child
     std::uint64_t replicated =
         0; ///< copies beyond one, of references that went to several children
     std::uint64_t leaves = 0;

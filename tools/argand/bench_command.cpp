@@ -9,6 +9,7 @@
 #include "bench/bench_photons.hpp"
 #include "bench/bench_rays.hpp"
 #include "bench/fd09.hpp"
+#include "bench/kdgs10.hpp"
 #include "numbers.hpp"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ struct BenchOptions {
     std::string device;
     std::string paper;
     Fd09Settings fd09;
+    Kdgs10Settings kdgs10;
     bool is_dynamic = false;
     DynamicOptions dynamic;
     bool json = false;
@@ -66,7 +68,10 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
 
 void run_paper(const BenchOptions& options) {
     const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
-    const std::vector<PaperTable> tables = bench_fd09(*device, options.fd09);
+    const bool simultaneous = options.paper == "kdgs10";
+    const std::vector<PaperTable> tables = simultaneous
+                                               ? std::vector{bench_kdgs10(*device, options.kdgs10)}
+                                               : bench_fd09(*device, options.fd09);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const PaperTable& table : tables) {
         for (nlohmann::ordered_json row : table.rows) {
@@ -79,7 +84,7 @@ void run_paper(const BenchOptions& options) {
         return;
     }
     for (const PaperTable& table : tables) {
-        fmt::print("{}", markdown(table));
+        fmt::print("{}", simultaneous ? markdown_rows(table) : markdown(table));
     }
 }
 
@@ -133,8 +138,9 @@ void add_bench_command(CLI::App& app) {
         command
             ->add_option(
                 "--paper", options->paper,
-                "Repeat the measurements of a paper instead: fd09, Fabianowski and Dingliana 2009")
-            ->check(CLI::IsMember({"fd09"}));
+                "Repeat the measurements of a paper instead: fd09, Fabianowski and Dingliana 2009; "
+                "kdgs10, Keller et al. 2010")
+            ->check(CLI::IsMember({"fd09", "kdgs10"}));
     command
         ->add_option("--scene", fd09.scenes,
                      "With --paper: glTF files (default: scenes of this project)")
@@ -180,6 +186,18 @@ void add_bench_command(CLI::App& app) {
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 101));
+    command
+        ->add_option("--most-queries", options->kdgs10.most_queries,
+                     "With --paper kdgs10: queries of the largest load")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(integer_between(1000, 10'000'000));
+    command
+        ->add_option("--most-photons", options->kdgs10.most_photons,
+                     "With --paper kdgs10: photons of the largest load")
+        ->needs(paper)
+        ->capture_default_str()
+        ->check(integer_between(10'000, 10'000'000));
     DynamicOptions& dynamic = options->dynamic;
     CLI::Option* is_dynamic =
         command

@@ -1,12 +1,10 @@
 #include "bench_nearest.hpp"
 
+#include "bench_queries.hpp"
 #include "nanoflann_peer.hpp"
 #include "photon/nearest.hpp"
 #include "photon/radius.hpp"
-#include "shared/bsdf.h"
-#include "shared/path_records.h"
 #include "shared/photon.h"
-#include "shared/query_record.h"
 
 #include <algorithm>
 #include <array>
@@ -22,34 +20,16 @@ std::vector<BenchRow> bench_nearest(Device& device, const DeviceScene& scene,
     std::vector<glm::vec3> points;
     std::vector<glm::vec3> asked;
     std::vector<QueryRecord> records;
-    std::vector<std::uint32_t> slots;
     for (std::size_t i = 0; i < photons.size(); ++i) {
         const PhotonRecord& p = photons[i];
         points.emplace_back(p.x, p.y, p.z);
         if (i % 8 == 0) {
-            const std::uint32_t normal = pack_unit(unpack_photon_normal(p.normal));
-            records.push_back({.x = p.x,
-                               .y = p.y,
-                               .z = p.z,
-                               .geometric_normal = normal,
-                               .flags = query_front | query_lambertian,
-                               .reflectance_r = 0.2f,
-                               .reflectance_g = 0.2f,
-                               .reflectance_b = 0.2f});
-            slots.push_back(static_cast<std::uint32_t>(slots.size()));
+            records.push_back(bench_query(points.back(), unpack_photon_normal(p.normal)));
             asked.push_back(points.back());
         }
     }
     const std::uint64_t n = asked.size();
-    const Buffer number =
-        upload(device, "bench counts", std::vector{static_cast<std::uint32_t>(n)});
-    const PhotonQueries queries{
-        .points = upload(device, "bench queries", records),
-        .bsdfs = device.allocate("bench query BSDFs", sizeof(QueryBsdfRecord)),
-        .slots = upload(device, "bench slots", slots),
-        .count = Count(number, 0, n),
-        .estimates = device.allocate("bench estimates", n * sizeof(EstimateRecord)),
-        .unfinished = upload(device, "bench unfinished", std::vector{0u})};
+    const PhotonQueries queries = bench_queries(device, records);
     std::vector<glm::vec4> some;
     for (std::size_t i = 0; i < std::min<std::size_t>(n, 2000); ++i) {
         some.emplace_back(asked[i], 0);

@@ -120,4 +120,22 @@ std::string markdown(const PaperTable& table) {
     return text + '\n';
 }
 
+std::string markdown_rows(const PaperTable& table) {
+    std::string text = fmt::format("## {}\n\n|", table.title);
+    std::string rule = "|";
+    for (const auto& item : table.rows.front().items()) {
+        text += fmt::format(" {} |", item.key());
+        rule += " ---: |";
+    }
+    text += '\n' + rule + '\n';
+    for (const nlohmann::ordered_json& row : table.rows) {
+        text += '|';
+        for (const auto& item : row.items()) {
+            text += fmt::format(" {} |", cell(item.value()));
+        }
+        text += '\n';
+    }
+    return text + '\n';
+}
+
 } // namespace argand

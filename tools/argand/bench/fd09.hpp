@@ -45,6 +45,8 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
 
 /// The table in Markdown, with a line per key and a column per row.
 std::string markdown(const PaperTable& table);
+/// The table in Markdown, with a line per row and a column per key.
+std::string markdown_rows(const PaperTable& table);
 
 // Each of the following adds its results for a scene to its tables.
 
