@@ -67,7 +67,7 @@ void answer_simultaneously(Device& device, const PhotonMap& map, const PhotonQue
                                               .first_photon = first,
                                               .photons = how.budget};
             const std::uint64_t threads = leaves.end - leaves.first;
-            if (read_as_texels(device, map.photons, map.photons)) {
+            if (read_as_texels(device, map.photons, leaves.references)) {
                 run.template operator()<Texels>(params, bindings, threads);
             } else {
                 run.template operator()<Storage>(params, bindings, threads);

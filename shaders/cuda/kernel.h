@@ -13,6 +13,7 @@
 #define NODES(i) read4(nodes, i)
 #define PHOTONS(i) read4(photons, i)
 #define FOOTPRINTS(i) read4(footprints, i)
+#define REFERENCES(i) read4(references, i)
 #define TRIANGLES(i) read4(triangles, i)
 
 namespace argand {

@@ -17,7 +17,13 @@ layout(set = 0, binding = 3) buffer Gathers { GatherRecord gathers[]; };
 layout(set = 0, binding = 4) readonly buffer Places { uvec4 places[]; };
 layout(set = 0, binding = 5) readonly buffer Segments { uint segments[]; };
 layout(set = 0, binding = 6) readonly buffer Nodes { FrontierNode frontier[]; };
+#if TEXELS
+layout(set = 0, binding = 7) uniform utextureBuffer references;
+#define REFERENCES(i) texelFetch(references, int(i))
+#else
 layout(set = 0, binding = 7) readonly buffer References { uvec4 references[]; };
+#define REFERENCES(i) references[i]
+#endif
 
 // Whether any estimated lobe of the scene is not Lambertian; else `query_bsdfs` is not read.
 layout(constant_id = 0) const bool glossy = true;

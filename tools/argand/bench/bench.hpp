@@ -33,8 +33,8 @@ double median_host_seconds(const std::function<void()>& prepare, const std::func
 /// caches.
 double copy_rate(Device& device);
 
-/// Benchmarks reductions, scans, compaction and sorts of 2^10 to 2^24 elements, up to the largest
-/// buffer of the device, against the standard library on one thread.
+/// Benchmarks reductions, scans, primitives of segments, compaction and sorts of 2^10 to 2^24
+/// elements, up to the largest buffer of the device, against the standard library on one thread.
 std::vector<BenchRow> bench_parallel(Device& device);
 
 } // namespace argand

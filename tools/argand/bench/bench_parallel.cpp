@@ -3,6 +3,8 @@
 #include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"
 #include "parallel/scan.hpp"
+#include "parallel/segments.hpp"
+#include "shared/geometry_records.h"
 
 #include <algorithm>
 #include <numeric>
@@ -73,6 +75,112 @@ void bench_scan(const Bench& bench, const std::vector<std::uint32_t>& data, cons
                                     [&] { exclusive_scan(bench.device, in, out, bench.n); }),
               "std::exclusive_scan", median_host_seconds(nothing, [&] {
                   std::exclusive_scan(data.begin(), data.end(), host.begin(), 0u);
+              }));
+}
+
+/// Segments of about 64 elements.
+struct BenchSegments {
+    std::vector<std::uint32_t> heads, of_elements;
+    std::vector<SegmentRange> ranges;
+};
+
+BenchSegments random_segments(const std::vector<std::uint32_t>& data) {
+    BenchSegments segments;
+    segments.heads.reserve(data.size());
+    segments.of_elements.reserve(data.size());
+    for (std::uint32_t i = 0; i < data.size(); ++i) {
+        const bool head = i == 0 || data[i] >> 26 == 0;
+        if (head) {
+            segments.ranges.push_back({i, 0});
+        }
+        ++segments.ranges.back().count;
+        segments.heads.push_back(head ? 1 : 0);
+        segments.of_elements.push_back(static_cast<std::uint32_t>(segments.ranges.size() - 1));
+    }
+    return segments;
+}
+
+void bench_segments(const Bench& bench, const std::vector<std::uint32_t>& data, const Buffer& in) {
+    Device& device = bench.device;
+    const auto n = static_cast<std::uint32_t>(bench.n);
+    const BenchSegments segments = random_segments(data);
+    const auto count = static_cast<std::uint32_t>(segments.ranges.size());
+    const Buffer heads = upload(device, "bench: heads", segments.heads);
+    const Segments of{.of_elements = upload(device, "bench: segments", segments.of_elements),
+                      .ranges = upload(device, "bench: ranges", segments.ranges),
+                      .end = n};
+    const Buffer out = device.allocate("bench: scanned", n * sizeof(std::uint32_t));
+    std::vector<std::uint32_t> host(n);
+    bench.add("segmented_scan", 4 + 2 * 8,
+              median_device_seconds(device, nothing,
+                                    [&] { segmented_scan(device, in, heads, out, bench.n); }),
+              "serial loop", median_host_seconds(nothing, [&] {
+                  std::uint32_t sum = 0;
+                  for (std::uint32_t i = 0; i < n; ++i) {
+                      sum = segments.heads[i] != 0 ? data[i] : sum + data[i];
+                      host[i] = sum;
+                  }
+              }));
+
+    // A point for every fourth element of the data, which is what fits.
+    std::vector<glm::vec4> points(n / 4);
+    for (std::uint32_t i = 0; i < n / 4; ++i) {
+        points[i] = glm::vec4(float(data[i]), float(~data[i]), 0, 0);
+    }
+    const Buffer elements = upload(device, "bench: points", points);
+    const Buffer boxes = device.allocate("bench: boxes", count * sizeof(BoxRecord));
+    std::vector<BoxRecord> host_boxes(count);
+    const Bench of_points{device, points.size(), bench.copy_bytes_per_second, bench.rows};
+    of_points.add("segment_boxes", 20,
+                  median_device_seconds(device, nothing,
+                                        [&] {
+                                            segment_boxes(
+                                                device, elements, Lanes::point,
+                                                {.of_elements = of.of_elements, .end = n / 4},
+                                                count, boxes);
+                                        }),
+                  "serial loop", median_host_seconds(nothing, [&] {
+                      for (std::uint32_t i = 0; i < n / 4; ++i) {
+                          BoxRecord& box = host_boxes[segments.of_elements[i]];
+                          box.low_x = std::min(box.low_x, points[i].x);
+                          box.low_y = std::min(box.low_y, points[i].y);
+                          box.high_x = std::max(box.high_x, points[i].x);
+                          box.high_y = std::max(box.high_y, points[i].y);
+                      }
+                  }));
+
+    std::vector<std::uint32_t> flags(n);
+    std::transform(data.begin(), data.end(), flags.begin(),
+                   [](std::uint32_t x) { return x >> 16 & 1u; });
+    const Buffer device_flags = upload(device, "bench: flags", flags);
+    const Buffer sums = device.allocate("bench: sums", n * sizeof(std::uint32_t));
+    const Buffer lefts = device.allocate("bench: lefts", count * sizeof(std::uint32_t));
+    bench.add("partition_segments", 12 + 4 * 4,
+              median_device_seconds(
+                  device, nothing,
+                  [&] { partition_segments(device, device_flags, of, sums, out, lefts); }),
+              "std::stable_partition",
+              median_host_seconds([&] { host = data; },
+                                  [&] {
+                                      for (const SegmentRange& s : segments.ranges) {
+                                          std::stable_partition(
+                                              host.begin() + s.first,
+                                              host.begin() + s.first + s.count,
+                                              [](std::uint32_t x) { return (x >> 16 & 1u) != 0; });
+                                      }
+                                  }));
+
+    const std::uint32_t copies = std::accumulate(flags.begin(), flags.end(), 0u);
+    bench.add("expand", 12 + 4,
+              median_device_seconds(device, nothing,
+                                    [&] { expand(device, device_flags, n, copies, sums, out); }),
+              "serial loop", median_host_seconds(nothing, [&] {
+                  std::uint32_t to = 0;
+                  for (std::uint32_t i = 0; i < n; ++i) {
+                      for (std::uint32_t k = 0; k < flags[i]; ++k) {
+                          host[to++] = i;
+                      }
+                  }
               }));
 }
 
@@ -155,6 +263,7 @@ std::vector<BenchRow> bench_parallel(Device& device) {
         bench_reduce(bench, data, in);
         bench_scan(bench, data, in);
         bench_compact(bench, data, in);
+        bench_segments(bench, data, in);
         bench_sorts(bench, data, in);
     }
     return rows;

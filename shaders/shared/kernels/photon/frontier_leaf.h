@@ -19,7 +19,7 @@ FN void main() {
         uint block_end = min(j + 16u, end);
         LeafSums leaf = LeafSums(vec3(real(0.0)), vec3(real(0.0)), real(0.0));
         for (; j < block_end; ++j) {
-            uvec4 photon = references[j];
+            uvec4 photon = REFERENCES(j);
             if (may_reach(bandwidth, bits_float(uvec3(photon)) - q.p)) {
                 add_photon(bandwidth, photon.w, q, leaf);
             }
