@@ -18,11 +18,14 @@ namespace argand {
 
 namespace {
 
-constexpr std::array<std::string_view, 19> exact_stages{
-    sort_stage,       scan_stage,     segmented_scan_stage, reduce_stage,    reduce_box_stage,
-    compact_stage,    "lbvh_codes",   "code_distances",     "lbvh_fit",      "wide_roots",
-    "triangle_boxes", "photon_codes", "photon_count",       "photon_leaves", "photon_order",
-    "photon_tally",   "query_owners", "ray_refit",          "pose_boxes"};
+constexpr std::array<std::string_view, 25> exact_stages{
+    sort_stage,          scan_stage,         segmented_scan_stage, reduce_stage,
+    reduce_box_stage,    compact_stage,      "lbvh_codes",         "code_distances",
+    "lbvh_fit",          "wide_roots",       "triangle_boxes",     "photon_codes",
+    "photon_count",      "photon_leaves",    "photon_order",       "photon_tally",
+    "query_owners",      "ray_refit",        "pose_boxes",         "segment_boxes",
+    "segment_boxes_end", "partition_places", "expand_sources",     "frontier_count",
+    "frontier_copy"};
 
 RenderResult render_with(Device& device, const Scene& scene, const RenderSettings& settings,
                          MethodTable methods) {

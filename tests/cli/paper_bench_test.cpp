@@ -1,4 +1,4 @@
-// `argand bench --paper fd09` on small pictures.
+// `argand bench --paper` on small pictures and loads.
 #include "argand_run.hpp"
 
 namespace argand::testing {
@@ -62,10 +62,28 @@ TEST_F(PaperBench, EstimatorsAndKernelsAtEqualError) {
     EXPECT_NE(rows[1]["relMSE, uniform"], rows[1]["relMSE, Epanechnikov"]);
 }
 
+TEST_F(PaperBench, SimultaneousQueriesAgainstATree) {
+    const Outcome run = argand("bench --paper kdgs10 --json --most-queries 1000 --most-photons "
+                               "10000 --runs 1",
+                               "");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const nlohmann::json rows = nlohmann::json::parse(run.out);
+    ASSERT_EQ(rows.size(), 4u); // near and far, in rows and scattered
+    for (const nlohmann::json& row : rows) {
+        EXPECT_GT(row["speedup"], 0);
+        EXPECT_GE(row["pairs over useful"], 1);
+        EXPECT_GE(row["box tests a photon"], 1);
+        EXPECT_EQ(row["entered"].get<double>() == 1, row["where"] == "near");
+        EXPECT_GT(row["MiB"], 0);
+    }
+}
+
 TEST_F(PaperBench, UnknownPapersAndPartsAreRefused) {
     expect_failure("bench --paper jensen96", 2, "--paper");
     expect_failure("bench --paper fd09 --part table9", 2, "--part");
     expect_failure("bench --part table1", 2, "--paper");
+    expect_failure("bench --paper kdgs10 --part table1", 2, "--part");
+    expect_failure("bench --paper fd09 --most-queries 1000", 2, "--most-queries");
     expect_failure("bench --paper fd09", 1, "--scene"); // not in the project's folder
 }
 

@@ -76,6 +76,37 @@ std::string name_of(const ::testing::TestParamInfo<std::string>& scene) {
 INSTANTIATE_TEST_SUITE_P(Assets, Backends, ::testing::ValuesIn(scenes_that(true)), name_of);
 INSTANTIATE_TEST_SUITE_P(SlowAssets, Backends, ::testing::ValuesIn(scenes_that(false)), name_of);
 
+class SimultaneousQueries : public DeviceTest {
+protected:
+    host::HostDevice host_{host::describe()};
+};
+
+TEST_F(SimultaneousQueries, AgreeOnEveryStage) {
+    Device& device = open();
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_glass.glb");
+    for (const std::string method : {"photons", "footprints"}) {
+        RenderSettings settings = small(method);
+        settings.query = QuerySearch::simultaneous;
+        if (method == "photons") {
+            // Parts of levels wait, and photons come in several batches.
+            settings.photons = 1500;
+            settings.frontier.memory = least_frontier_memory;
+        }
+        const BackendComparison found = compare_backends(device, host_, scene, settings);
+        EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
+        bool divided = false;
+        for (const StageComparison& stage : found.isolated) {
+            divided = divided || stage.name == "frontier_copy";
+            // lavapipe and the host round alike.
+            const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
+            EXPECT_TRUE(same_bits && passes_isolated(stage))
+                << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
+                << stage.diverged << " diverged of " << stage.items;
+        }
+        EXPECT_TRUE(divided);
+    }
+}
+
 /// A device that writes a wrong word after one kernel.
 class FaultyDevice final : public host::HostDevice {
 public:

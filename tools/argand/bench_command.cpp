@@ -126,6 +126,25 @@ void run(const BenchOptions& options) {
     }
 }
 
+/// Throws UsageError if an option is given that the benchmark of the paper does not have.
+void check_paper_options(const CLI::App& command, const std::string& paper) {
+    const std::vector<std::string> others =
+        paper == "kdgs10" ? std::vector<std::string>{"--scene",
+                                                     "--part",
+                                                     "--size",
+                                                     "--error-size",
+                                                     "--budget",
+                                                     "--photons",
+                                                     "--reference-samples"}
+                          : std::vector<std::string>{"--most-queries", "--most-photons"};
+    for (const std::string& name : others) {
+        if (command.count(name) > 0) {
+            throw UsageError(
+                fmt::format("measuring '{}': this paper has no {}; leave it out", paper, name));
+        }
+    }
+}
+
 } // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -143,40 +162,41 @@ void add_bench_command(CLI::App& app) {
             ->check(CLI::IsMember({"fd09", "kdgs10"}));
     command
         ->add_option("--scene", fd09.scenes,
-                     "With --paper: glTF files (default: scenes of this project)")
+                     "With --paper fd09: glTF files (default: scenes of this project)")
         ->needs(paper)
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--part", fd09.parts,
-                     fmt::format("With --paper: {} (default: all)", fmt::join(fd09_parts(), ", ")))
+        ->add_option(
+            "--part", fd09.parts,
+            fmt::format("With --paper fd09: {} (default: all)", fmt::join(fd09_parts(), ", ")))
         ->needs(paper)
         ->check(CLI::IsMember(fd09_parts()));
     command
         ->add_option("--size", fd09.size,
-                     "With --paper: pixels per side of pictures that measure speed")
+                     "With --paper fd09: pixels per side of pictures that measure speed")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
     command
         ->add_option("--error-size", fd09.error_size,
-                     "With --paper: pixels per side of pictures that measure error")
+                     "With --paper fd09: pixels per side of pictures that measure error")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 4096));
     command
         ->add_option("--budget", fd09.budgets,
-                     "With --paper: times at which errors are compared, in seconds")
+                     "With --paper fd09: times at which errors are compared, in seconds")
         ->needs(paper)
         ->capture_default_str()
         ->check(number_between(1e-3, 1e5));
     command
         ->add_option("--photons", fd09.photons,
-                     "With --paper: photons emitted (default: as in the paper)")
+                     "With --paper fd09: photons emitted (default: as in the paper)")
         ->needs(paper)
         ->check(integer_between(1, 4'000'000));
     command
         ->add_option("--reference-samples", fd09.reference_samples,
-                     "With --paper: samples per pixel of each of the two references")
+                     "With --paper fd09: samples per pixel of each of the two references")
         ->needs(paper)
         ->capture_default_str()
         ->check(integer_between(1, 1 << 20));
@@ -229,7 +249,13 @@ void add_bench_command(CLI::App& app) {
                     "traffic alone would allow at the copy rate of the same run. The peer does the "
                     "same work on the host.\n\nExample:\n  argand bench parallel --json\n"
                     "  argand bench --paper fd09 --part table1 --scene assets/ring.glb");
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        if (!options->paper.empty()) {
+            check_paper_options(*command, options->paper);
+        }
+        options->kdgs10.runs = options->fd09.runs;
+        run(*options);
+    });
 }
 
 } // namespace argand

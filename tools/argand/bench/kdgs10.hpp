@@ -10,7 +10,7 @@ namespace argand {
 struct Kdgs10Settings {
     std::uint64_t most_queries = 1'000'000;
     std::uint64_t most_photons = 10'000'000;
-    int runs = 3;
+    int runs = 7;
 };
 
 /// Time to answer queries together, against that of a tree over the photons, for loads from 10^3
