@@ -62,6 +62,15 @@ struct Waiting {
     std::uint32_t place = 0; ///< of its references among those that wait
 };
 
+/// Copies `count` elements of `bytes` bytes between two buffers.
+void copy_elements(Device& device, const Buffer& from, std::uint64_t first, const Buffer& to,
+                   std::uint64_t place, std::uint64_t count, std::uint64_t bytes) {
+    if (count > 0) {
+        device.copy(BufferView(from, first * bytes, count * bytes),
+                    BufferView(to, place * bytes, count * bytes));
+    }
+}
+
 class Search {
 public:
     Search(Device& device, const PhotonMap& map, const PhotonQueries& queries, double reach,
@@ -71,6 +80,7 @@ public:
     void run();
 
 private:
+    void make_room(std::uint64_t references, std::uint32_t kept);
     void search_among(std::uint32_t first, std::uint32_t end);
     void take_levels(Part part);
     std::uint32_t divide_queries(Part& part);
@@ -97,7 +107,9 @@ private:
     std::uint32_t chunk_;
     std::uint32_t query_count_;
     std::uint32_t photon_count_;
-    std::uint32_t most_references_ = 0; ///< of a level
+    std::uint64_t most_nodes_ = 0;      ///< of a level
+    std::uint32_t most_references_ = 0; ///< of a level, for which there is room now
+    std::uint32_t limit_ = 0;           ///< of most_references_
     /// Photons taken together. The two parts of a single node have room, even if each photon goes
     /// to both.
     std::uint32_t batch_ = 0;
@@ -136,50 +148,61 @@ Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& querie
              "at least",
              settings.memory, least_frontier_memory);
     }
-    const std::uint64_t wanted =
-        std::max<std::uint64_t>(4 * std::uint64_t(photon_count_), least_frontier_references);
-    most_references_ = static_cast<std::uint32_t>(
-        std::min({settings.memory / bytes_a_frontier_reference, wanted,
-                  device.info().limits.storage_range / sizeof(glm::uvec4)}));
+    limit_ = static_cast<std::uint32_t>(
+        std::min(settings.memory / bytes_a_frontier_reference,
+                 device.info().limits.storage_range / sizeof(glm::uvec4)));
+    batch_ = limit_ / 2;
     const std::uint64_t queries_room = std::max<std::uint64_t>(query_count_, 1);
     // Nodes that are partitioned have more than query_leaf queries.
-    const std::uint64_t nodes =
+    most_nodes_ =
         std::min(most_frontier_children * queries_room / (settings.query_leaf + 1), queries_room) +
         most_frontier_children;
-    const std::uint64_t chunks = most_references_ / chunk_ + nodes;
-    batch_ = most_references_ / 2;
     const auto allocate = [&](std::uint64_t count, std::uint64_t bytes) {
         return device.allocate("simultaneous search", count * bytes);
     };
     for (Nodes* some : {&now_, &parts_, &other_parts_}) {
-        *some = {.ranges = allocate(nodes, sizeof(SegmentRange)),
-                 .boxes = allocate(nodes, sizeof(BoxRecord)),
-                 .nodes = allocate(nodes, sizeof(FrontierNode)),
-                 .ancestors = allocate(nodes, 4)};
+        *some = {.ranges = allocate(most_nodes_, sizeof(SegmentRange)),
+                 .boxes = allocate(most_nodes_, sizeof(BoxRecord)),
+                 .nodes = allocate(most_nodes_, sizeof(FrontierNode)),
+                 .ancestors = allocate(most_nodes_, 4)};
     }
     for (Places& places : places_) {
         places = {.places = allocate(queries_room, sizeof(glm::uvec4)),
                   .segments = allocate(queries_room, 4)};
     }
-    references_ = allocate(most_references_, sizeof(glm::uvec4));
-    next_references_ = allocate(most_references_, sizeof(glm::uvec4));
-    copies_ = allocate(nodes, 4);
-    first_copies_ = allocate(nodes, 4);
-    chunks_ = allocate(nodes, 4);
-    first_chunks_ = allocate(nodes, 4);
-    families_ = allocate(nodes, 8);
-    sources_ = allocate(nodes, 4);
-    query_lefts_ = allocate(nodes, 4);
-    chunk_sources_ = allocate(chunks, 4);
-    counts_ = allocate(most_frontier_children * chunks, 4);
-    sums_ = allocate(most_frontier_children * chunks, 4);
+    copies_ = allocate(most_nodes_, 4);
+    first_copies_ = allocate(most_nodes_, 4);
+    chunks_ = allocate(most_nodes_, 4);
+    first_chunks_ = allocate(most_nodes_, 4);
+    families_ = allocate(most_nodes_, 8);
+    sources_ = allocate(most_nodes_, 4);
+    query_lefts_ = allocate(most_nodes_, 4);
     flags_ = allocate(queries_room, 4);
     flag_sums_ = allocate(queries_room, 4);
     to_ = allocate(queries_room, 4);
-    photon_flags_ = allocate(batch_, 4);
-    photon_sums_ = allocate(batch_, 4);
+    const std::uint64_t together = std::min(std::max(photon_count_, 1u), batch_);
+    photon_flags_ = allocate(together, 4);
+    photon_sums_ = allocate(together, 4);
     extents_ = allocate(of_footprints_ ? std::max(photon_count_, 1u) : 1, sizeof(glm::vec4));
     counters_ = allocate(frontier_counters, 4);
+    make_room(std::max<std::uint64_t>(4 * together, least_frontier_references), 0);
+}
+
+/// Makes room for about so many references on a level, and keeps the first `kept`.
+void Search::make_room(std::uint64_t references, std::uint32_t kept) {
+    most_references_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(references, limit_));
+    const std::uint64_t chunks = most_references_ / chunk_ + most_nodes_;
+    const auto allocate = [&](std::uint64_t count, std::uint64_t bytes) {
+        return device_.allocate("simultaneous search", count * bytes);
+    };
+    const Buffer before = references_;
+    references_ = allocate(most_references_, sizeof(glm::uvec4));
+    copy_elements(device_, before, 0, references_, 0, kept, sizeof(glm::uvec4));
+    next_references_ = allocate(most_references_, sizeof(glm::uvec4));
+    chunk_sources_ = allocate(chunks, 4);
+    counts_ = allocate(most_frontier_children * chunks, 4);
+    sums_ = allocate(most_frontier_children * chunks, 4);
+    waiting_references_ = Buffer();
 }
 
 FrontierParams Search::params(std::uint32_t first, std::uint32_t end) const {
@@ -277,7 +300,12 @@ void Search::take_levels(Part part) {
         const std::uint32_t children = divide_queries(next);
         divide_photons(part, children);
         const auto counters = read_counters();
-        if (counters[frontier_references] > most_references_) {
+        const std::uint32_t references = counters[frontier_references];
+        if (references > most_references_ && waiting_.empty() && most_references_ < limit_) {
+            make_room(2 * std::uint64_t(references), part.end_photon);
+            continue;
+        }
+        if (references > most_references_) {
             part = split(part, children);
             continue;
         }
@@ -302,7 +330,7 @@ void Search::take_levels(Part part) {
                 .end_node = children,
                 .first_query = part.first_query,
                 .end_query = part.end_query,
-                .end_photon = counters[frontier_references],
+                .end_photon = references,
                 .active = counters[frontier_parents],
                 .chunks = counters[frontier_chunks]};
         add_leaves(part, ~counters[frontier_most]);
@@ -462,15 +490,6 @@ Part Search::split(const Part& part, std::uint32_t children) {
     taken.chunks -= rest.chunks;
     wait_or_finish(rest);
     return taken;
-}
-
-/// Copies `count` elements of `bytes` bytes between two buffers.
-void copy_elements(Device& device, const Buffer& from, std::uint64_t first, const Buffer& to,
-                   std::uint64_t place, std::uint64_t count, std::uint64_t bytes) {
-    if (count > 0) {
-        device.copy(BufferView(from, first * bytes, count * bytes),
-                    BufferView(to, place * bytes, count * bytes));
-    }
 }
 
 /// Copies `count` nodes of a level.
