@@ -64,15 +64,6 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box, const 
     set_light_choices(device, result, shares, shares);
 }
 
-SampledAreas sample_areas(Device& device, const Scene& scene, const DeviceScene& on_device,
-                          const SampledPart& part) {
-    const AreaTable table = make_area_table(on_device.placed(scene), *on_device.photon_areas, part);
-    return {.sums = upload(device, "area sums", table.sums),
-            .pieces = static_cast<std::uint32_t>(table.sums.size()),
-            .area = table.area,
-            .part = part};
-}
-
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,
                        const std::vector<double>& for_photons) {
     const LightTable& table = scene.light_table;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -183,18 +182,17 @@ void World::add_areas(const Scene& scene, DeviceScene& on_device) {
     }
     const float follow_roughness = on_device.plan.request.follow_roughness;
     if (!areas_ || areas_->follow_roughness != follow_roughness) {
-        auto by_triangle = std::make_shared<const std::vector<double>>(
-            areas_for_photons(on_device.placed(scene), follow_roughness));
-        on_device.photon_areas = by_triangle;
-        SampledAreas sampled = sample_areas(device_, scene, on_device, {});
-        areas_ = {follow_roughness, std::move(by_triangle), std::move(sampled)};
+        PhotonSurfaces surfaces = find_photon_surfaces(device_, scene, positions_, triangles_,
+                                                       box(scene), follow_roughness);
+        SampledAreas sampled = sample_areas(device_, surfaces, {});
+        areas_ = {follow_roughness, std::move(surfaces), std::move(sampled)};
     }
-    on_device.photon_areas = areas_->by_triangle;
+    on_device.photon_surfaces = areas_->surfaces;
     on_device.areas = areas_->sampled;
     on_device.surface_area = areas_->sampled.area;
 }
 
-DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
+DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     const StageScope stage(device_, "upload scene");
     if (plan.needs(Feature::smooth_normals) && !normals_) {
         normals_ = upload(device_, "normals", padded(scene.normals));
@@ -203,13 +201,19 @@ DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
         }
     }
     DeviceScene result;
-    result.moved_positions = meshes_.on_host(scene, plan.needs(Feature::photon_map));
+    result.moved_positions =
+        meshes_.on_host(scene, plan.needs(Feature::photon_map) && plan.needs(Feature::caustics));
     prepare_scene(device_, scene, box(scene), plan, result);
     result.positions = positions_;
     result.normals = plan.needs(Feature::smooth_normals) ? normals_ : unneeded(device_);
     result.triangles = triangles_;
     result.materials = materials_;
     result.bvh = bvh_;
+    return result;
+}
+
+DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
+    DeviceScene result = without_areas(scene, plan);
     add_areas(scene, result);
     return result;
 }

@@ -47,8 +47,8 @@ public:
     WorldUpdate update(const Scene& scene);
 
     /// The scene as a render with this plan needs it. It shares this world's buffers: update()
-    /// changes what it holds. Records only, unless meshes move: it may have to fetch their boxes,
-    /// and the vertices of those that shine or on whose surfaces photons may lie.
+    /// changes what it holds. Waits for the device where it has to find areas for a photon map, or
+    /// to fetch the boxes of meshes that move, and the vertices of those that shine.
     DeviceScene on_device(const Scene& scene, const Plan& plan);
 
     /// How many updates have changed anything.
@@ -58,6 +58,7 @@ public:
 
 private:
     void build_tree(const Scene& scene);
+    DeviceScene without_areas(const Scene& scene, const Plan& plan);
     void add_areas(const Scene& scene, DeviceScene& on_device);
     bool follow_meshes(const Scene& scene, WorldUpdate& update);
     void upload_turned(const Scene& scene, WorldUpdate& update);
@@ -79,13 +80,13 @@ private:
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {
         float follow_roughness = 0;
-        std::shared_ptr<const std::vector<double>> by_triangle;
+        PhotonSurfaces surfaces;
         SampledAreas sampled;
     };
     std::optional<PhotonAreas> areas_; ///< empty until a plan needs them, and after a change
 };
 
-/// A scene on a device for one render. Records only.
+/// A scene on a device for one render.
 inline DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     return World(device, scene).on_device(scene, plan);
 }
