@@ -7,6 +7,7 @@
 #include "shared/camera.h"
 #include "shared/scene_records.h"
 #include "world/area_table.hpp"
+#include "world/caster_table.hpp"
 #include "world/light_table.hpp"
 
 #include <memory>
@@ -28,10 +29,11 @@ struct DeviceScene {
     LightTable light_table; ///< the host's copy of `lights`, and their emitters
     /// Probabilities with which each emitter is chosen for shadow rays, and for photons.
     std::vector<double> ray_shares, photon_shares;
-    PhotonSurfaces photon_surfaces; ///< empty without a photon map
-    double surface_area = 0;        ///< their area; 0 without a photon map
+    PhotonSurfaces photon_surfaces;             ///< empty without a photon map
+    double surface_area = 0;                    ///< their area; 0 without a photon map
+    std::shared_ptr<const CasterTable> casters; ///< null without followed paths and a photon map
     /// Of all vertices on the host, if meshes move: those of the device, of moving meshes that
-    /// shine or cast caustics. Others are of an earlier moment.
+    /// shine. Others are of an earlier moment.
     std::shared_ptr<const std::vector<glm::vec3>> moved_positions;
     SampledAreas areas;
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element

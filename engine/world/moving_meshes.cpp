@@ -142,8 +142,7 @@ void MovingMeshes::fetch(std::size_t mesh) {
     is_on_host_[mesh] = true;
 }
 
-std::shared_ptr<const std::vector<glm::vec3>> MovingMeshes::on_host(const Scene& scene,
-                                                                    bool of_all) {
+std::shared_ptr<const std::vector<glm::vec3>> MovingMeshes::on_host(const Scene& scene) {
     if (empty()) {
         return nullptr;
     }
@@ -155,7 +154,7 @@ std::shared_ptr<const std::vector<glm::vec3>> MovingMeshes::on_host(const Scene&
             return emits(scene.materials[material]);
         };
         if (!is_on_host_[mesh] &&
-            (of_all || std::any_of(materials_[mesh].begin(), materials_[mesh].end(), shines))) {
+            std::any_of(materials_[mesh].begin(), materials_[mesh].end(), shines)) {
             fetch(mesh);
         }
     }

@@ -201,8 +201,7 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
         }
     }
     DeviceScene result;
-    result.moved_positions =
-        meshes_.on_host(scene, plan.needs(Feature::photon_map) && plan.needs(Feature::caustics));
+    result.moved_positions = meshes_.on_host(scene);
     prepare_scene(device_, scene, box(scene), plan, result);
     result.positions = positions_;
     result.normals = plan.needs(Feature::smooth_normals) ? normals_ : unneeded(device_);
@@ -212,8 +211,22 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     return result;
 }
 
+void World::add_casters(const Scene& scene, DeviceScene& on_device) {
+    const Plan& plan = on_device.plan;
+    if (!plan.needs(Feature::photon_map) || !plan.needs(Feature::followed_paths)) {
+        return;
+    }
+    std::vector<bool> followed = are_followed(scene, plan.request.follow_roughness);
+    if (!casters_ || casters_followed_ != followed) {
+        casters_ = std::make_shared<const CasterTable>(make_caster_table(device_, scene, followed));
+        casters_followed_ = std::move(followed);
+    }
+    on_device.casters = casters_;
+}
+
 DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
     DeviceScene result = without_areas(scene, plan);
+    add_casters(scene, result);
     add_areas(scene, result);
     return result;
 }

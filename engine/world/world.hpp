@@ -59,6 +59,7 @@ public:
 private:
     void build_tree(const Scene& scene);
     DeviceScene without_areas(const Scene& scene, const Plan& plan);
+    void add_casters(const Scene& scene, DeviceScene& on_device);
     void add_areas(const Scene& scene, DeviceScene& on_device);
     bool follow_meshes(const Scene& scene, WorldUpdate& update);
     void upload_turned(const Scene& scene, WorldUpdate& update);
@@ -84,6 +85,8 @@ private:
         SampledAreas sampled;
     };
     std::optional<PhotonAreas> areas_; ///< empty until a plan needs them, and after a change
+    std::shared_ptr<const CasterTable> casters_; ///< null until a plan needs them
+    std::vector<bool> casters_followed_;         ///< the materials among which they were found
 };
 
 /// A scene on a device for one render.

@@ -286,6 +286,13 @@ TEST_F(Transferred, FramesBringNothingForATriangle) {
     EXPECT_EQ(few.uploaded, many.uploaded);
 }
 
+TEST_F(Transferred, FramesFetchNoCasterOfCaustics) {
+    Material glass;
+    glass.metallic = glass.roughness = 0;
+    glass.transmission = glass.thickness = 1;
+    EXPECT_EQ(of(moving_scene_of(glass, 1)).vertices, 0u);
+}
+
 // Their emission is chosen by the table of lights, which the host makes.
 TEST_F(Transferred, FramesFetchMeshesThatShine) {
     Material lamp;
