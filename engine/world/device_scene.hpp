@@ -32,8 +32,8 @@ struct DeviceScene {
     PhotonSurfaces photon_surfaces;             ///< empty without a photon map
     double surface_area = 0;                    ///< their area; 0 without a photon map
     std::shared_ptr<const CasterTable> casters; ///< null without followed paths and a photon map
-    /// Of all vertices on the host, if meshes move: those of the device, of moving meshes that
-    /// shine. Others are of an earlier moment.
+    /// Of all vertices on the host, if meshes that move shine: those of the device, of such meshes.
+    /// Other moving ones are of an earlier moment.
     std::shared_ptr<const std::vector<glm::vec3>> moved_positions;
     SampledAreas areas;
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
@@ -52,9 +52,10 @@ struct DeviceScene {
 Buffer unneeded(Device& device);
 
 /// Adds the parts of a scene that belong to one render: its lights and how they are chosen. Needs
-/// moved_positions. World::on_device() adds the others. Records only.
-void prepare_scene(Device& device, const Scene& scene, const Bounds& box, const Plan& plan,
-                   DeviceScene& result);
+/// moved_positions and the plan. shining: see shining_triangles(). World::on_device() adds the
+/// others. Records only.
+void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
+                   const std::vector<std::uint32_t>& shining, DeviceScene& result);
 
 /// Sets the probabilities with which each emitter is chosen for shadow rays and for photons, and
 /// uploads `record` with them. Records only.

@@ -37,8 +37,9 @@ public:
     /// were placed since the last call. Throws Error if a position is not finite.
     const std::vector<Bounds>& boxes(const Scene& scene);
 
-    /// Positions on the host of all the scene's vertices. Of moving meshes only those that shine
-    /// are up to date. Waits for the device if it has to fetch any.
+    /// Positions on the host of all the scene's vertices; null if no mesh that moves has shone yet.
+    /// Of moving meshes only those that shine are up to date. Waits for the device if it has to
+    /// fetch any.
     std::shared_ptr<const std::vector<glm::vec3>> on_host(const Scene& scene);
 
 private:

@@ -73,7 +73,8 @@ std::uint64_t upload_part(Device& device, const Buffer& to, std::size_t first,
 } // namespace
 
 World::World(Device& device, const Scene& scene)
-    : device_(device), meshes_(device, scene), box_at_rest_(box_at_rest(scene)) {
+    : device_(device), surfaces_(surface_use(scene)), meshes_(device, scene),
+      box_at_rest_(box_at_rest(scene)) {
     const StageScope stage(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
@@ -134,6 +135,20 @@ Bounds World::box(const Scene& scene) {
         }
     }
     return box;
+}
+
+/// The triangles that emit light: found anew only where other materials do.
+const std::vector<std::uint32_t>& World::shining(const Scene& scene) {
+    std::vector<bool> emitting;
+    emitting.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        emitting.push_back(emits(material));
+    }
+    if (emitting != emitting_) {
+        shining_ = shining_triangles(scene);
+        emitting_ = std::move(emitting);
+    }
+    return shining_;
 }
 
 void World::upload_changed_materials(const Scene& scene, WorldUpdate& update) {
@@ -201,8 +216,9 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
         }
     }
     DeviceScene result;
+    result.plan = plan;
     result.moved_positions = meshes_.on_host(scene);
-    prepare_scene(device_, scene, box(scene), plan, result);
+    prepare_scene(device_, scene, box(scene), shining(scene), result);
     result.positions = positions_;
     result.normals = plan.needs(Feature::smooth_normals) ? normals_ : unneeded(device_);
     result.triangles = triangles_;

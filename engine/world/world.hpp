@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plan/surface_use.hpp"
 #include "shared/material_record.h"
 #include "world/device_scene.hpp"
 #include "world/moving_meshes.hpp"
@@ -55,6 +56,7 @@ public:
     std::uint64_t revision() const { return revision_; }
 
     Device& device() const { return device_; }
+    const SurfaceUse& surfaces() const { return surfaces_; }
 
 private:
     void build_tree(const Scene& scene);
@@ -64,9 +66,11 @@ private:
     bool follow_meshes(const Scene& scene, WorldUpdate& update);
     void upload_turned(const Scene& scene, WorldUpdate& update);
     Bounds box(const Scene& scene);
+    const std::vector<std::uint32_t>& shining(const Scene& scene);
     void upload_changed_materials(const Scene& scene, WorldUpdate& update);
 
     Device& device_;
+    SurfaceUse surfaces_;
     Buffer positions_, triangles_, materials_;
     Buffer normals_; ///< empty until a plan needs them
     TriangleBvh bvh_;
@@ -77,6 +81,9 @@ private:
     Bounds box_at_rest_;         ///< of what does not move
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
     std::vector<MaterialRecord> uploaded_materials_;
+
+    std::vector<std::uint32_t> shining_; ///< triangles that emit light
+    std::vector<bool> emitting_;         ///< the materials among which they were found
 
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {
