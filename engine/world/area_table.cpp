@@ -26,9 +26,9 @@ namespace {
 
 constexpr std::uint64_t word = sizeof(std::uint32_t);
 constexpr std::uint32_t bits_of_code = 30;
-// Pieces are not divided into more, unless the scene has so many triangles: a long needle that
-// crosses a small part would have millions.
-constexpr std::uint32_t most_pieces = 1u << 22;
+// Pieces are not divided into more, unless the scene has more triangles: long needles that cross a
+// small part would have millions. A map has room for as many samples.
+constexpr std::uint32_t most_pieces = 1u << 20;
 
 /// Pieces of triangles: uvec2 of triangle and number (shared/triangle_piece.h).
 struct Pieces {

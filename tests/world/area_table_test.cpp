@@ -283,6 +283,21 @@ TEST_F(AreaTable, NeedlesMayHaveManyPieces) {
     EXPECT_LE(table.area, 0.025);
 }
 
+TEST_F(AreaTable, NeedlesAreNotDividedIntoMillions) {
+    Scene scene;
+    const std::uint32_t wall = add_material(scene, lambertian(glm::vec3(0.5f)));
+    constexpr int needles = 24;
+    for (int i = 0; i < needles; ++i) {
+        add_quad(scene, {-500, 0, 0.01f * static_cast<float>(i)}, {1000, 0, 0}, {0, 0, 0.01f},
+                 wall);
+    }
+    const Table table = table_of(scene, {{0.3f, 0, 0}, 1});
+    EXPECT_GT(table.sums.size(), 1u << 18u);
+    EXPECT_LE(table.sums.size(), 1u << 20u);
+    EXPECT_GE(table.area, needles * 0.019);
+    EXPECT_LE(table.area, needles * 0.03);
+}
+
 TEST_F(AreaTable, NothingWithinReach) {
     const Table table = table_of(ground(), {{0, 50, 0}, 5});
     EXPECT_TRUE(table.sums.empty());
