@@ -51,6 +51,11 @@ void copy_word(Device& device, const Buffer& from, std::uint64_t index, const Bu
     device.copy({from, index * word, word}, {to, to_index * word, word});
 }
 
+/// Name of the scratch memory for pieces that a list does not use.
+const char* other_than(const Buffer& list) {
+    return list.name() == "area pieces" ? "area pieces, divided" : "area pieces";
+}
+
 /// Divides triangles until their pieces fit the sampled part, and leaves out those outside.
 Pieces pieces_within(Device& device, const PhotonSurfaces& surfaces, const SampledPart& part,
                      const Buffer& state) {
@@ -64,7 +69,7 @@ Pieces pieces_within(Device& device, const PhotonSurfaces& surfaces, const Sampl
     for (bool divides = true; divides && pieces.count > 0;) {
         params.count = pieces.count;
         const std::uint64_t ends = std::uint64_t(pieces.count) + 1;
-        const Buffer places = device.allocate("area pieces' places", ends * word);
+        const Buffer places = device.scratch("area pieces' places", ends * word);
         dispatch(device,
                  kernels::area_counts{.positions = surfaces.positions,
                                       .triangles = surfaces.triangles,
@@ -83,9 +88,9 @@ Pieces pieces_within(Device& device, const PhotonSurfaces& surfaces, const Sampl
             break;
         }
         const Pieces divided{
-            .list = device.allocate("area pieces",
-                                    std::max<std::uint64_t>(found[area_state_pieces], 1) *
-                                        sizeof(glm::uvec2)),
+            .list = device.scratch(other_than(pieces.list),
+                                   std::max<std::uint64_t>(found[area_state_pieces], 1) *
+                                       sizeof(glm::uvec2)),
             .count = found[area_state_pieces]};
         dispatch(
             device,
@@ -104,9 +109,9 @@ Buffer order_along_curve(Device& device, const PhotonSurfaces& surfaces, const P
                          const Buffer& state) {
     const glm::vec3& low = surfaces.box.low;
     const glm::vec3& high = surfaces.box.high;
-    const Buffer codes = device.allocate("area codes", pieces.count * word);
-    const Buffer order = device.allocate("area order", pieces.count * word);
-    const Buffer areas = device.allocate("areas of pieces", pieces.count * word);
+    const Buffer codes = device.scratch("area codes", pieces.count * word);
+    const Buffer order = device.scratch("area order", pieces.count * word);
+    const Buffer areas = device.scratch("areas of pieces", pieces.count * word);
     dispatch(device,
              kernels::area_codes{.positions = surfaces.positions,
                                  .triangles = surfaces.triangles,
@@ -135,8 +140,8 @@ SampledAreas summed(Device& device, const PhotonSurfaces& surfaces, const Pieces
                                .headroom_bits =
                                    static_cast<std::uint32_t>(std::bit_width(pieces.count))};
     const std::uint64_t ends = std::uint64_t(pieces.count) + 1;
-    const Buffer lows = device.allocate("area sums, low words", ends * word);
-    const Buffer highs = device.allocate("area sums, high words", ends * word);
+    const Buffer lows = device.scratch("area sums, low words", ends * word);
+    const Buffer highs = device.scratch("area sums, high words", ends * word);
     dispatch(device,
              kernels::area_units{.areas = surfaces.areas,
                                  .pieces = pieces.list,
@@ -186,8 +191,8 @@ PhotonSurfaces find_photon_surfaces(Device& device, const Scene& scene, const Bu
     }
     const Buffer stores =
         upload(device, "materials that store", which_store(scene, follow_roughness));
-    const Buffer hashes = device.allocate("triangle hashes", bound * word);
-    const Buffer order = device.allocate("triangle order", bound * word);
+    const Buffer hashes = device.scratch("area codes", bound * word);
+    const Buffer order = device.scratch("area order", bound * word);
     dispatch(device,
              kernels::area_triangles{.positions = positions,
                                      .triangles = triangles,
@@ -211,7 +216,7 @@ PhotonSurfaces find_photon_surfaces(Device& device, const Scene& scene, const Bu
 
 SampledAreas sample_areas(Device& device, const PhotonSurfaces& surfaces, const SampledPart& part) {
     const StageScope stage(device, "find areas");
-    const Buffer state = device.allocate("area state", area_state_count * word);
+    const Buffer state = device.scratch("area state", area_state_count * word);
     const Pieces pieces = pieces_within(device, surfaces, part, state);
     if (pieces.count == 0) {
         return {.sums = device.allocate("area sums", sizeof(AreaSumRecord)), .part = part};
