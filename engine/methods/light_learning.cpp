@@ -132,7 +132,7 @@ void keep_learnt(RenderContext& context, const DeviceScene& before) {
     const std::vector<double> for_rays = choices.ray_shares, for_photons = choices.photon_shares;
     set_light_choices(context.device, scene, for_rays, for_photons);
     if (scene.plan.needs(Feature::photon_map) && std::isfinite(before.areas.part.reach)) {
-        scene.areas = sample_areas(context.device, context.scene, scene, before.areas.part);
+        scene.areas = sample_areas(context.device, scene.photon_surfaces, before.areas.part);
     }
 }
 

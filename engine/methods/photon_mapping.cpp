@@ -309,7 +309,7 @@ void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, 
         distances.push_back(glm::distance(glm::vec3(query), eye));
     }
     c_.on_device.areas =
-        sample_areas(c_.device, c_.scene, scene, {eye, reach * median(std::move(distances))});
+        sample_areas(c_.device, scene.photon_surfaces, {eye, reach * median(std::move(distances))});
 }
 
 /// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a

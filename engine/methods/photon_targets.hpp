@@ -4,13 +4,8 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 namespace argand {
-
-/// Bounding spheres (center, radius) of the scene's connected surfaces whose light is followed:
-/// glass, mirrors, and what is nearly one.
-std::vector<glm::vec4> caustic_casters(const PlacedScene& placed, float follow_roughness);
 
 /// Aims some of the photons from lights inside the scene at small casters of caustics near what is
 /// in view, which few photons would hit otherwise (the projection maps of Jensen 1996 have the same

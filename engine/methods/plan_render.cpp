@@ -21,6 +21,11 @@ Plan plan_render(const Scene& scene, const RenderSettings& settings, MethodTable
     return make_plan(scene, request_of(settings, methods));
 }
 
+Plan plan_render(const Scene& scene, const SurfaceUse& use, const RenderSettings& settings,
+                 MethodTable methods) {
+    return make_plan(scene, use, request_of(settings, methods));
+}
+
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
                              MethodTable methods) {
     const MethodInfo* first = methods.begin();

@@ -9,6 +9,9 @@ namespace argand {
 /// What the scene and the settings require. Throws UsageError on an unknown method.
 Plan plan_render(const Scene& scene, const RenderSettings& settings,
                  MethodTable methods = builtin_methods());
+/// The same, for a scene whose triangles use its materials like this.
+Plan plan_render(const Scene& scene, const SurfaceUse& use, const RenderSettings& settings,
+                 MethodTable methods);
 
 /// The method for a scene if the user names none: the table's first, `footprints`, where there may
 /// be caustics at any time, else the one that autotuning tries first, `photons`

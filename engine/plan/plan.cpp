@@ -87,52 +87,30 @@ void for_each_key(const MovingMaterial& moving, const Material& now, const Add& 
     }
 }
 
-/// For each vertex whether it has a normal: those of moving meshes, at some moment.
-std::vector<bool> vertices_with_normals(const Scene& scene) {
-    const auto is_normal = [](const glm::vec3& normal) { return normal != glm::vec3(0); };
-    std::vector<bool> result(scene.normals.size());
-    std::transform(scene.normals.begin(), scene.normals.end(), result.begin(), is_normal);
-    for (const MovingMesh& mesh : scene.motion.meshes) {
-        for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
-            result[mesh.first_vertex + v] =
-                is_normal(mesh.normals[v]) ||
-                std::any_of(mesh.targets.begin(), mesh.targets.end(), [&](const MorphTarget& t) {
-                    return !t.normals.empty() && is_normal(t.normals[v]);
-                });
+/// Adds the features that surfaces require. Returns whether any has estimated lobes.
+bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceUse& use,
+                  const PlanRequest& request) {
+    bool estimated = false;
+    for (const std::uint32_t index : use.materials) {
+        const Material& material = scene.materials[index];
+        const std::string by = named("material", material.name, index);
+        const auto add = [&](const Material& at_a_time) {
+            const bool has_estimated =
+                add_material(requirements, at_a_time, by, request.follow_roughness);
+            estimated = estimated || has_estimated;
+        };
+        const MovingMaterial* moving =
+            request.at_any_time ? moving_material(scene.motion, index) : nullptr;
+        if (moving) {
+            for_each_key(*moving, material, add);
+        } else {
+            add(material);
         }
     }
-    return result;
-}
-
-/// Adds the features that surfaces require. Returns whether any has estimated lobes.
-bool add_surfaces(Requirements& requirements, const Scene& scene, const PlanRequest& request) {
-    std::vector<bool> seen(scene.materials.size(), false);
-    const std::vector<bool> has_normal = vertices_with_normals(scene);
-    bool estimated = false;
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const std::uint32_t index = scene.triangle_material[i];
-        const Material& material = scene.materials[index];
-        if (!seen[index]) {
-            seen[index] = true;
-            const std::string by = named("material", material.name, index);
-            const auto add = [&](const Material& at_a_time) {
-                const bool has_estimated =
-                    add_material(requirements, at_a_time, by, request.follow_roughness);
-                estimated = estimated || has_estimated;
-            };
-            const MovingMaterial* moving =
-                request.at_any_time ? moving_material(scene.motion, index) : nullptr;
-            if (moving) {
-                for_each_key(*moving, material, add);
-            } else {
-                add(material);
-            }
-        }
-        const glm::uvec3& corners = scene.triangles[i];
-        if (has_normal[corners.x] || has_normal[corners.y] || has_normal[corners.z]) {
-            requirements.add(Feature::smooth_normals,
-                             "surface of " + named("material", material.name, index));
-        }
+    if (use.smoothed) {
+        requirements.add(Feature::smooth_normals,
+                         "surface of " +
+                             named("material", scene.materials[*use.smoothed].name, *use.smoothed));
     }
     return estimated;
 }
@@ -149,7 +127,7 @@ Feature feature_of(LightKind kind) {
     return Feature::directional_light;
 }
 
-void add_lights(Requirements& requirements, const Scene& scene) {
+void add_lights(Requirements& requirements, const Scene& scene, const SurfaceUse& use) {
     std::size_t lights = scene.lights.size();
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
@@ -158,9 +136,9 @@ void add_lights(Requirements& requirements, const Scene& scene) {
     const bool sky = scene.sky && glm::any(glm::greaterThan(*scene.sky, glm::vec3(0)));
     requirements.add(Feature::sky, "the sky", sky);
     lights += sky ? 1 : 0;
-    lights += static_cast<std::size_t>(
-        std::count_if(scene.triangle_material.begin(), scene.triangle_material.end(),
-                      [&](std::uint32_t material) { return emits(scene.materials[material]); }));
+    for (const std::uint32_t material : use.materials) {
+        lights += emits(scene.materials[material]) ? use.triangles[material] : 0;
+    }
     requirements.add(Feature::several_lights, fmt::format("{} lights", lights), lights > 1);
 }
 
@@ -203,9 +181,13 @@ std::uint32_t Plan::material_features() const { return bits_of(*this, material_b
 std::uint32_t Plan::light_kinds() const { return bits_of(*this, light_bits); }
 
 Plan make_plan(const Scene& scene, const PlanRequest& request) {
+    return make_plan(scene, surface_use(scene), request);
+}
+
+Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& request) {
     Requirements found;
-    const bool estimated = add_surfaces(found, scene, request);
-    add_lights(found, scene);
+    const bool estimated = add_surfaces(found, scene, use, request);
+    add_lights(found, scene, use);
     const std::string light = first_light(found);
     const auto has = [&](Feature feature) { return !found.by(feature).empty(); };
     // Delta lobes cannot use light samples.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plan/surface_use.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>
@@ -69,6 +70,8 @@ struct Plan {
 /// The features required by the scene's triangles, their materials, and its lights; unused
 /// materials do not count. Leaving out all other features changes no bit of any result.
 Plan make_plan(const Scene& scene, const PlanRequest& request);
+/// The same, for a scene whose triangles use its materials like this.
+Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& request);
 
 /// Texts about a feature, for the user.
 struct FeatureText {

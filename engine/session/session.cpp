@@ -23,7 +23,8 @@ void Session::prepare(std::uint32_t seed) {
     budget_ = Budget(settings_.budget);
     streams_ = Streams(seed);
     statistics_ = {};
-    DeviceScene on_device = world_.on_device(scene_, plan_render(scene_, settings_, methods_));
+    DeviceScene on_device =
+        world_.on_device(scene_, plan_render(scene_, world_.surfaces(), settings_, methods_));
     if (context_ && context_->on_device.plan.required == on_device.plan.required) {
         context_->on_device = std::move(on_device);
         set_camera(world_.device(), context_->eye, camera(context_->on_device));
@@ -60,7 +61,7 @@ void Session::follow() {
     Device& device = world_.device();
     const DeviceScene before = context_->on_device;
     // What an earlier moment required, this one gets as well: the memory stays of one kind.
-    Plan plan = plan_render(scene_, settings_, methods_);
+    Plan plan = plan_render(scene_, world_.surfaces(), settings_, methods_);
     plan.required.insert(before.plan.required.begin(), before.plan.required.end());
     const bool requires_more = plan.required.size() != before.plan.required.size();
     context_->on_device = world_.on_device(scene_, plan);

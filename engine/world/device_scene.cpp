@@ -48,29 +48,19 @@ kernels::SceneConstants DeviceScene::constants() const {
 
 Buffer unneeded(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }
 
-void prepare_scene(Device& device, const Scene& scene, const Bounds& box, const Plan& plan,
-                   DeviceScene& result) {
+void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
+                   const std::vector<std::uint32_t>& shining, DeviceScene& result) {
     const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
     // A little more than half the diagonal, so that the sphere contains the box in spite of
     // rounding.
     const float radius = 0.50001f * glm::length(box.high - box.low);
 
-    result.plan = plan;
-    result.light_table = make_light_table(result.placed(scene), radius);
+    result.light_table = make_light_table(result.placed(scene), shining, radius);
     result.record = scene_record(scene, result.light_table, center, radius);
-    result.record.follow_roughness = plan.request.follow_roughness;
+    result.record.follow_roughness = result.plan.request.follow_roughness;
     result.lights = upload(device, "lights", result.light_table.lights);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);
-}
-
-SampledAreas sample_areas(Device& device, const Scene& scene, const DeviceScene& on_device,
-                          const SampledPart& part) {
-    const AreaTable table = make_area_table(on_device.placed(scene), *on_device.photon_areas, part);
-    return {.sums = upload(device, "area sums", table.sums),
-            .pieces = static_cast<std::uint32_t>(table.sums.size()),
-            .area = table.area,
-            .part = part};
 }
 
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,

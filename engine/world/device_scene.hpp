@@ -7,20 +7,13 @@
 #include "shared/camera.h"
 #include "shared/scene_records.h"
 #include "world/area_table.hpp"
+#include "world/caster_table.hpp"
 #include "world/light_table.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace argand {
-
-/// Where area samples lie.
-struct SampledAreas {
-    Buffer sums;              ///< AreaSumRecord per piece of a surface on which photons may lie
-    std::uint32_t pieces = 0; ///< in `sums`
-    double area = 0;          ///< of these pieces
-    SampledPart part;         ///< in which they lie; by default everywhere
-};
 
 /// A scene on a device, in the layout that shading kernels read (shaders/comp/scene_bindings.glsl).
 struct DeviceScene {
@@ -36,11 +29,11 @@ struct DeviceScene {
     LightTable light_table; ///< the host's copy of `lights`, and their emitters
     /// Probabilities with which each emitter is chosen for shadow rays, and for photons.
     std::vector<double> ray_shares, photon_shares;
-    /// Area of each triangle on which photons may lie; null without a photon map.
-    std::shared_ptr<const std::vector<double>> photon_areas;
-    double surface_area = 0; ///< their sum; 0 without a photon map
-    /// Of all vertices on the host, if meshes move: those of the device, of moving meshes that
-    /// shine or on whose surfaces photons may lie. Others are of an earlier moment.
+    PhotonSurfaces photon_surfaces;             ///< empty without a photon map
+    double surface_area = 0;                    ///< their area; 0 without a photon map
+    std::shared_ptr<const CasterTable> casters; ///< null without followed paths and a photon map
+    /// Of all vertices on the host, if meshes that move shine: those of the device, of such meshes.
+    /// Other moving ones are of an earlier moment.
     std::shared_ptr<const std::vector<glm::vec3>> moved_positions;
     SampledAreas areas;
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
@@ -59,14 +52,10 @@ struct DeviceScene {
 Buffer unneeded(Device& device);
 
 /// Adds the parts of a scene that belong to one render: its lights and how they are chosen. Needs
-/// moved_positions. World::on_device() adds the others. Records only.
-void prepare_scene(Device& device, const Scene& scene, const Bounds& box, const Plan& plan,
-                   DeviceScene& result);
-
-/// Lets area samples lie in a part of the scene only: they can be as dense there as a small radius
-/// requires. Needs photon_areas and moved_positions. Records only.
-SampledAreas sample_areas(Device& device, const Scene& scene, const DeviceScene& on_device,
-                          const SampledPart& part);
+/// moved_positions and the plan. shining: see shining_triangles(). World::on_device() adds the
+/// others. Records only.
+void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
+                   const std::vector<std::uint32_t>& shining, DeviceScene& result);
 
 /// Sets the probabilities with which each emitter is chosen for shadow rays and for photons, and
 /// uploads `record` with them. Records only.

@@ -117,18 +117,27 @@ void add_light(LightTable& table, const LightRecord& light, float scene_radius) 
 
 } // namespace
 
-LightTable make_light_table(const PlacedScene& placed, float scene_radius) {
+std::vector<std::uint32_t> shining_triangles(const Scene& scene) {
+    std::vector<std::uint32_t> shining;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        if (emits(scene.materials[scene.triangle_material[i]])) {
+            shining.push_back(i);
+        }
+    }
+    return shining;
+}
+
+LightTable make_light_table(const PlacedScene& placed, const std::vector<std::uint32_t>& shining,
+                            float scene_radius) {
     const Scene& scene = placed.scene;
     LightTable table;
     for (const Light& light : scene.lights) {
         add_light(table, record_of(light), scene_radius);
     }
     table.first_triangle = static_cast<std::uint32_t>(table.lights.size());
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    for (const std::uint32_t i : shining) {
         const Material& material = scene.materials[scene.triangle_material[i]];
-        if (emits(material)) {
-            add_light(table, record_of(placed, i, material), scene_radius);
-        }
+        add_light(table, record_of(placed, i, material), scene_radius);
     }
     table.triangle_count = static_cast<std::uint32_t>(table.lights.size()) - table.first_triangle;
     if (scene.sky) {

@@ -21,8 +21,13 @@ struct LightTable {
     std::uint32_t first_triangle = 0, triangle_count = 0; ///< emissive triangles among the lights
 };
 
-/// scene_radius: of the bounding sphere, which determines the power of light from outside.
-LightTable make_light_table(const PlacedScene& placed, float scene_radius);
+/// The triangles of materials that emit light, by rising index.
+std::vector<std::uint32_t> shining_triangles(const Scene& scene);
+
+/// shining: see shining_triangles(). scene_radius: of the bounding sphere, which determines the
+/// power of light from outside.
+LightTable make_light_table(const PlacedScene& placed, const std::vector<std::uint32_t>& shining,
+                            float scene_radius);
 
 /// Probabilities with which each emitter is chosen if nothing is known about where its light
 /// arrives: half of them in proportion to power, and half the same for all emitters.

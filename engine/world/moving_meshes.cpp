@@ -142,22 +142,17 @@ void MovingMeshes::fetch(std::size_t mesh) {
     is_on_host_[mesh] = true;
 }
 
-std::shared_ptr<const std::vector<glm::vec3>> MovingMeshes::on_host(const Scene& scene,
-                                                                    bool of_all) {
-    if (empty()) {
-        return nullptr;
-    }
-    if (!on_host_) {
-        on_host_ = std::make_shared<std::vector<glm::vec3>>(scene.positions);
-    }
+std::shared_ptr<const std::vector<glm::vec3>> MovingMeshes::on_host(const Scene& scene) {
+    const auto shines = [&](std::uint32_t material) { return emits(scene.materials[material]); };
     for (std::size_t mesh = 0; mesh < tables_.meshes.size(); ++mesh) {
-        const auto shines = [&](std::uint32_t material) {
-            return emits(scene.materials[material]);
-        };
-        if (!is_on_host_[mesh] &&
-            (of_all || std::any_of(materials_[mesh].begin(), materials_[mesh].end(), shines))) {
-            fetch(mesh);
+        if (is_on_host_[mesh] ||
+            std::none_of(materials_[mesh].begin(), materials_[mesh].end(), shines)) {
+            continue;
         }
+        if (!on_host_) {
+            on_host_ = std::make_shared<std::vector<glm::vec3>>(scene.positions);
+        }
+        fetch(mesh);
     }
     return on_host_;
 }

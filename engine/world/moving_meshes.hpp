@@ -37,9 +37,10 @@ public:
     /// were placed since the last call. Throws Error if a position is not finite.
     const std::vector<Bounds>& boxes(const Scene& scene);
 
-    /// Positions on the host of all the scene's vertices. `of_all`: those of all meshes are up to
-    /// date; else only those of meshes that shine. Waits for the device if it has to fetch any.
-    std::shared_ptr<const std::vector<glm::vec3>> on_host(const Scene& scene, bool of_all);
+    /// Positions on the host of all the scene's vertices; null if no mesh that moves has shone yet.
+    /// Of moving meshes only those that shine are up to date. Waits for the device if it has to
+    /// fetch any.
+    std::shared_ptr<const std::vector<glm::vec3>> on_host(const Scene& scene);
 
 private:
     void fetch(std::size_t mesh);

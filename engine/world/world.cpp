@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -74,7 +73,8 @@ std::uint64_t upload_part(Device& device, const Buffer& to, std::size_t first,
 } // namespace
 
 World::World(Device& device, const Scene& scene)
-    : device_(device), meshes_(device, scene), box_at_rest_(box_at_rest(scene)) {
+    : device_(device), surfaces_(surface_use(scene)), meshes_(device, scene),
+      box_at_rest_(box_at_rest(scene)) {
     const StageScope stage(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
@@ -137,6 +137,20 @@ Bounds World::box(const Scene& scene) {
     return box;
 }
 
+/// The triangles that emit light: found anew only where other materials do.
+const std::vector<std::uint32_t>& World::shining(const Scene& scene) {
+    std::vector<bool> emitting;
+    emitting.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        emitting.push_back(emits(material));
+    }
+    if (emitting != emitting_) {
+        shining_ = shining_triangles(scene);
+        emitting_ = std::move(emitting);
+    }
+    return shining_;
+}
+
 void World::upload_changed_materials(const Scene& scene, WorldUpdate& update) {
     const std::vector<MaterialRecord> records = material_records(scene);
     for (std::size_t i = 0; i < records.size(); ++i) {
@@ -183,18 +197,17 @@ void World::add_areas(const Scene& scene, DeviceScene& on_device) {
     }
     const float follow_roughness = on_device.plan.request.follow_roughness;
     if (!areas_ || areas_->follow_roughness != follow_roughness) {
-        auto by_triangle = std::make_shared<const std::vector<double>>(
-            areas_for_photons(on_device.placed(scene), follow_roughness));
-        on_device.photon_areas = by_triangle;
-        SampledAreas sampled = sample_areas(device_, scene, on_device, {});
-        areas_ = {follow_roughness, std::move(by_triangle), std::move(sampled)};
+        PhotonSurfaces surfaces = find_photon_surfaces(device_, scene, positions_, triangles_,
+                                                       box(scene), follow_roughness);
+        SampledAreas sampled = sample_areas(device_, surfaces, {});
+        areas_ = {follow_roughness, std::move(surfaces), std::move(sampled)};
     }
-    on_device.photon_areas = areas_->by_triangle;
+    on_device.photon_surfaces = areas_->surfaces;
     on_device.areas = areas_->sampled;
     on_device.surface_area = areas_->sampled.area;
 }
 
-DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
+DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     const StageScope stage(device_, "upload scene");
     if (plan.needs(Feature::smooth_normals) && !normals_) {
         normals_ = upload(device_, "normals", padded(scene.normals));
@@ -203,13 +216,33 @@ DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
         }
     }
     DeviceScene result;
-    result.moved_positions = meshes_.on_host(scene, plan.needs(Feature::photon_map));
-    prepare_scene(device_, scene, box(scene), plan, result);
+    result.plan = plan;
+    result.moved_positions = meshes_.on_host(scene);
+    prepare_scene(device_, scene, box(scene), shining(scene), result);
     result.positions = positions_;
     result.normals = plan.needs(Feature::smooth_normals) ? normals_ : unneeded(device_);
     result.triangles = triangles_;
     result.materials = materials_;
     result.bvh = bvh_;
+    return result;
+}
+
+void World::add_casters(const Scene& scene, DeviceScene& on_device) {
+    const Plan& plan = on_device.plan;
+    if (!plan.needs(Feature::photon_map) || !plan.needs(Feature::followed_paths)) {
+        return;
+    }
+    std::vector<bool> followed = are_followed(scene, plan.request.follow_roughness);
+    if (!casters_ || casters_followed_ != followed) {
+        casters_ = std::make_shared<const CasterTable>(make_caster_table(device_, scene, followed));
+        casters_followed_ = std::move(followed);
+    }
+    on_device.casters = casters_;
+}
+
+DeviceScene World::on_device(const Scene& scene, const Plan& plan) {
+    DeviceScene result = without_areas(scene, plan);
+    add_casters(scene, result);
     add_areas(scene, result);
     return result;
 }

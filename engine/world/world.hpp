@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plan/surface_use.hpp"
 #include "shared/material_record.h"
 #include "world/device_scene.hpp"
 #include "world/moving_meshes.hpp"
@@ -47,24 +48,29 @@ public:
     WorldUpdate update(const Scene& scene);
 
     /// The scene as a render with this plan needs it. It shares this world's buffers: update()
-    /// changes what it holds. Records only, unless meshes move: it may have to fetch their boxes,
-    /// and the vertices of those that shine or on whose surfaces photons may lie.
+    /// changes what it holds. Waits for the device where it has to find areas for a photon map, or
+    /// to fetch the boxes of meshes that move, and the vertices of those that shine.
     DeviceScene on_device(const Scene& scene, const Plan& plan);
 
     /// How many updates have changed anything.
     std::uint64_t revision() const { return revision_; }
 
     Device& device() const { return device_; }
+    const SurfaceUse& surfaces() const { return surfaces_; }
 
 private:
     void build_tree(const Scene& scene);
+    DeviceScene without_areas(const Scene& scene, const Plan& plan);
+    void add_casters(const Scene& scene, DeviceScene& on_device);
     void add_areas(const Scene& scene, DeviceScene& on_device);
     bool follow_meshes(const Scene& scene, WorldUpdate& update);
     void upload_turned(const Scene& scene, WorldUpdate& update);
     Bounds box(const Scene& scene);
+    const std::vector<std::uint32_t>& shining(const Scene& scene);
     void upload_changed_materials(const Scene& scene, WorldUpdate& update);
 
     Device& device_;
+    SurfaceUse surfaces_;
     Buffer positions_, triangles_, materials_;
     Buffer normals_; ///< empty until a plan needs them
     TriangleBvh bvh_;
@@ -76,16 +82,21 @@ private:
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
     std::vector<MaterialRecord> uploaded_materials_;
 
+    std::vector<std::uint32_t> shining_; ///< triangles that emit light
+    std::vector<bool> emitting_;         ///< the materials among which they were found
+
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {
         float follow_roughness = 0;
-        std::shared_ptr<const std::vector<double>> by_triangle;
+        PhotonSurfaces surfaces;
         SampledAreas sampled;
     };
     std::optional<PhotonAreas> areas_; ///< empty until a plan needs them, and after a change
+    std::shared_ptr<const CasterTable> casters_; ///< null until a plan needs them
+    std::vector<bool> casters_followed_;         ///< the materials among which they were found
 };
 
-/// A scene on a device for one render. Records only.
+/// A scene on a device for one render.
 inline DeviceScene upload_scene(Device& device, const Scene& scene, const Plan& plan) {
     return World(device, scene).on_device(scene, plan);
 }

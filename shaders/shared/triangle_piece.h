@@ -26,6 +26,9 @@ FN TrianglePiece part_of_piece(IN(TrianglePiece) p, uint k) {
     return part;
 }
 
+// How often the triangle was divided, each time into four, until it came to this piece.
+FN uint divisions_of(uint number) { return uint(findMSB(number)) / 2u; }
+
 FN TrianglePiece triangle_piece(uint number) {
     TrianglePiece p;
     p.a = vec2(real(0.0), real(0.0));

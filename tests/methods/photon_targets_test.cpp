@@ -13,37 +13,6 @@ namespace {
 
 using ::testing::SizeIs;
 
-TEST(CausticCasters, AreConnectedSurfacesOfGlassAndMirrors) {
-    Scene scene;
-    const std::uint32_t white = add_material(scene, lambertian(glm::vec3(0.7f)));
-    const std::uint32_t clear = add_material(scene, glass(1.5f, true));
-    const std::uint32_t silver = add_material(scene, mirror());
-    add_box(scene, {-2, 0, -2}, {2, 2.5f, 2}, white, true);
-    EXPECT_THAT(caustic_casters(scene, 0.25f), SizeIs(0));
-    add_box(scene, {0, 0, 0}, {0.1f, 0.2f, 0.2f}, clear, false);
-    add_box(scene, {1, 0, 0}, {1.1f, 0.2f, 0.2f}, clear, false);
-    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, silver);
-    std::vector<glm::vec4> spheres = caustic_casters(scene, 0.25f);
-    ASSERT_THAT(spheres, SizeIs(3));
-    std::sort(spheres.begin(), spheres.end(),
-              [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; });
-    EXPECT_NEAR(spheres[0].x, 0.05f, 1e-6f);
-    EXPECT_NEAR(spheres[0].y, 0.1f, 1e-6f);
-    EXPECT_NEAR(spheres[0].w, 0.15f, 3e-4f);
-    EXPECT_NEAR(spheres[1].y, 1.5f, 1e-6f);
-    EXPECT_NEAR(spheres[1].w, std::sqrt(0.5f), 1e-3f);
-    EXPECT_NEAR(spheres[2].x, 1.05f, 1e-6f);
-}
-
-TEST(CausticCasters, GlossyOnesDependOnTheRoughnessThatIsFollowed) {
-    Scene scene;
-    Material rough = mirror();
-    rough.roughness = 0.2f;
-    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, add_material(scene, rough));
-    EXPECT_THAT(caustic_casters(scene, 0.25f), SizeIs(1));
-    EXPECT_THAT(caustic_casters(scene, 0.1f), SizeIs(0));
-}
-
 /// A glass block of 4 cm on the floor of a room of 6 m, seen from near.
 Scene block_in_a_room() {
     Scene scene;

@@ -248,6 +248,59 @@ TEST_F(WorldUpdates, AreasAreFoundAnewOnlyWhereSurfacesChange) {
     EXPECT_EQ(tables_of_frame(), 0u);
 }
 
+/// What a later frame of moving_scene() with so many triangles in a mesh takes from the device and
+/// brings there, by `photons`.
+struct Transfers {
+    std::uint64_t uploaded = 0;
+    std::uint64_t vertices = 0; ///< bytes of vertices that the host fetched
+};
+class Transferred : public RenderTest {
+protected:
+    Transfers of(Scene scene) {
+        RecordingDevice recording(device());
+        World world(recording, scene);
+        RenderSettings settings = settings_of("photons", 8, 1);
+        settings.photons = 1000;
+        Session session(world, scene, settings);
+        Transfers before;
+        Transfers frame;
+        for (const double time : {0.0, 0.25, 0.5}) {
+            move_to(time, scene);
+            world.update(scene);
+            session.begin_frame(0);
+            finish(session, [](double) { return true; });
+            const Transfers now{recording.uploaded_bytes(),
+                                recording.downloaded_bytes("positions")};
+            frame = {now.uploaded - before.uploaded, now.vertices - before.vertices};
+            before = now;
+        }
+        return frame;
+    }
+};
+
+TEST_F(Transferred, FramesBringNothingForATriangle) {
+    const Transfers few = of(moving_scene(50));
+    const Transfers many = of(moving_scene(5'000));
+    EXPECT_EQ(few.vertices, 0u);
+    EXPECT_EQ(many.vertices, 0u);
+    EXPECT_EQ(few.uploaded, many.uploaded);
+}
+
+TEST_F(Transferred, FramesFetchNoCasterOfCaustics) {
+    Material glass;
+    glass.metallic = glass.roughness = 0;
+    glass.transmission = glass.thickness = 1;
+    EXPECT_EQ(of(moving_scene_of(glass, 1)).vertices, 0u);
+}
+
+// Their emission is chosen by the table of lights, which the host makes.
+TEST_F(Transferred, FramesFetchMeshesThatShine) {
+    Material lamp;
+    lamp.emission = glm::vec3(3, 2, 1);
+    const Scene scene = moving_scene_of(lamp, 0);
+    EXPECT_EQ(of(scene).vertices, scene.motion.meshes[0].positions.size() * sizeof(glm::vec4));
+}
+
 TEST_F(WorldUpdates, RendersShareATree) {
     RecordingDevice recording(device());
     World world(recording, scene_);

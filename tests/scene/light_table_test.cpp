@@ -31,12 +31,16 @@ Scene sun_and_two_lamps() {
     return scene;
 }
 
+LightTable table_of(const Scene& scene, float scene_radius) {
+    return make_light_table(scene, shining_triangles(scene), scene_radius);
+}
+
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 TEST(LightTable, ConnectedTrianglesAreOneEmitter) {
-    const LightTable table = make_light_table(sun_and_two_lamps(), 10);
+    const LightTable table = table_of(sun_and_two_lamps(), 10);
     EXPECT_THAT(table.emitter, ElementsAre(0, 1, 1, 2, 2));
     EXPECT_EQ(table.first_triangle, 1u);
     EXPECT_EQ(table.triangle_count, 4u);
@@ -49,11 +53,11 @@ TEST(LightTable, CornersAtZeroAndMinusZeroAreTheSame) {
     const std::uint32_t lamp = add_material(scene, emitter(glm::vec3(1)));
     add_triangle(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, lamp);
     add_triangle(scene, {-0.0f, 0, -0.0f}, {-1, 0, 0}, {-1, 1, 0}, lamp);
-    EXPECT_THAT(make_light_table(scene, 10).emitter, ElementsAre(0, 0));
+    EXPECT_THAT(table_of(scene, 10).emitter, ElementsAre(0, 0));
 }
 
 TEST(LightTable, LightsKnowTheirTriangles) {
-    const LightTable table = make_light_table(sun_and_two_lamps(), 10);
+    const LightTable table = table_of(sun_and_two_lamps(), 10);
     std::vector<std::uint32_t> triangles;
     for (std::uint32_t i = 0; i < table.triangle_count; ++i) {
         triangles.push_back(table.lights[table.first_triangle + i].triangle_and_sides >> 1);
@@ -63,7 +67,7 @@ TEST(LightTable, LightsKnowTheirTriangles) {
 
 // A lamp is chosen although the sun has a million times its power.
 TEST(LightTable, PlainSharesGiveEveryEmitterAPart) {
-    const LightTable table = make_light_table(sun_and_two_lamps(), 10);
+    const LightTable table = table_of(sun_and_two_lamps(), 10);
     const std::vector<double> shares = plain_shares(table);
     EXPECT_NEAR(sum_of(shares), 1, 1e-12);
     EXPECT_NEAR(shares[0], 0.5 + 0.5 / 3, 1e-6);
@@ -77,7 +81,7 @@ TEST(LightTable, LightsWithoutPowerAreLeftOut) {
     scene.sky = glm::vec3(0);
     const std::uint32_t lamp = scene.triangle_material[0];
     add_triangle(scene, {0, 0, 0}, {1, 1, 1}, {1, 1, 1}, lamp); // without area
-    const LightTable table = make_light_table(scene, 10);
+    const LightTable table = table_of(scene, 10);
     EXPECT_EQ(table.lights.size(), 4u);
     EXPECT_EQ(table.first_triangle, 0u);
     EXPECT_EQ(table.triangle_count, 4u);
@@ -87,21 +91,21 @@ TEST(LightTable, LightsWithoutPowerAreLeftOut) {
 TEST(LightTable, OneEmitterIsAlwaysChosen) {
     Scene scene = sun_and_two_lamps();
     scene.triangle_material.assign(scene.triangles.size(), 0);
-    const LightTable table = make_light_table(scene, 10);
+    const LightTable table = table_of(scene, 10);
     EXPECT_THAT(plain_shares(table), ElementsAre(1));
     EXPECT_THAT(learnt_shares(table, {{0}, 0}), ElementsAre(1));
     EXPECT_THAT(learnt_shares(table, {{7}, 5}), ElementsAre(1));
 }
 
 TEST(LightTable, SceneWithoutLights) {
-    const LightTable table = make_light_table(Scene(), 0);
+    const LightTable table = table_of(Scene(), 0);
     EXPECT_TRUE(plain_shares(table).empty());
     EXPECT_TRUE(learnt_shares(table, {{}, 0}).empty());
     EXPECT_TRUE(light_choices(table, {}).empty());
 }
 
 TEST(LightTable, LearntSharesPreferWhatWasFoundAndForgetNone) {
-    const LightTable table = make_light_table(sun_and_two_lamps(), 10);
+    const LightTable table = table_of(sun_and_two_lamps(), 10);
     const std::vector<double> plain = plain_shares(table);
     EXPECT_EQ(learnt_shares(table, {{0, 0, 0}, 10}), plain);
     const std::vector<double> few = learnt_shares(table, {{0, 3, 1}, 4});
@@ -120,7 +124,7 @@ TEST(LightTable, ChoicesFollowTheShares) {
         const auto x = static_cast<float>(i);
         add_triangle(scene, {20, 2, 0}, {20 + x * x, 2, 1 + x}, {20, 2, 1 + x}, 1);
     }
-    const LightTable table = make_light_table(scene, 10);
+    const LightTable table = table_of(scene, 10);
     const std::vector<double> shares = learnt_shares(table, {{1, 2, 3, 4}, 100});
     const std::vector<LightChoice> choices = light_choices(table, shares);
     std::vector<double> of_emitter(shares.size(), 0.0);

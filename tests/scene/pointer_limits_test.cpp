@@ -15,7 +15,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(Pointer, ClampsValuesToTheirRanges) {
-    constexpr float pi = std::numbers::pi_v<float>;
     const auto scene = [](const std::string& pointer, const std::vector<float>& value) {
         const char* type = value.size() == 1 ? "SCALAR" : value.size() == 3 ? "VEC3" : "VEC4";
         return with_value(stage(), pointer, type, value);
@@ -27,7 +26,8 @@ TEST(Pointer, ClampsValuesToTheirRanges) {
               std::numeric_limits<float>::max());
     EXPECT_EQ(scene(to_lamp + "spot/innerConeAngle", {-1}).lights[0].inner_cone_angle, 0);
     EXPECT_EQ(scene(to_lamp + "spot/innerConeAngle", {2}).lights[0].inner_cone_angle, 1);
-    EXPECT_EQ(scene(to_lamp + "spot/outerConeAngle", {3}).lights[0].outer_cone_angle, pi / 2);
+    EXPECT_EQ(scene(to_lamp + "spot/outerConeAngle", {3}).lights[0].outer_cone_angle,
+              std::numbers::pi_v<float> / 2);
     EXPECT_GT(scene(to_lamp + "spot/outerConeAngle", {-3}).lights[0].outer_cone_angle, 0);
 
     const auto material = [&](const std::string& pointer, const std::vector<float>& value) {

@@ -33,6 +33,11 @@ public:
 
     /// Bytes uploaded so far.
     std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
+    /// Bytes downloaded so far from buffers of this name.
+    std::uint64_t downloaded_bytes(const std::string& name) const {
+        const auto found = downloaded_bytes_.find(name);
+        return found != downloaded_bytes_.end() ? found->second : 0;
+    }
 
     /// Allocations so far by name.
     const std::map<std::string, std::uint64_t>& allocations() const { return allocations_; }
@@ -64,6 +69,7 @@ public:
     void submit() override { device_.submit(); }
     void wait() override { device_.wait(); }
     void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override {
+        downloaded_bytes_[from.name()] += data.size();
         device_.download(from, offset, data);
     }
     void begin_stage(std::string_view name) override {
@@ -94,6 +100,7 @@ private:
     std::set<Variant> variants_;
     std::set<std::string> stages_;
     std::uint64_t uploaded_bytes_ = 0;
+    std::map<std::string, std::uint64_t> downloaded_bytes_;
     std::map<std::string, std::uint64_t> bytes_, runs_, allocations_;
 };
 

@@ -226,7 +226,7 @@ TEST_F(PoseVertices, OfNoMeshTakeNoDevice) {
     Scene scene;
     MovingMeshes meshes(open(), scene);
     EXPECT_TRUE(meshes.empty());
-    EXPECT_EQ(meshes.on_host(scene, true), nullptr);
+    EXPECT_EQ(meshes.on_host(scene), nullptr);
     EXPECT_TRUE(meshes.moved_by(scene, meshes.pose_of(scene)).empty());
 }
 
@@ -281,12 +281,9 @@ TEST_F(PoseVertices, AreFetchedWhereTheHostNeedsThem) {
                               return glm::vec3(placed.positions[of.first_vertex + v]) == world;
                           });
     };
-    const auto lamps = meshes.on_host(scene, false);
+    const auto lamps = meshes.on_host(scene);
     EXPECT_FALSE(are_there(*lamps, 0));
     EXPECT_TRUE(are_there(*lamps, 1));
-    const auto all = meshes.on_host(scene, true);
-    EXPECT_TRUE(are_there(*all, 0));
-    EXPECT_TRUE(are_there(*all, 1));
 }
 
 TEST_F(PoseVertices, ThatAreNotFiniteAreRefused) {

@@ -1,0 +1,15 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/area_records.h"
+#include "shared/random.h"
+#include "shared/triangle_area.h"
+
+layout(set = 0, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };
+layout(set = 0, binding = 2) writeonly buffer Areas { vec2 areas[]; };
+layout(set = 0, binding = 3) writeonly buffer Hashes { uint hashes[]; };
+layout(set = 0, binding = 4) writeonly buffer Order { uint order[]; };
+layout(push_constant) uniform Push { AreaTriangleParams params; };
+
+#include "shared/kernels/world/area_triangles.h"
