@@ -120,6 +120,12 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
 /// smoothing does not fall.
 double shrinking(double passes) { return std::pow(passes, -1.0 / 6); }
 
+/// The k of discs `by` times as wide: at least `least`, unless k is less itself.
+std::uint32_t scaled_neighbours(std::uint32_t k, double by, double least) {
+    return static_cast<std::uint32_t>(
+        std::max(std::round(k * by * by), std::min<double>(least, k)));
+}
+
 } // namespace
 
 double in_disc_of_pass(double photons, double passes, bool caustic) {
@@ -159,15 +165,11 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
 
 Bandwidth narrowed(const Bandwidth& learnt, double by, double scene_radius) {
     constexpr double least_neighbours = 8;
-    const auto narrow = [&](std::uint32_t k) {
-        return static_cast<std::uint32_t>(
-            std::max(std::round(k * by * by), std::min<double>(least_neighbours, k)));
-    };
     Bandwidth b = learnt;
     b.radii.indirect = std::max(by * b.radii.indirect, least_radius * scene_radius);
     b.radii.caustic = std::max(by * b.radii.caustic, least_radius * scene_radius);
-    b.neighbours = narrow(b.neighbours);
-    b.caustic_neighbours = narrow(b.caustic_neighbours);
+    b.neighbours = scaled_neighbours(b.neighbours, by, least_neighbours);
+    b.caustic_neighbours = scaled_neighbours(b.caustic_neighbours, by, least_neighbours);
     b.smoothing *= by;
     b.caustic_smoothing *= by;
     return b;
@@ -186,13 +188,13 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
     if (!settings.radius && !fixes_caustic) {
         b.radii.caustic *= by;
     }
-    const auto scale_neighbours = [&](std::uint32_t& k, bool is_given) {
-        if (!is_given && k > 0) {
-            k = static_cast<std::uint32_t>(std::max(std::round(k * by * by), 2.0));
-        }
-    };
-    scale_neighbours(b.neighbours, settings.neighbours.has_value());
-    scale_neighbours(b.caustic_neighbours, settings.caustic_neighbours.has_value());
+    constexpr double least_neighbours = 2;
+    if (!settings.neighbours) {
+        b.neighbours = scaled_neighbours(b.neighbours, by, least_neighbours);
+    }
+    if (!settings.caustic_neighbours) {
+        b.caustic_neighbours = scaled_neighbours(b.caustic_neighbours, by, least_neighbours);
+    }
     if (!settings.footprints.fixed_smoothing) {
         b.smoothing *= by;
         b.caustic_smoothing *= by;

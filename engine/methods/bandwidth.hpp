@@ -18,6 +18,11 @@ struct Bandwidth {
     bool caustics = false; ///< whether there are caustic photons
 };
 
+/// Whether caustics have a smaller radius than other light.
+inline bool has_sharp_caustics(const Bandwidth& bandwidth) {
+    return bandwidth.radii.caustic < bandwidth.radii.indirect;
+}
+
 /// The first pass of a picture, from which its bandwidth is learnt.
 struct FirstPass {
     Device& device;

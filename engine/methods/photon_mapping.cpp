@@ -364,9 +364,11 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
     const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
     first_.reset();
     const PhotonMap map = build_map(pass.numbers, stored);
-    c_.eye.queries.sharing = strategy_->sharing(
-        image_.bandwidth, c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth),
-        c_.settings.query_cell > 0 || c_.settings.final_gather);
+    const double cell = c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth);
+    c_.eye.queries.sharing = {.cell = cell,
+                              .caustics_apart = strategy_->parts_caustics(
+                                  image_.bandwidth, cell > 0 || c_.settings.final_gather),
+                              .sharp_caustics = has_sharp_caustics(image_.bandwidth)};
     const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, image_.bandwidth);
     const PhotonLookup lookup{.map = map, .estimator = *estimator};
     const EyePass eye{.seed = pass.numbers.seed,
