@@ -120,11 +120,14 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
 /// smoothing does not fall.
 double shrinking(double passes) { return std::pow(passes, -1.0 / 6); }
 
-/// The k of discs `by` times as wide: at least `least`, unless k is less itself.
+/// k times `by`, but at least `least`, unless k is less itself.
 std::uint32_t scaled_neighbours(std::uint32_t k, double by, double least) {
-    return static_cast<std::uint32_t>(
-        std::max(std::round(k * by * by), std::min<double>(least, k)));
+    return static_cast<std::uint32_t>(std::max(std::round(k * by), std::min<double>(least, k)));
 }
+
+// The k at which widths that fall from pass to pass stop to lower k: fewer photons hardly estimate
+// a density.
+constexpr std::uint32_t least_narrowed = 8;
 
 } // namespace
 
@@ -163,13 +166,29 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
     b.smoothing = learnt > 0 ? learnt : 1;
 }
 
-Bandwidth narrowed(const Bandwidth& learnt, double by, double scene_radius) {
-    constexpr double least_neighbours = 8;
+double photon_growth(const Bandwidth& learnt, double so_far, double exponent) {
+    const std::uint32_t k = std::max(learnt.neighbours, learnt.caustic_neighbours);
+    if (k == 0) {
+        return 1;
+    }
+    const double least = std::min(least_narrowed, k);
+    // x with k x (so_far + x)^(-2a) = least, approached from below.
+    constexpr int most_steps = 1000;
+    double photons = 1, before = 0;
+    for (int i = 0; i < most_steps && photons > before; ++i) {
+        before = photons;
+        photons = std::max(before, least / k * std::pow(so_far + before, 2 * exponent));
+    }
+    return photons;
+}
+
+Bandwidth narrowed(const Bandwidth& learnt, double by, double photons, double scene_radius) {
     Bandwidth b = learnt;
     b.radii.indirect = std::max(by * b.radii.indirect, least_radius * scene_radius);
     b.radii.caustic = std::max(by * b.radii.caustic, least_radius * scene_radius);
-    b.neighbours = scaled_neighbours(b.neighbours, by, least_neighbours);
-    b.caustic_neighbours = scaled_neighbours(b.caustic_neighbours, by, least_neighbours);
+    b.neighbours = scaled_neighbours(b.neighbours, by * by * photons, least_narrowed);
+    b.caustic_neighbours =
+        scaled_neighbours(b.caustic_neighbours, by * by * photons, least_narrowed);
     b.smoothing *= by;
     b.caustic_smoothing *= by;
     return b;
@@ -190,10 +209,10 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
     }
     constexpr double least_neighbours = 2;
     if (!settings.neighbours) {
-        b.neighbours = scaled_neighbours(b.neighbours, by, least_neighbours);
+        b.neighbours = scaled_neighbours(b.neighbours, by * by, least_neighbours);
     }
     if (!settings.caustic_neighbours) {
-        b.caustic_neighbours = scaled_neighbours(b.caustic_neighbours, by, least_neighbours);
+        b.caustic_neighbours = scaled_neighbours(b.caustic_neighbours, by * by, least_neighbours);
     }
     if (!settings.footprints.fixed_smoothing) {
         b.smoothing *= by;

@@ -68,7 +68,9 @@ public:
 
 Option neighbours_option() {
     Option option = member_option(
-        "k", "Photons that each estimate takes, the nearest (default: from the photons stored)",
+        "k",
+        "Photons that each estimate takes, the nearest; in the first pass if progressive (default: "
+        "from the photons stored)",
         [](RenderSettings & s) -> auto& { return s.neighbours; }, 1, 0xffffffff);
     option.fixes_bandwidth = true;
     option.sweep = {.around =

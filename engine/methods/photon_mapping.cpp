@@ -4,6 +4,7 @@
 #include "base/median.hpp"
 #include "methods/bandwidth.hpp"
 #include "methods/persist_buffer.hpp"
+#include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
@@ -11,6 +12,7 @@
 #include "shared/random.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace argand {
@@ -19,6 +21,8 @@ namespace {
 
 // Units of the fixed-point flux sums in the mean flux of a photon.
 constexpr double units_per_photon = 1 << 18;
+// Photons of a pass over the most of a first pass.
+constexpr std::uint64_t most_growth = 8;
 constexpr std::size_t flux_words = 12; // four sums of three channels
 
 /// How photons and samples are spread over passes. All passes count the same, so they are of one
@@ -75,8 +79,10 @@ struct ImageState {
     // Of all passes.
     std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
     std::uint64_t paths = 0; ///< of photons, also those that the dark has not emitted
+    PhotonNumbers numbers;
     // Of the first pass.
     std::uint64_t first_paths = 0;
+    std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
 };
 
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
@@ -103,7 +109,9 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.photons_emitted);
     archive.value(image.photons_stored);
     archive.value(image.paths);
+    image.numbers.persist(archive);
     archive.value(image.first_paths);
+    archive.value(image.most_photons);
 }
 
 class PhotonMapping : public Method {
@@ -160,11 +168,13 @@ public:
     void report(RenderStatistics& statistics) const override;
 
 private:
-    PhotonPass emission_of(const PassNumbers& numbers) const;
-    void set_bandwidth(const Pass& pass);
-    void make_workspace();
+    std::uint64_t photons_requested(std::uint64_t index) const;
+    PhotonPass next_emission(const Pass& pass);
+    void set_bandwidth(const Pass& pass, std::uint64_t photons);
+    void begin_workspace();
+    void make_room(std::uint64_t photons);
     void sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius);
-    std::optional<StoredPhotons> trace(const PassNumbers& numbers);
+    std::optional<StoredPhotons> trace(PhotonPass emission);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
     std::uint64_t wanted_area_samples(double radius) const;
@@ -180,29 +190,56 @@ private:
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
 };
 
-/// The photons of a pass if there is light. If there are more passes than the settings request,
-/// their numbers continue.
-PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
-    const std::uint64_t round = numbers.index / image_.split.passes;
-    const std::uint64_t in_round = numbers.index % image_.split.passes;
-    const std::uint64_t first = image_.emitted * in_round / image_.split.passes;
-    const std::uint64_t end = image_.emitted * (in_round + 1) / image_.split.passes;
-    return {.seed = numbers.seed,
-            .first = round * image_.emitted + first,
-            .count = end - first,
-            .bounces = c_.settings.bounces};
+/// The photons of the pass with this index, as the settings request them. If there are more passes
+/// than that, they repeat.
+std::uint64_t PhotonMapping::photons_requested(std::uint64_t index) const {
+    const std::uint64_t in_round = index % image_.split.passes;
+    return image_.emitted * (in_round + 1) / image_.split.passes -
+           image_.emitted * in_round / image_.split.passes;
 }
 
-void PhotonMapping::make_workspace() {
-    if (room_ != image_.split.photons) {
-        photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
-        photons_ = make_photon_workspace(c_.device, image_.split.photons,
-                                         c_.on_device.plan.needs(Feature::differentials));
-        room_ = image_.split.photons;
+/// The photons of the next pass if there is light, with numbers that no pass has had. Where k
+/// cannot fall with the radius, there are more photons instead.
+PhotonPass PhotonMapping::next_emission(const Pass& pass) {
+    std::uint64_t photons = photons_requested(pass.numbers.index);
+    if (progressive_ && !pass.keeps_width && image_.passes > 0) {
+        const double so_far =
+            static_cast<double>(image_.paths) / static_cast<double>(image_.first_paths);
+        const double growth =
+            photon_growth(image_.learnt, so_far, c_.settings.progressive.exponent);
+        const double most = static_cast<double>(std::max(image_.most_photons, photons));
+        photons = static_cast<std::uint64_t>(
+            std::min(std::round(growth * static_cast<double>(photons)), most));
     }
-    c_.device.fill(photons_.flux_sums, 0);
+    PhotonPass emission = image_.numbers.next(pass.numbers.seed, photons);
+    emission.bounces = c_.settings.bounces;
+    return emission;
+}
+
+/// Makes the workspace of a pass of this many photons, and keeps the sums of flux. Its size follows
+/// from the pass alone, not from those before: batches of photons decide their order.
+void PhotonMapping::make_room(std::uint64_t photons) {
+    const std::uint64_t least = image_.split.photons;
+    const std::uint64_t room = least * std::bit_ceil((photons + least - 1) / least);
+    if (room_ == room) {
+        return;
+    }
+    const Buffer sums = photons_.flux_sums;
+    photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
+    photons_ =
+        make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    if (sums) {
+        photons_.flux_sums = sums;
+    }
+    room_ = room;
+}
+
+/// Readies the workspace for the first pass of an image.
+void PhotonMapping::begin_workspace() {
+    make_room(image_.split.photons);
+    c_.device.fill(photons_.flux_sums, 0);
     const auto& power = c_.on_device.light_table.power;
     const double most = std::max({power.r, power.g, power.b});
     // A light may be switched on while a shutter is open.
@@ -210,8 +247,8 @@ void PhotonMapping::make_workspace() {
         (most > 0 ? most : 1) / static_cast<double>(image_.split.photons) / units_per_photon;
 }
 
-std::optional<StoredPhotons> PhotonMapping::trace(const PassNumbers& numbers) {
-    PhotonPass emission = emission_of(numbers);
+std::optional<StoredPhotons> PhotonMapping::trace(PhotonPass emission) {
+    make_room(emission.count);
     emission.count = c_.on_device.record.light_count > 0 ? emission.count : 0;
     return trace_photons(c_.device, c_.on_device, photons_, emission,
                          static_cast<float>(image_.flux_unit));
@@ -228,17 +265,23 @@ StoredPhotons PhotonMapping::stored_or_fail(const std::optional<StoredPhotons>& 
 
 /// Traces the photons of the first pass. Light that is hardly absorbed stores every photon very
 /// often; passes then have fewer photons, so that later ones, which store a few more or less, fit
-/// as well.
+/// as well. The same holds for passes of more photons than the first one.
 StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     image_.split = split(c_.settings, image_.emitted,
                          std::min(max_photons_per_pass(c_.device), c_.settings.photons_per_pass));
+    const std::uint64_t room = max_stored_photons(c_.device) / 10 * 9;
     for (;;) {
-        make_workspace();
+        begin_workspace();
         budget.start_pass();
-        const std::optional<StoredPhotons> stored = trace({.seed = c_.settings.seed});
-        const bool has_room = stored && stored->slots <= max_stored_photons(c_.device) / 10 * 9;
-        if (has_room || image_.split.photons == 1) {
-            return stored_or_fail(stored);
+        PhotonPass emission = PhotonNumbers().next(c_.settings.seed, photons_requested(0));
+        emission.bounces = c_.settings.bounces;
+        const std::optional<StoredPhotons> stored = trace(emission);
+        if ((stored && stored->slots <= room) || image_.split.photons == 1) {
+            image_.most_photons = std::min(
+                {most_growth * c_.settings.photons_per_pass, max_photons_per_pass(c_.device),
+                 room / std::max<std::uint64_t>(stored_or_fail(stored).slots, 1) *
+                     image_.split.photons});
+            return *stored;
         }
         image_.split = split(c_.settings, image_.emitted, image_.split.photons / 2);
     }
@@ -343,8 +386,8 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
 /// Sets the bandwidth of the next pass. Of widths that fall from pass to pass, r(n) = r1
 /// (n/n1)^(-a), where n counts the photon paths of all passes so far and of this one, as in Keller
 /// et al. 2010, section 1, and n1 those of the first pass.
-void PhotonMapping::set_bandwidth(const Pass& pass) {
-    const std::uint64_t paths = std::max<std::uint64_t>(emission_of(pass.numbers).count, 1);
+void PhotonMapping::set_bandwidth(const Pass& pass, std::uint64_t photons) {
+    const std::uint64_t paths = std::max<std::uint64_t>(photons, 1);
     image_.paths += paths;
     image_.first_paths = image_.passes > 0 ? image_.first_paths : paths;
     if (!progressive_) {
@@ -355,13 +398,16 @@ void PhotonMapping::set_bandwidth(const Pass& pass) {
     const double times = pass.keeps_width ? pass.expected
                                           : static_cast<double>(image_.paths) /
                                                 static_cast<double>(image_.first_paths);
-    image_.bandwidth = narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent),
-                                c_.on_device.record.radius);
+    image_.bandwidth =
+        narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent),
+                 static_cast<double>(paths) / static_cast<double>(image_.first_paths),
+                 c_.on_device.record.radius);
 }
 
 bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
-    set_bandwidth(pass);
-    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
+    const PhotonPass emission = next_emission(pass);
+    set_bandwidth(pass, emission.count);
+    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(emission));
     first_.reset();
     const PhotonMap map = build_map(pass.numbers, stored);
     const double cell = c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth);
@@ -378,8 +424,7 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
                       .bounces = c_.settings.bounces};
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
     ++image_.passes;
-    image_.photons_emitted +=
-        c_.on_device.record.light_count > 0 ? emission_of(pass.numbers).count : 0;
+    image_.photons_emitted += c_.on_device.record.light_count > 0 ? emission.count : 0;
     image_.photons_stored += stored.photons;
     return finished;
 }
@@ -390,13 +435,15 @@ void PhotonMapping::persist(Archive& archive) {
     const std::uint64_t emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
     if (image_.emitted != emitted || split.passes == 0 || split.photons == 0 ||
         split.samples == 0 || split.photons < emitted / split.passes ||
-        split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1)) {
+        split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1) ||
+        image_.most_photons > max_photons_per_pass(c_.device) ||
+        (image_.passes > 0 && image_.first_paths == 0)) {
         fail("loading a saved state: it is not one of photon mapping on '{}'",
              c_.device.info().name);
     }
     if (archive.loads()) {
         first_.reset();
-        make_workspace();
+        make_room(split.photons);
     }
     persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
 }
