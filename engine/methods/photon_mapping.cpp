@@ -220,7 +220,10 @@ PhotonPass PhotonMapping::next_emission(const Pass& pass) {
 /// from the pass alone, not from those before: batches of photons decide their order.
 void PhotonMapping::make_room(std::uint64_t photons) {
     const std::uint64_t least = image_.split.photons;
-    const std::uint64_t room = least * std::bit_ceil((photons + least - 1) / least);
+    const std::uint64_t room =
+        std::max(std::min(least * std::bit_ceil((photons + least - 1) / least),
+                          max_photons_per_pass(c_.device)),
+                 least);
     if (room_ == room) {
         return;
     }

@@ -266,6 +266,29 @@ TEST_F(Progressive, PassesGrowWhereKIsAtItsLeast) {
     EXPECT_EQ(widths(longer).neighbours, 8u);
 }
 
+TEST_F(Progressive, PassesGrowNoLargerThanTheDeviceStores) {
+    Device& small = open({"small", "", "storage_range=1MiB"}); // 32,768 photons
+    const Scene scene = room_scene();
+    World world(small, scene);
+    RenderSettings settings = settings_of("knn", 6, 1);
+    settings.photons = 1'500;
+    settings.neighbours = 2; // as is the least
+    settings.progressive = {.on = true, .first_radius = {}, .exponent = 0.45, .passes = 12};
+    Session session(world, scene, settings);
+    session.begin_frame(settings.seed);
+    std::vector<std::uint64_t> emitted{0}, stored{0};
+    while (const std::optional<PassPlan> plan = session.next_pass()) {
+        ASSERT_TRUE(session.step(*plan, proceed));
+        emitted.push_back(widths(session).photons_emitted);
+        stored.push_back(widths(session).photons_stored);
+    }
+    ASSERT_EQ(emitted.size(), 13u);
+    EXPECT_EQ(emitted[12] - emitted[11], emitted[11] - emitted[10]);
+    EXPECT_GT(emitted[12] - emitted[11], 4u * 1'500);
+    EXPECT_GT(stored[12] - stored[11], 32'768 / 3);
+    EXPECT_LE(stored[12] - stored[11], 32'768u);
+}
+
 TEST_F(Progressive, FirstPassHasTheRadiusThatIsGivenOrLearntForOnePass) {
     const Scene scene = room_scene();
     RenderSettings settings = settings_of("progressive", 6, 1);
