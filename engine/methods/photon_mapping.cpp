@@ -1,11 +1,11 @@
 #include "methods/photon_mapping.hpp"
 
 #include "base/error.hpp"
-#include "base/median.hpp"
 #include "methods/bandwidth.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
+#include "methods/view_areas.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
@@ -69,8 +69,9 @@ FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {
 struct ImageState {
     std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
     PassSplit split;
-    double flux_unit = 0; ///< of the fixed-point sums
-    Bandwidth learnt;     ///< for split.passes passes; progressive: for the first one
+    double flux_unit = 0;  ///< of the fixed-point sums
+    Bandwidth learnt;      ///< for split.passes passes; progressive: for the first one
+    double view_reach = 0; ///< distance from the camera, see view_areas.hpp
     // Of the last pass.
     Bandwidth bandwidth;
     std::optional<FootprintScale> footprint_scale;
@@ -101,6 +102,7 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.split.samples);
     archive.value(image.flux_unit);
     persist_bandwidth(archive, image.learnt);
+    archive.value(image.view_reach);
     persist_bandwidth(archive, image.bandwidth);
     archive.optional(image.footprint_scale);
     archive.value(image.mean_footprints);
@@ -147,7 +149,8 @@ public:
                 settings.radius = settings.progressive.first_radius;
             }
             const Bandwidth learnt = strategy_->learn(first, settings);
-            sample_areas_in_view(queries, strategy_->typical_radius(learnt));
+            image_.view_reach = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
+            sample_areas_in_view(c_, image_.view_reach, strategy_->typical_radius(learnt), 1);
             return learnt;
         });
     }
@@ -173,11 +176,10 @@ private:
     void set_bandwidth(const Pass& pass, std::uint64_t photons);
     void begin_workspace();
     void make_room(std::uint64_t photons);
-    void sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius);
     std::optional<StoredPhotons> trace(PhotonPass emission);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
-    std::uint64_t wanted_area_samples(double radius) const;
+    double area_share() const;
     double evenness_in_view();
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
@@ -339,34 +341,13 @@ double PhotonMapping::evenness_in_view() {
     return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
 }
 
-/// Samples areas only where most of what is in view lies, if the radius needs more samples than
-/// there is room for on all surfaces: in a room on a large ground, in the room and before it.
-void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius) {
-    constexpr double reach = 4; // over the median distance of what is in view
-    const DeviceScene& scene = c_.on_device;
-    if (queries.empty() || has_room_for_area_samples(scene.surface_area, radius)) {
-        return;
-    }
-    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
-    std::vector<double> distances;
-    distances.reserve(queries.size());
-    for (const glm::vec4& query : queries) {
-        distances.push_back(glm::distance(glm::vec3(query), eye));
-    }
-    c_.on_device.areas =
-        sample_areas(c_.device, c_.scene, scene, {eye, reach * median(std::move(distances))});
-}
-
-/// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a
-/// pass alone is noisier anyway, and samples for its full number would soon take most of the time.
-std::uint64_t PhotonMapping::wanted_area_samples(double radius) const {
-    if (!strategy_->corrects_boundaries(c_.settings)) {
-        return 0;
-    }
+/// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the
+/// photons that discs hold: a pass alone is noisier anyway, and samples for their full number would
+/// soon take most of the time.
+double PhotonMapping::area_share() const {
     const double by =
         progressive_ ? image_.bandwidth.radii.indirect / image_.learnt.radii.indirect : 1;
-    return area_samples(c_.on_device.areas.area, radius,
-                        std::clamp(by * by, least_area_share, 1.0));
+    return std::clamp(by * by, least_area_share, 1.0);
 }
 
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {
@@ -374,8 +355,13 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
         strategy_->footprints(image_.bandwidth, c_.settings.footprints,
                               static_cast<double>(image_.split.photons), c_.on_device.record);
     const double radius = strategy_->typical_radius(image_.bandwidth);
+    std::uint64_t samples = 0;
+    if (strategy_->corrects_boundaries(c_.settings)) {
+        sample_areas_in_view(c_, image_.view_reach, radius, area_share());
+        samples = area_samples(c_.on_device.areas.area, radius, area_share());
+    }
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
-                                     {.area_samples = wanted_area_samples(radius),
+                                     {.area_samples = samples,
                                       .cover_height = disc_half_height * radius,
                                       .seed = area_seed(numbers),
                                       .leaf_size = c_.settings.leaf_size,

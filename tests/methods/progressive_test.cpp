@@ -289,6 +289,45 @@ TEST_F(Progressive, PassesGrowNoLargerThanTheDeviceStores) {
     EXPECT_LE(stored[12] - stored[11], 32'768u);
 }
 
+// Below the room lie 2,000 m². Once the radius has fallen, samples of all areas would be too few;
+// then they lie in the room only.
+TEST_F(Progressive, EdgesAreCorrectedHoweverSmallTheRadius) {
+    const Scene room = room_scene();
+    Scene above_ground = room;
+    add_floor(above_ground, 22.4f, -3, add_material(above_ground, lambertian(glm::vec3(0.5f))));
+    RenderSettings settings = settings_of("progressive", 24, 4);
+    settings.photons = 20'000;
+    settings.progressive = {.on = true, .first_radius = 0.3, .exponent = 0.25};
+    const PassPlan wide{.expected = 1, .keeps_width = true};
+    const PassPlan narrow{.expected = 100, .keeps_width = true};
+
+    World room_alone(device(), room);
+    Session expected(room_alone, room, settings);
+    expected.begin_frame(0);
+    World world(device(), above_ground);
+    Session session(world, above_ground, settings);
+    session.begin_frame(0);
+    std::vector<std::vector<std::uint8_t>> states;
+    for (const PassPlan& plan : {wide, narrow, narrow}) {
+        expected.step(plan, proceed);
+        session.step(plan, proceed);
+        states.push_back(session.save());
+    }
+    const glm::dvec3 all = mean(layer(expected.result(), "indirect"));
+    const RenderResult result = session.result();
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_RELATIVE(mean(layer(result, "indirect"))[channel], all[channel], 0.01);
+    }
+    for (const std::size_t passes : {1, 2}) { // before the decision, and after it
+        Session other(world, above_ground, settings);
+        other.resume(states[passes - 1], 0);
+        for (std::size_t i = passes; i < 3; ++i) {
+            other.step(narrow, proceed);
+        }
+        EXPECT_TRUE(same_bits(other.result(), result)) << passes;
+    }
+}
+
 TEST_F(Progressive, FirstPassHasTheRadiusThatIsGivenOrLearntForOnePass) {
     const Scene scene = room_scene();
     RenderSettings settings = settings_of("progressive", 6, 1);
