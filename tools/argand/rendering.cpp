@@ -113,6 +113,11 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         if (loaded.note) {
             notes.push_back(*loaded.note);
         }
+        if (session.share(0) > 1) {
+            notes.push_back(fmt::format("'{}' holds {} passes, more than --passes asks for; the "
+                                        "picture has all of them",
+                                        options.resume, session.passes()));
+        }
     }
     bool can_save = !options.checkpoint.empty();
     bool can_show = true;
