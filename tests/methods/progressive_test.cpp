@@ -255,6 +255,13 @@ TEST_F(Progressive, PassesGrowWhereKIsAtItsLeast) {
             EXPECT_EQ(other.result().statistics.flux.emitted, whole.statistics.flux.emitted);
         }
     }
+    session.begin_frame(settings.seed); // with the memory of the large passes
+    for (const std::uint64_t passes : {1, 2}) {
+        ASSERT_TRUE(session.step(*session.next_pass(), proceed));
+        EXPECT_TRUE(same_bits(session.result(), results[passes]));
+        EXPECT_EQ(session.result().statistics.flux.emitted,
+                  results[passes].statistics.flux.emitted);
+    }
     settings.progressive.passes = 140;
     Session longer(world, scene, settings);
     longer.resume(states[40], settings.seed);
