@@ -17,6 +17,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Whether anything is shown.
+    bool is_shown() const { return active_; }
+
     /// Reports the share of the work that is done, clamped to [0, 1].
     /// detail: a few words on the work so far.
     void update(double fraction, std::string_view detail = {});

@@ -120,6 +120,15 @@ FootprintScale scale_of(const FootprintSettings& settings, double photons, doubl
 /// smoothing does not fall.
 double shrinking(double passes) { return std::pow(passes, -1.0 / 6); }
 
+/// k times `by`, but at least `least`, unless k is less itself.
+std::uint32_t scaled_neighbours(std::uint32_t k, double by, double least) {
+    return static_cast<std::uint32_t>(std::max(std::round(k * by), std::min<double>(least, k)));
+}
+
+// The k at which widths that fall from pass to pass stop to lower k: fewer photons hardly estimate
+// a density.
+constexpr std::uint32_t least_narrowed = 8;
+
 } // namespace
 
 double in_disc_of_pass(double photons, double passes, bool caustic) {
@@ -157,17 +166,29 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
     b.smoothing = learnt > 0 ? learnt : 1;
 }
 
-Bandwidth narrowed(const Bandwidth& learnt, double by, double scene_radius) {
-    constexpr double least_neighbours = 8;
-    const auto narrow = [&](std::uint32_t k) {
-        return static_cast<std::uint32_t>(
-            std::max(std::round(k * by * by), std::min<double>(least_neighbours, k)));
-    };
+double photon_growth(const Bandwidth& learnt, double so_far, double exponent) {
+    const std::uint32_t k = std::max(learnt.neighbours, learnt.caustic_neighbours);
+    if (k == 0) {
+        return 1;
+    }
+    const double least = std::min(least_narrowed, k);
+    // x with k x (so_far + x)^(-2a) = least, approached from below.
+    constexpr int most_steps = 1000;
+    double photons = 1, before = 0;
+    for (int i = 0; i < most_steps && photons > before; ++i) {
+        before = photons;
+        photons = std::max(before, least / k * std::pow(so_far + before, 2 * exponent));
+    }
+    return photons;
+}
+
+Bandwidth narrowed(const Bandwidth& learnt, double by, double photons, double scene_radius) {
     Bandwidth b = learnt;
     b.radii.indirect = std::max(by * b.radii.indirect, least_radius * scene_radius);
     b.radii.caustic = std::max(by * b.radii.caustic, least_radius * scene_radius);
-    b.neighbours = narrow(b.neighbours);
-    b.caustic_neighbours = narrow(b.caustic_neighbours);
+    b.neighbours = scaled_neighbours(b.neighbours, by * by * photons, least_narrowed);
+    b.caustic_neighbours =
+        scaled_neighbours(b.caustic_neighbours, by * by * photons, least_narrowed);
     b.smoothing *= by;
     b.caustic_smoothing *= by;
     return b;
@@ -186,13 +207,13 @@ Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
     if (!settings.radius && !fixes_caustic) {
         b.radii.caustic *= by;
     }
-    const auto scale_neighbours = [&](std::uint32_t& k, bool is_given) {
-        if (!is_given && k > 0) {
-            k = static_cast<std::uint32_t>(std::max(std::round(k * by * by), 2.0));
-        }
-    };
-    scale_neighbours(b.neighbours, settings.neighbours.has_value());
-    scale_neighbours(b.caustic_neighbours, settings.caustic_neighbours.has_value());
+    constexpr double least_neighbours = 2;
+    if (!settings.neighbours) {
+        b.neighbours = scaled_neighbours(b.neighbours, by * by, least_neighbours);
+    }
+    if (!settings.caustic_neighbours) {
+        b.caustic_neighbours = scaled_neighbours(b.caustic_neighbours, by * by, least_neighbours);
+    }
     if (!settings.footprints.fixed_smoothing) {
         b.smoothing *= by;
         b.caustic_smoothing *= by;

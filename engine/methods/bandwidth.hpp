@@ -18,6 +18,11 @@ struct Bandwidth {
     bool caustics = false; ///< whether there are caustic photons
 };
 
+/// Whether caustics have a smaller radius than other light.
+inline bool has_sharp_caustics(const Bandwidth& bandwidth) {
+    return bandwidth.radii.caustic < bandwidth.radii.indirect;
+}
+
 /// The first pass of a picture, from which its bandwidth is learnt.
 struct FirstPass {
     Device& device;
@@ -51,10 +56,17 @@ void learn_smoothing(Bandwidth& bandwidth, const FirstPass& first,
 Bandwidth for_passes(const Bandwidth& learnt, double learnt_for, double passes,
                      const RenderSettings& settings);
 
-/// The bandwidth of a pass of which all widths are `by` times those learnt: radii and smoothing,
-/// and k with the area, as long as it is large enough to estimate a density. scene_radius: radii
-/// stay above the rounding of positions in a scene of this size.
-Bandwidth narrowed(const Bandwidth& learnt, double by, double scene_radius);
+/// The bandwidth of a pass of which all widths are `by` times those learnt, and which emits
+/// `photons` times the photons: radii and smoothing, and k with the area and the photons, as long
+/// as it is large enough to estimate a density. scene_radius: radii stay above the rounding of
+/// positions in a scene of this size.
+Bandwidth narrowed(const Bandwidth& learnt, double by, double photons, double scene_radius);
+
+/// How many photons, in those of the first pass, a pass must emit so that its k nearest photons lie
+/// within the radius that the law n^(-exponent) asks for, though k falls no further than narrowed()
+/// lets it; at least 1. Of two k the larger one decides. learnt: the bandwidth of the first pass.
+/// so_far: photons of all passes before.
+double photon_growth(const Bandwidth& learnt, double so_far, double exponent);
 
 /// The scale of the footprints of a pass that emits `photons` photons.
 FootprintScale footprint_scale(const Bandwidth& bandwidth, const FootprintSettings& settings,

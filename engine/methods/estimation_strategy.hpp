@@ -35,9 +35,9 @@ public:
     /// Whether estimates are divided by the share of their disc that lies on surfaces.
     virtual bool corrects_boundaries(const RenderSettings&) const { return true; }
 
-    /// Which queries share an answer, in cells of the given edge. may_part: the caustic part of the
-    /// map may be queried by itself.
-    virtual QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const = 0;
+    /// Whether the caustic part of the map is queried by itself. may_part: whether that is worth
+    /// it.
+    virtual bool parts_caustics(const Bandwidth& bandwidth, bool may_part) const = 0;
 
     /// The estimator of one pass, which answers queries of the map. It refers to the context.
     virtual std::unique_ptr<PhotonEstimator>

@@ -14,11 +14,8 @@ public:
         return !settings.disc.ball;
     }
 
-    QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const override {
-        const bool sharp = bandwidth.radii.caustic < bandwidth.radii.indirect;
-        return {.cell = cell,
-                .caustics_apart = may_part && bandwidth.caustics && sharp,
-                .sharp_caustics = sharp};
+    bool parts_caustics(const Bandwidth& bandwidth, bool may_part) const override {
+        return may_part && bandwidth.caustics && has_sharp_caustics(bandwidth);
     }
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,

@@ -22,10 +22,8 @@ public:
         return footprint_scale(bandwidth, settings, photons, scene);
     }
 
-    QuerySharing sharing(const Bandwidth& bandwidth, double cell, bool may_part) const override {
-        return {.cell = cell,
-                .caustics_apart = may_part && bandwidth.caustics,
-                .sharp_caustics = bandwidth.radii.caustic < bandwidth.radii.indirect};
+    bool parts_caustics(const Bandwidth& bandwidth, bool may_part) const override {
+        return may_part && bandwidth.caustics;
     }
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,

@@ -49,11 +49,8 @@ public:
         return typical_over_max * bandwidth.radii.indirect;
     }
 
-    QuerySharing sharing(const Bandwidth& bandwidth, double cell,
-                         bool /*may_part*/) const override {
-        return {.cell = cell,
-                .caustics_apart = bandwidth.caustics,
-                .sharp_caustics = bandwidth.radii.caustic < bandwidth.radii.indirect};
+    bool parts_caustics(const Bandwidth& bandwidth, bool /*may_part*/) const override {
+        return bandwidth.caustics; // they have a k of their own
     }
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap& map,
@@ -71,7 +68,9 @@ public:
 
 Option neighbours_option() {
     Option option = member_option(
-        "k", "Photons that each estimate takes, the nearest (default: from the photons stored)",
+        "k",
+        "Photons that each estimate takes, the nearest; in the first pass if progressive (default: "
+        "from the photons stored)",
         [](RenderSettings & s) -> auto& { return s.neighbours; }, 1, 0xffffffff);
     option.fixes_bandwidth = true;
     option.sweep = {.around =

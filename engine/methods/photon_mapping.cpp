@@ -1,17 +1,19 @@
 #include "methods/photon_mapping.hpp"
 
 #include "base/error.hpp"
-#include "base/median.hpp"
 #include "methods/bandwidth.hpp"
 #include "methods/persist_buffer.hpp"
+#include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
 #include "methods/search_options.hpp"
+#include "methods/view_areas.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
 #include "shared/random.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace argand {
@@ -20,6 +22,8 @@ namespace {
 
 // Units of the fixed-point flux sums in the mean flux of a photon.
 constexpr double units_per_photon = 1 << 18;
+// Photons of a pass over the most of a first pass.
+constexpr std::uint64_t most_growth = 8;
 constexpr std::size_t flux_words = 12; // four sums of three channels
 
 /// How photons and samples are spread over passes. All passes count the same, so they are of one
@@ -66,8 +70,9 @@ FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {
 struct ImageState {
     std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
     PassSplit split;
-    double flux_unit = 0; ///< of the fixed-point sums
-    Bandwidth learnt;     ///< for split.passes passes; progressive: for the first one
+    double flux_unit = 0;  ///< of the fixed-point sums
+    Bandwidth learnt;      ///< for split.passes passes; progressive: for the first one
+    double view_reach = 0; ///< distance from the camera, see view_areas.hpp
     // Of the last pass.
     Bandwidth bandwidth;
     std::optional<FootprintScale> footprint_scale;
@@ -76,8 +81,10 @@ struct ImageState {
     // Of all passes.
     std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
     std::uint64_t paths = 0; ///< of photons, also those that the dark has not emitted
+    PhotonNumbers numbers;
     // Of the first pass.
     std::uint64_t first_paths = 0;
+    std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
 };
 
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
@@ -96,6 +103,7 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.split.samples);
     archive.value(image.flux_unit);
     persist_bandwidth(archive, image.learnt);
+    archive.value(image.view_reach);
     persist_bandwidth(archive, image.bandwidth);
     archive.optional(image.footprint_scale);
     archive.value(image.mean_footprints);
@@ -104,7 +112,9 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.photons_emitted);
     archive.value(image.photons_stored);
     archive.value(image.paths);
+    image.numbers.persist(archive);
     archive.value(image.first_paths);
+    archive.value(image.most_photons);
 }
 
 class PhotonMapping : public Method {
@@ -140,7 +150,8 @@ public:
                 settings.radius = settings.progressive.first_radius;
             }
             const Bandwidth learnt = strategy_->learn(first, settings);
-            sample_areas_in_view(queries, strategy_->typical_radius(learnt));
+            image_.view_reach = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
+            sample_areas_in_view(c_, image_.view_reach, strategy_->typical_radius(learnt), 1);
             return learnt;
         });
     }
@@ -161,14 +172,15 @@ public:
     void report(RenderStatistics& statistics) const override;
 
 private:
-    PhotonPass emission_of(const PassNumbers& numbers) const;
-    void set_bandwidth(const Pass& pass);
-    void make_workspace();
-    void sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius);
-    std::optional<StoredPhotons> trace(const PassNumbers& numbers);
+    std::uint64_t photons_requested(std::uint64_t index) const;
+    PhotonPass next_emission(const Pass& pass);
+    void set_bandwidth(const Pass& pass, std::uint64_t photons);
+    void begin_workspace();
+    void make_room(std::uint64_t photons);
+    std::optional<StoredPhotons> trace(PhotonPass emission);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
-    std::uint64_t wanted_area_samples(double radius) const;
+    double area_share() const;
     double evenness_in_view();
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
@@ -181,29 +193,59 @@ private:
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
 };
 
-/// The photons of a pass if there is light. If there are more passes than the settings request,
-/// their numbers continue.
-PhotonPass PhotonMapping::emission_of(const PassNumbers& numbers) const {
-    const std::uint64_t round = numbers.index / image_.split.passes;
-    const std::uint64_t in_round = numbers.index % image_.split.passes;
-    const std::uint64_t first = image_.emitted * in_round / image_.split.passes;
-    const std::uint64_t end = image_.emitted * (in_round + 1) / image_.split.passes;
-    return {.seed = numbers.seed,
-            .first = round * image_.emitted + first,
-            .count = end - first,
-            .bounces = c_.settings.bounces};
+/// The photons of the pass with this index, as the settings request them. If there are more passes
+/// than that, they repeat.
+std::uint64_t PhotonMapping::photons_requested(std::uint64_t index) const {
+    const std::uint64_t in_round = index % image_.split.passes;
+    return image_.emitted * (in_round + 1) / image_.split.passes -
+           image_.emitted * in_round / image_.split.passes;
 }
 
-void PhotonMapping::make_workspace() {
-    if (room_ != image_.split.photons) {
-        photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
-        photons_ = make_photon_workspace(c_.device, image_.split.photons,
-                                         c_.on_device.plan.needs(Feature::differentials));
-        room_ = image_.split.photons;
+/// The photons of the next pass if there is light, with numbers that no pass has had. Where k
+/// cannot fall with the radius, there are more photons instead.
+PhotonPass PhotonMapping::next_emission(const Pass& pass) {
+    std::uint64_t photons = photons_requested(pass.numbers.index);
+    if (progressive_ && !pass.keeps_width && image_.passes > 0) {
+        const double so_far =
+            static_cast<double>(image_.paths) / static_cast<double>(image_.first_paths);
+        const double growth =
+            photon_growth(image_.learnt, so_far, c_.settings.progressive.exponent);
+        const double most = static_cast<double>(std::max(image_.most_photons, photons));
+        photons = static_cast<std::uint64_t>(
+            std::min(std::round(growth * static_cast<double>(photons)), most));
     }
-    c_.device.fill(photons_.flux_sums, 0);
+    PhotonPass emission = image_.numbers.next(pass.numbers.seed, photons);
+    emission.bounces = c_.settings.bounces;
+    return emission;
+}
+
+/// Makes the workspace of a pass of this many photons, and keeps the sums of flux. Its size follows
+/// from the pass alone, not from those before: batches of photons decide their order.
+void PhotonMapping::make_room(std::uint64_t photons) {
+    const std::uint64_t least = image_.split.photons;
+    const std::uint64_t room =
+        std::max(std::min(least * std::bit_ceil((photons + least - 1) / least),
+                          max_photons_per_pass(c_.device)),
+                 least);
+    if (room_ == room) {
+        return;
+    }
+    const Buffer sums = photons_.flux_sums;
+    photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
+    photons_ =
+        make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    if (sums) {
+        photons_.flux_sums = sums;
+    }
+    room_ = room;
+}
+
+/// Readies the workspace for the first pass of an image.
+void PhotonMapping::begin_workspace() {
+    make_room(image_.split.photons);
+    c_.device.fill(photons_.flux_sums, 0);
     const auto& power = c_.on_device.light_table.power;
     const double most = std::max({power.r, power.g, power.b});
     // A light may be switched on while a shutter is open.
@@ -211,8 +253,8 @@ void PhotonMapping::make_workspace() {
         (most > 0 ? most : 1) / static_cast<double>(image_.split.photons) / units_per_photon;
 }
 
-std::optional<StoredPhotons> PhotonMapping::trace(const PassNumbers& numbers) {
-    PhotonPass emission = emission_of(numbers);
+std::optional<StoredPhotons> PhotonMapping::trace(PhotonPass emission) {
+    make_room(emission.count);
     emission.count = c_.on_device.record.light_count > 0 ? emission.count : 0;
     return trace_photons(c_.device, c_.on_device, photons_, emission,
                          static_cast<float>(image_.flux_unit));
@@ -229,17 +271,23 @@ StoredPhotons PhotonMapping::stored_or_fail(const std::optional<StoredPhotons>& 
 
 /// Traces the photons of the first pass. Light that is hardly absorbed stores every photon very
 /// often; passes then have fewer photons, so that later ones, which store a few more or less, fit
-/// as well.
+/// as well. The same holds for passes of more photons than the first one.
 StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     image_.split = split(c_.settings, image_.emitted,
                          std::min(max_photons_per_pass(c_.device), c_.settings.photons_per_pass));
+    const std::uint64_t room = max_stored_photons(c_.device) / 10 * 9;
     for (;;) {
-        make_workspace();
+        begin_workspace();
         budget.start_pass();
-        const std::optional<StoredPhotons> stored = trace({.seed = c_.settings.seed});
-        const bool has_room = stored && stored->slots <= max_stored_photons(c_.device) / 10 * 9;
-        if (has_room || image_.split.photons == 1) {
-            return stored_or_fail(stored);
+        PhotonPass emission = PhotonNumbers().next(c_.settings.seed, photons_requested(0));
+        emission.bounces = c_.settings.bounces;
+        const std::optional<StoredPhotons> stored = trace(emission);
+        if ((stored && stored->slots <= room) || image_.split.photons == 1) {
+            image_.most_photons = std::min(
+                {most_growth * c_.settings.photons_per_pass, max_photons_per_pass(c_.device),
+                 room / std::max<std::uint64_t>(stored_or_fail(stored).slots, 1) *
+                     image_.split.photons});
+            return *stored;
         }
         image_.split = split(c_.settings, image_.emitted, image_.split.photons / 2);
     }
@@ -294,34 +342,13 @@ double PhotonMapping::evenness_in_view() {
     return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
 }
 
-/// Samples areas only where most of what is in view lies, if the radius needs more samples than
-/// there is room for on all surfaces: in a room on a large ground, in the room and before it.
-void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius) {
-    constexpr double reach = 4; // over the median distance of what is in view
-    const DeviceScene& scene = c_.on_device;
-    if (queries.empty() || has_room_for_area_samples(scene.surface_area, radius)) {
-        return;
-    }
-    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
-    std::vector<double> distances;
-    distances.reserve(queries.size());
-    for (const glm::vec4& query : queries) {
-        distances.push_back(glm::distance(glm::vec3(query), eye));
-    }
-    c_.on_device.areas =
-        sample_areas(c_.device, scene.photon_surfaces, {eye, reach * median(std::move(distances))});
-}
-
-/// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a
-/// pass alone is noisier anyway, and samples for its full number would soon take most of the time.
-std::uint64_t PhotonMapping::wanted_area_samples(double radius) const {
-    if (!strategy_->corrects_boundaries(c_.settings)) {
-        return 0;
-    }
+/// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the
+/// photons that discs hold: a pass alone is noisier anyway, and samples for their full number would
+/// soon take most of the time.
+double PhotonMapping::area_share() const {
     const double by =
         progressive_ ? image_.bandwidth.radii.indirect / image_.learnt.radii.indirect : 1;
-    return area_samples(c_.on_device.areas.area, radius,
-                        std::clamp(by * by, least_area_share, 1.0));
+    return std::clamp(by * by, least_area_share, 1.0);
 }
 
 PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhotons& stored) {
@@ -329,8 +356,13 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
         strategy_->footprints(image_.bandwidth, c_.settings.footprints,
                               static_cast<double>(image_.split.photons), c_.on_device.record);
     const double radius = strategy_->typical_radius(image_.bandwidth);
+    std::uint64_t samples = 0;
+    if (strategy_->corrects_boundaries(c_.settings)) {
+        sample_areas_in_view(c_, image_.view_reach, radius, area_share());
+        samples = area_samples(c_.on_device.areas.area, radius, area_share());
+    }
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
-                                     {.area_samples = wanted_area_samples(radius),
+                                     {.area_samples = samples,
                                       .cover_height = disc_half_height * radius,
                                       .seed = area_seed(numbers),
                                       .leaf_size = c_.settings.leaf_size,
@@ -345,8 +377,8 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
 /// Sets the bandwidth of the next pass. Of widths that fall from pass to pass, r(n) = r1
 /// (n/n1)^(-a), where n counts the photon paths of all passes so far and of this one, as in Keller
 /// et al. 2010, section 1, and n1 those of the first pass.
-void PhotonMapping::set_bandwidth(const Pass& pass) {
-    const std::uint64_t paths = std::max<std::uint64_t>(emission_of(pass.numbers).count, 1);
+void PhotonMapping::set_bandwidth(const Pass& pass, std::uint64_t photons) {
+    const std::uint64_t paths = std::max<std::uint64_t>(photons, 1);
     image_.paths += paths;
     image_.first_paths = image_.passes > 0 ? image_.first_paths : paths;
     if (!progressive_) {
@@ -357,18 +389,23 @@ void PhotonMapping::set_bandwidth(const Pass& pass) {
     const double times = pass.keeps_width ? pass.expected
                                           : static_cast<double>(image_.paths) /
                                                 static_cast<double>(image_.first_paths);
-    image_.bandwidth = narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent),
-                                c_.on_device.record.radius);
+    image_.bandwidth =
+        narrowed(image_.learnt, std::pow(times, -c_.settings.progressive.exponent),
+                 static_cast<double>(paths) / static_cast<double>(image_.first_paths),
+                 c_.on_device.record.radius);
 }
 
 bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
-    set_bandwidth(pass);
-    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(pass.numbers));
+    const PhotonPass emission = next_emission(pass);
+    set_bandwidth(pass, emission.count);
+    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(emission));
     first_.reset();
     const PhotonMap map = build_map(pass.numbers, stored);
-    c_.eye.queries.sharing = strategy_->sharing(
-        image_.bandwidth, c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth),
-        c_.settings.query_cell > 0 || c_.settings.final_gather);
+    const double cell = c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth);
+    c_.eye.queries.sharing = {.cell = cell,
+                              .caustics_apart = strategy_->parts_caustics(
+                                  image_.bandwidth, cell > 0 || c_.settings.final_gather),
+                              .sharp_caustics = has_sharp_caustics(image_.bandwidth)};
     const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, image_.bandwidth);
     const PhotonLookup lookup{.map = map, .estimator = *estimator};
     const EyePass eye{.seed = pass.numbers.seed,
@@ -378,8 +415,7 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
                       .bounces = c_.settings.bounces};
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
     ++image_.passes;
-    image_.photons_emitted +=
-        c_.on_device.record.light_count > 0 ? emission_of(pass.numbers).count : 0;
+    image_.photons_emitted += c_.on_device.record.light_count > 0 ? emission.count : 0;
     image_.photons_stored += stored.photons;
     return finished;
 }
@@ -390,13 +426,15 @@ void PhotonMapping::persist(Archive& archive) {
     const std::uint64_t emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
     if (image_.emitted != emitted || split.passes == 0 || split.photons == 0 ||
         split.samples == 0 || split.photons < emitted / split.passes ||
-        split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1)) {
+        split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1) ||
+        image_.most_photons > max_photons_per_pass(c_.device) ||
+        (image_.passes > 0 && image_.first_paths == 0)) {
         fail("loading a saved state: it is not one of photon mapping on '{}'",
              c_.device.info().name);
     }
     if (archive.loads()) {
         first_.reset();
-        make_workspace();
+        make_room(split.photons);
     }
     persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
 }

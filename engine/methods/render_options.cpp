@@ -188,7 +188,7 @@ std::vector<Option> progressive_options() {
         "truth however many passes there are",
         [](RenderSettings & s) -> auto& { return s.progressive.on; });
     Option passes = member_option(
-        "passes", "Progressive passes, each of --photons and --spp",
+        "passes", "Progressive passes, each of --photons (with knn more, once k is 8) and --spp",
         [](RenderSettings & s) -> auto& { return s.progressive.passes; }, 1, 1'000'000'000);
     passes.ends_render = true;
     Option first_radius = member_option(

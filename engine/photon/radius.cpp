@@ -87,8 +87,8 @@ double wanted_area_samples(double surface_area, double radius) {
 
 } // namespace
 
-bool has_room_for_area_samples(double surface_area, double radius) {
-    return wanted_area_samples(surface_area, radius) <= most_area_samples;
+bool has_room_for_area_samples(double surface_area, double radius, double share) {
+    return share * wanted_area_samples(surface_area, radius) <= most_area_samples;
 }
 
 std::uint64_t area_samples(double surface_area, double radius, double share) {

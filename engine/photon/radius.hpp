@@ -24,9 +24,6 @@ double median_radius(Device& device, const SortedPhotons& sorted, std::span<cons
 /// where caustics are.
 double median_caustic_radius(Device& device, const SortedPhotons& sorted, double in_disc);
 
-/// Whether a map has room for the samples of surfaces of this area that discs of this radius want.
-bool has_room_for_area_samples(double surface_area, double radius);
-
 /// The least share of the area samples that discs want with which estimates are still corrected.
 inline constexpr double least_area_share = 0.25;
 
@@ -34,5 +31,8 @@ inline constexpr double least_area_share = 0.25;
 /// radius lies on them: `share` (at least the least) of 90 in a disc, or down to the least share if
 /// a map has no room for more; 0 if it has no room for these.
 std::uint64_t area_samples(double surface_area, double radius, double share = 1);
+
+/// Whether a map has room for that share.
+bool has_room_for_area_samples(double surface_area, double radius, double share);
 
 } // namespace argand

@@ -65,6 +65,21 @@ TEST_F(Checkpoints, OfAProgressiveRenderTakeMorePasses) {
     ASSERT_EQ(run(progressive + "--passes 5 -o five.exr --resume c").exit_code, 0);
     EXPECT_EQ(read_text(file("whole.exr")), read_text(file("five.exr")));
     EXPECT_NE(read_text(file("whole.exr")), read_text(file("two.exr")));
+    // Fewer passes than there are cannot be had again.
+    const Outcome fewer =
+        argand("render '" + asset("cornell_glass.glb") + "' --size 12x12 --spp 4 " + progressive +
+                   "--passes 4 -o fewer.exr --checkpoint c --resume c",
+               on_host);
+    ASSERT_EQ(fewer.exit_code, 0) << fewer.error;
+    EXPECT_EQ(fewer.error, "");
+    const Outcome fewest =
+        argand("render '" + asset("cornell_glass.glb") + "' --size 12x12 --spp 4 " + progressive +
+                   "--passes 3 -o fewest.exr --resume c",
+               on_host);
+    ASSERT_EQ(fewest.exit_code, 0) << fewest.error;
+    EXPECT_EQ(fewest.error, "argand: note: 'c' holds 4 passes, more than --passes asks for; the "
+                            "picture has all of them\n");
+    EXPECT_EQ(read_text(file("fewer.exr")), read_text(file("fewest.exr")));
     expect_error(progressive + "--passes 5 --radius-exponent 0.2 -o no.exr --resume c",
                  "--radius-exponent");
 }

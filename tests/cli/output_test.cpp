@@ -1,5 +1,6 @@
 // Where the tool writes, and its errors when it cannot.
 #include "argand_run.hpp"
+#include "support/terminal.hpp"
 
 #include <filesystem>
 
@@ -57,6 +58,23 @@ TEST_F(Outputs, ValidationIsHeard) {
                                "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");
     EXPECT_EQ(run.exit_code, failure);
     EXPECT_THAT(run.error, ::testing::StartsWith("argand: validation: "));
+}
+
+TEST_F(Outputs, TerminalsShowPassesRadiusAndErrorAndPipesNothing) {
+    const Terminal terminal;
+    ASSERT_GE(terminal.descriptor(), 0);
+    const std::string render = "render '" + asset("cornell_point.glb") +
+                               "' --method progressive --size 24x24 --spp 1 --photons 5000 "
+                               "--passes 48 ";
+    const Outcome shown = argand(render + "-o shown.exr 2>" + terminal.name(), on_host);
+    ASSERT_EQ(shown.exit_code, 0);
+    const std::string text = terminal.read();
+    EXPECT_THAT(text, ::testing::ContainsRegex("pass 1, radius 0\\.[0-9]+"));
+    EXPECT_THAT(text, ::testing::ContainsRegex("pass 4[0-9], radius 0\\.[0-9]+, error about "));
+    const Outcome piped = argand(render + "-o piped.exr", on_host);
+    ASSERT_EQ(piped.exit_code, 0);
+    EXPECT_EQ(piped.error, "");
+    EXPECT_EQ(read_text(file("shown.exr")), read_text(file("piped.exr")));
 }
 
 TEST_F(Outputs, ReportSaysNullOfWhatThereIsNot) {

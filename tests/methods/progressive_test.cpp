@@ -2,6 +2,7 @@
 // them.
 #include "rendering.hpp"
 
+#include "methods/photon_numbers.hpp"
 #include "methods/plan_render.hpp"
 #include "photon/map_queries.hpp"
 #include "shared/photon.h"
@@ -144,14 +145,18 @@ TEST_F(Progressive, EveryWidthFollowsTheLawAndResumesWithTheSameBits) {
         while (const std::optional<PassPlan> plan = session.next_pass()) {
             ASSERT_TRUE(session.step(*plan, proceed));
             const RenderStatistics now = widths(session);
-            const auto pass = static_cast<double>(session.passes());
+            const std::uint64_t before =
+                results.empty() ? 0 : results.rbegin()->second.statistics.photons_emitted;
+            const double photons = static_cast<double>(now.photons_emitted - before) / 1'000;
             first = session.passes() == 1 ? now : first;
-            const double by = std::pow(pass, -0.2);
+            const double by = std::pow(static_cast<double>(now.photons_emitted) / 1'000, -0.2);
             EXPECT_EQ(now.radius, first.radius * by);
             EXPECT_EQ(now.caustic_radius, first.caustic_radius * by);
             EXPECT_EQ(now.smoothing, first.smoothing * by);
-            EXPECT_EQ(now.neighbours, std::max(std::round(first.neighbours * by * by),
+            EXPECT_EQ(now.neighbours, std::max(std::round(first.neighbours * by * by * photons),
                                                std::min<double>(8, first.neighbours)));
+            EXPECT_EQ(photons > 1,
+                      session.passes() > 1 && now.neighbours > 0 && first.neighbours * by * by < 8);
             states[session.passes()] = session.save();
             results[session.passes()] = session.result();
         }
@@ -168,6 +173,165 @@ TEST_F(Progressive, EveryWidthFollowsTheLawAndResumesWithTheSameBits) {
             }
             EXPECT_EQ(other.passes(), 9u);
         }
+    }
+}
+
+TEST(PhotonNumbers, PassesOfAnySizeTakeEachNumberOfASeedOnce) {
+    PhotonNumbers numbers;
+    std::map<std::uint32_t, std::uint64_t> next; // by the seed of photons
+    std::uint32_t seeds_of_five = 0;
+    for (std::uint64_t pass = 0; pass < 30; ++pass) {
+        const std::uint64_t count = 1'000'000'000 + 7 * pass * pass;
+        const PhotonPass photons = numbers.next(5, count);
+        EXPECT_EQ(photons.count, count);
+        EXPECT_LE(photons.first + count, 0xffffffffu);
+        seeds_of_five += next.count(photons.seed) == 0 ? 1 : 0;
+        EXPECT_EQ(photons.first, next[photons.seed]);
+        next[photons.seed] = photons.first + count;
+    }
+    EXPECT_EQ(next.count(5), 1u);
+    EXPECT_EQ(seeds_of_five, 8u); // four passes each
+    const PhotonPass other = numbers.next(6, 10);
+    EXPECT_EQ(other.seed, 6u);
+    EXPECT_EQ(other.first, 0u);
+    Archive saved;
+    numbers.persist(saved);
+    const std::vector<std::uint8_t> bytes = std::move(saved).take_bytes();
+    PhotonNumbers loaded;
+    Archive archive(bytes);
+    loaded.persist(archive);
+    for (const std::uint32_t seed : {5u, 6u, 7u}) {
+        const PhotonPass a = numbers.next(seed, 10), b = loaded.next(seed, 10);
+        EXPECT_EQ(a.seed, b.seed);
+        EXPECT_EQ(a.first, b.first);
+    }
+}
+
+// With k(n) = k1 m / n1 (n / n1)^(-2a), where m photons of the pass's n1 in the first one.
+TEST_F(Progressive, PassesGrowWhereKIsAtItsLeast) {
+    const Scene scene = room_scene();
+    World world(device(), scene);
+    RenderSettings settings = settings_of("knn", 6, 1);
+    settings.photons = 400;
+    settings.photons_per_pass = 400;
+    settings.neighbours = 24;
+    settings.progressive = {.on = true, .first_radius = 0.9, .exponent = 0.25, .passes = 40};
+    Session session(world, scene, settings);
+    session.begin_frame(settings.seed);
+    std::map<std::uint64_t, std::vector<std::uint8_t>> states;
+    std::map<std::uint64_t, RenderResult> results;
+    std::uint64_t before = 0;
+    double last = 1;
+    while (const std::optional<PassPlan> plan = session.next_pass()) {
+        ASSERT_TRUE(session.step(*plan, proceed));
+        const RenderStatistics now = widths(session);
+        const double n = static_cast<double>(now.photons_emitted) / 400;
+        const double m = static_cast<double>(now.photons_emitted - before) / 400;
+        const double k = 24 * m / std::sqrt(n);
+        if (n <= 9) { // 24 / √9 = 8
+            EXPECT_EQ(m, 1);
+        } else {
+            EXPECT_GE(m, last);
+            EXPECT_LE(m, 8); // times photons_per_pass, at most
+            EXPECT_TRUE(m == 8 || std::abs(k - 8) < 0.05) << m << ", " << k;
+        }
+        EXPECT_EQ(now.neighbours, std::max(std::round(k), 8.0));
+        EXPECT_EQ(now.radius, 0.9 * std::pow(n, -0.25));
+        before = now.photons_emitted;
+        last = m;
+        states[session.passes()] = session.save();
+        results[session.passes()] = session.result();
+    }
+    // dn/di = n1/3 √(n/n1): √n grows by 1/6 a pass after the ninth.
+    EXPECT_NEAR(std::sqrt(static_cast<double>(before) / 400), 3 + 31.0 / 6, 0.1);
+    for (const std::uint64_t passes : {9, 30}) {
+        Session other(world, scene, settings);
+        other.resume(states[passes], settings.seed);
+        while (const std::optional<PassPlan> plan = other.next_pass()) {
+            ASSERT_TRUE(other.step(*plan, proceed));
+            const RenderResult& whole = results[other.passes()];
+            EXPECT_TRUE(same_bits(other.result(), whole)) << other.passes();
+            EXPECT_EQ(other.result().statistics.photons_emitted, whole.statistics.photons_emitted);
+            EXPECT_EQ(other.result().statistics.flux.emitted, whole.statistics.flux.emitted);
+        }
+    }
+    session.begin_frame(settings.seed); // with the memory of the large passes
+    for (const std::uint64_t passes : {1, 2}) {
+        ASSERT_TRUE(session.step(*session.next_pass(), proceed));
+        EXPECT_TRUE(same_bits(session.result(), results[passes]));
+        EXPECT_EQ(session.result().statistics.flux.emitted,
+                  results[passes].statistics.flux.emitted);
+    }
+    settings.progressive.passes = 140;
+    Session longer(world, scene, settings);
+    longer.resume(states[40], settings.seed);
+    while (const std::optional<PassPlan> plan = longer.next_pass()) {
+        before = widths(longer).photons_emitted;
+        ASSERT_TRUE(longer.step(*plan, proceed));
+    }
+    EXPECT_EQ(widths(longer).photons_emitted - before, 8u * 400u);
+    EXPECT_EQ(widths(longer).neighbours, 8u);
+}
+
+TEST_F(Progressive, PassesGrowNoLargerThanTheDeviceStores) {
+    Device& small = open({"small", "", "storage_range=1MiB"}); // 32,768 photons
+    const Scene scene = room_scene();
+    World world(small, scene);
+    RenderSettings settings = settings_of("knn", 6, 1);
+    settings.photons = 1'500;
+    settings.neighbours = 2; // as is the least
+    settings.progressive = {.on = true, .first_radius = {}, .exponent = 0.45, .passes = 12};
+    Session session(world, scene, settings);
+    session.begin_frame(settings.seed);
+    std::vector<std::uint64_t> emitted{0}, stored{0};
+    while (const std::optional<PassPlan> plan = session.next_pass()) {
+        ASSERT_TRUE(session.step(*plan, proceed));
+        emitted.push_back(widths(session).photons_emitted);
+        stored.push_back(widths(session).photons_stored);
+    }
+    ASSERT_EQ(emitted.size(), 13u);
+    EXPECT_EQ(emitted[12] - emitted[11], emitted[11] - emitted[10]);
+    EXPECT_GT(emitted[12] - emitted[11], 4u * 1'500);
+    EXPECT_GT(stored[12] - stored[11], 32'768 / 3);
+    EXPECT_LE(stored[12] - stored[11], 32'768u);
+}
+
+// Below the room lie 2,000 m². Once the radius has fallen, samples of all areas would be too few;
+// then they lie in the room only.
+TEST_F(Progressive, EdgesAreCorrectedHoweverSmallTheRadius) {
+    const Scene room = room_scene();
+    Scene above_ground = room;
+    add_floor(above_ground, 22.4f, -3, add_material(above_ground, lambertian(glm::vec3(0.5f))));
+    RenderSettings settings = settings_of("progressive", 24, 4);
+    settings.photons = 20'000;
+    settings.progressive = {.on = true, .first_radius = 0.3, .exponent = 0.25};
+    const PassPlan wide{.expected = 1, .keeps_width = true};
+    const PassPlan narrow{.expected = 100, .keeps_width = true};
+
+    World room_alone(device(), room);
+    Session expected(room_alone, room, settings);
+    expected.begin_frame(0);
+    World world(device(), above_ground);
+    Session session(world, above_ground, settings);
+    session.begin_frame(0);
+    std::vector<std::vector<std::uint8_t>> states;
+    for (const PassPlan& plan : {wide, narrow, narrow}) {
+        expected.step(plan, proceed);
+        session.step(plan, proceed);
+        states.push_back(session.save());
+    }
+    const glm::dvec3 all = mean(layer(expected.result(), "indirect"));
+    const RenderResult result = session.result();
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_RELATIVE(mean(layer(result, "indirect"))[channel], all[channel], 0.01);
+    }
+    for (const std::size_t passes : {1, 2}) { // before the decision, and after it
+        Session other(world, above_ground, settings);
+        other.resume(states[passes - 1], 0);
+        for (std::size_t i = passes; i < 3; ++i) {
+            other.step(narrow, proceed);
+        }
+        EXPECT_TRUE(same_bits(other.result(), result)) << passes;
     }
 }
 
@@ -209,25 +373,20 @@ struct Start {
     double radius;
 };
 
-class ProgressiveError : public Progressive, public ::testing::WithParamInterface<Start> {
+class ProgressiveErrors : public Progressive {
 protected:
-    static constexpr std::uint64_t most_passes = 256;
     static constexpr std::uint32_t seeds = 8;
 
-    std::vector<ErrorAfter> errors(const Scene& scene) {
-        RenderSettings truth = settings_of("path", 12, 8192);
+    /// Of one bounce of light. settings.progressive.passes: a power of 2.
+    std::vector<ErrorAfter> errors(const Scene& scene, RenderSettings settings) {
+        RenderSettings truth = settings_of("path", settings.width, 8192);
         truth.bounces = 1;
         truth.seed = 101;
         const Image a = layer(render(scene, truth), "indirect");
         truth.seed = 202;
         const Image b = layer(render(scene, truth), "indirect");
-        RenderSettings settings = settings_of("progressive", 12, 1);
-        settings.photons = 400;
         settings.bounces = truth.bounces;
         settings.photon_sampling = Sampling::random; // passes are independent
-        settings.disc = {.uniform_kernel = true, .ball = true};
-        settings.progressive.first_radius = GetParam().radius;
-        settings.progressive.passes = most_passes;
         World world(device(), scene);
         Session session(world, scene, settings);
         std::map<std::uint64_t, std::vector<Image>> images;
@@ -248,10 +407,15 @@ protected:
             }
             const double variance = rel_variance(of_seeds, a, b);
             found.push_back({static_cast<double>(passes), variance, error - variance});
+            RecordProperty(std::to_string(passes),
+                           fmt::format("variance {:.4g}, squared bias {:.4g}", variance,
+                                       found.back().squared_bias));
         }
         return found;
     }
 };
+
+class ProgressiveError : public ProgressiveErrors, public ::testing::WithParamInterface<Start> {};
 
 /// Least-squares slope of log variance over log passes.
 double slope_of_noise(const std::vector<ErrorAfter>& errors) {
@@ -270,16 +434,30 @@ double slope_of_noise(const std::vector<ErrorAfter>& errors) {
 // Variance of density goes with one over the photons and one over the disc's area: n^(-1 + 2a) for
 // a = 1/4. Bias falls, because the discs shrink.
 TEST_P(ProgressiveError, SlowFallsAsTheLawSays) {
-    const std::vector<ErrorAfter> found = errors(load_asset(GetParam().scene));
+    RenderSettings settings = settings_of("progressive", 12, 1);
+    settings.photons = 400;
+    settings.disc = {.uniform_kernel = true, .ball = true};
+    settings.progressive.first_radius = GetParam().radius;
+    settings.progressive.passes = 256;
+    const std::vector<ErrorAfter> found = errors(load_asset(GetParam().scene), settings);
     ASSERT_EQ(found.size(), 5u);
-    for (const ErrorAfter& e : found) {
-        RecordProperty(
-            std::to_string(int(e.passes)),
-            fmt::format("variance {:.4g}, squared bias {:.4g}", e.variance, e.squared_bias));
-    }
     EXPECT_NEAR(slope_of_noise(found), -0.5, 0.07);
     EXPECT_GT(found.front().squared_bias, 0);
     EXPECT_LT(found.back().squared_bias, 0.6 * found.front().squared_bias);
+}
+
+// From the second pass on k is 8 and passes grow: n rises as the square of the passes i. Each pass
+// has the same noise, so variance falls as 1/i. Bias goes on falling with n.
+TEST_F(ProgressiveErrors, SlowFallWithPassesThatGrow) {
+    RenderSettings settings = settings_of("knn", 12, 1);
+    settings.photons = 100;
+    settings.neighbours = 8;
+    settings.progressive = {.on = true, .first_radius = {}, .exponent = 0.25, .passes = 128};
+    const std::vector<ErrorAfter> found = errors(load_asset("cornell_area.glb"), settings);
+    ASSERT_EQ(found.size(), 4u);
+    EXPECT_NEAR(slope_of_noise(found), -1, 0.2);
+    EXPECT_GT(found.back().squared_bias, 0);
+    EXPECT_LT(found.back().squared_bias, 0.3 * found.front().squared_bias);
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, ProgressiveError,

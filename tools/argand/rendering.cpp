@@ -1,5 +1,6 @@
 #include "rendering.hpp"
 
+#include "autotune/running_error.hpp"
 #include "backend_options.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
@@ -64,10 +65,42 @@ std::uint32_t samples_per_pass(const PictureSize& size) {
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
 }
 
+/// What a user who watches the passes of a picture is told.
+class Watched {
+public:
+    /// law: of a progressive picture, of which the error is estimated; none: it is not.
+    Watched(Session& session, const std::optional<ErrorLaw>& law) : session_(session), law_(law) {}
+
+    /// Call before the first pass, and after each one.
+    void between_passes() {
+        if (!law_) {
+            return;
+        }
+        if (!error_) {
+            error_.emplace(*law_, session_.passes());
+        }
+        if (session_.passes() == error_->next()) {
+            error_->add(session_.layers());
+        }
+    }
+
+    std::string describe() const {
+        const std::optional<double> error =
+            error_ ? error_->after(session_.passes()) : std::nullopt;
+        return error ? fmt::format("{}, error about {:.2g}", session_.describe(), *error)
+                     : session_.describe();
+    }
+
+private:
+    Session& session_;
+    std::optional<ErrorLaw> law_;
+    std::optional<RunningError> error_;
+};
+
 /// Renders an image, or the rest of one, with checkpoints. An interrupted render ends with a whole
 /// pass, which is saved.
 RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progress,
-                                     std::vector<std::string>& notes) {
+                                     Watched& watched, std::vector<std::string>& notes) {
     const RenderOptions& options = job.options;
     Session& session = *job.session;
     const MethodInfo& method = options.methods.at(job.settings.method);
@@ -79,6 +112,11 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         session.resume(loaded.state, job.settings.seed);
         if (loaded.note) {
             notes.push_back(*loaded.note);
+        }
+        if (session.share(0) > 1) {
+            notes.push_back(fmt::format("'{}' holds {} passes, more than --passes asks for; the "
+                                        "picture has all of them",
+                                        options.resume, session.passes()));
         }
     }
     bool can_save = !options.checkpoint.empty();
@@ -116,6 +154,7 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
             return true;
         },
         [&](const PictureSoFar& so_far) {
+            watched.between_passes();
             std::optional<PassPlan> plan = session.next_pass();
             stopped = plan && interrupted();
             if (stopped) {
@@ -133,7 +172,7 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
     return result;
 }
 
-RenderResult render_image(RenderJob& job, const OnProgress& on_progress) {
+RenderResult render_image(RenderJob& job, const OnProgress& on_progress, Watched& watched) {
     if (job.shutter) {
         return render_through(*job.session, *job.world, job.scene, *job.shutter, job.settings.seed,
                               on_progress);
@@ -141,7 +180,10 @@ RenderResult render_image(RenderJob& job, const OnProgress& on_progress) {
     if (!job.session->is_current(job.settings.seed)) {
         job.session->begin_frame(job.settings.seed);
     }
-    return finish(*job.session, on_progress);
+    return finish(*job.session, on_progress, [&](const PictureSoFar&) {
+        watched.between_passes();
+        return job.session->next_pass();
+    });
 }
 
 Rendered render_on(RenderJob& job, const std::string& work) {
@@ -151,8 +193,15 @@ Rendered render_on(RenderJob& job, const std::string& work) {
     }
     World& world = *job.world;
     std::optional<Progress> progress;
+    std::optional<Watched> watched;
     const OnProgress on_progress = [&](double done) {
-        progress->update(done, job.session ? job.session->describe() : "");
+        if (watched) {
+            // With --budget, time decides, not the passes that are expected.
+            progress->update(job.settings.budget ? job.session->share(0) : done,
+                             watched->describe());
+        } else {
+            progress->update(done);
+        }
         return !interrupted();
     };
     if (!is_autotuned(options, job.command)) {
@@ -161,12 +210,16 @@ Rendered render_on(RenderJob& job, const std::string& work) {
             job.session =
                 std::make_unique<Session>(world, job.scene, job.settings, options.methods);
         }
+        const MethodInfo& method = options.methods.at(job.settings.method);
+        watched.emplace(*job.session, progress->is_shown() && is_progressive(method, job.settings)
+                                          ? std::optional(law_of(method, job.settings))
+                                          : std::nullopt);
         if (has_checkpoints(options)) {
             Rendered rendered{.result = {}, .settings = job.settings, .tuned = {}, .notes = {}};
-            rendered.result = render_with_checkpoints(job, on_progress, rendered.notes);
+            rendered.result = render_with_checkpoints(job, on_progress, *watched, rendered.notes);
             return rendered;
         }
-        return {.result = render_image(job, on_progress),
+        return {.result = render_image(job, on_progress, *watched),
                 .settings = job.settings,
                 .tuned = {},
                 .notes = {}};
