@@ -113,7 +113,8 @@ TEST(Witness, GrowsByIndependentPassesOfBothHalves) {
     EXPECT_TRUE(witness.truth());
     EXPECT_NEAR(witness.variance_per_pass(exact(0)) * 1.01 * true_radiance * true_radiance, 1, 0.1);
     // The unbiased method adds to pictures that exist.
-    witness.add({.whole = {exact(1), exact(1)}, .estimated = {exact(1), exact(1)}}, 32, 1);
+    const ImagePair bright{exact(1), exact(1)};
+    witness.add({.whole = bright, .estimated = bright, .caustic = bright}, 32, 1);
     EXPECT_EQ(witness.passes(), 16);
     EXPECT_NEAR(witness.images()->whole[0].pixels[0].r, true_radiance + 0.5, 1.5);
 }

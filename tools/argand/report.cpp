@@ -162,6 +162,8 @@ Json autotune_report(const AutotunedRender& render, MethodTable methods) {
             {"noise", render.measured ? Json(render.measured->noise) : Json()},
             {"squared_bias", render.measured ? Json(render.measured->bias.value) : Json()},
             {"witness", render.witness.empty() ? Json() : Json(render.witness)},
+            {"witness_of_caustics",
+             render.witness_of_caustics.empty() ? Json() : Json(render.witness_of_caustics)},
             {"witness_seconds", render.witness_seconds},
             {"reached", target.error ? Json(render.reached()) : Json()}};
 }
