@@ -5,6 +5,7 @@
 #include "methods/bandwidth.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_targets.hpp"
+#include "methods/photons_in_view.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
@@ -77,6 +78,7 @@ struct ImageState {
     std::uint64_t paths = 0; ///< of photons, also those that the dark has not emitted
     // Of the first pass.
     std::uint64_t first_paths = 0;
+    double in_view = 0; ///< photons stored in view per photon emitted
 };
 
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
@@ -104,6 +106,7 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.photons_stored);
     archive.value(image.paths);
     archive.value(image.first_paths);
+    archive.value(image.in_view);
 }
 
 class PhotonMapping : public Method {
@@ -142,6 +145,7 @@ public:
             sample_areas_in_view(queries, strategy_->typical_radius(learnt));
             return learnt;
         });
+        image_.in_view = in_view_per_emitted(queries);
     }
 
     std::uint64_t passes() const override {
@@ -169,6 +173,7 @@ private:
     StoredPhotons trace_first(Budget& budget);
     std::uint64_t wanted_area_samples(double radius) const;
     double evenness_in_view();
+    double in_view_per_emitted(std::span<const glm::vec4> queries);
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
@@ -244,9 +249,10 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     }
 }
 
-/// Records from all over the slots of a pass: its bounces follow one another there.
-std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots) {
-    constexpr std::uint64_t runs = 64, in_run = 4096;
+/// Records from all over the slots of a pass, in this many runs: its bounces follow one another
+/// there.
+std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots,
+                                       std::uint64_t runs, std::uint64_t in_run) {
     if (slots <= runs * in_run) {
         return download<PhotonRecord>(device, photons, slots);
     }
@@ -274,7 +280,8 @@ double PhotonMapping::evenness_in_view() {
     double count = 0;
     double sum = 0;
     double squares = 0;
-    for (const PhotonRecord& photon : some_photons(c_.device, photons_.photons, first_->slots)) {
+    for (const PhotonRecord& photon :
+         some_photons(c_.device, photons_.photons, first_->slots, 64, 4096)) {
         if (photon.normal == no_photon) {
             continue;
         }
@@ -291,6 +298,16 @@ double PhotonMapping::evenness_in_view() {
         }
     }
     return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
+}
+
+double PhotonMapping::in_view_per_emitted(std::span<const glm::vec4> queries) {
+    if (first_->emitted == 0) {
+        return 0;
+    }
+    const double share = share_in_view(
+        some_photons(c_.device, photons_.photons, first_->slots, 16, 512), queries,
+        c_.scene.cameras[c_.settings.camera], double(c_.settings.width) / c_.settings.height);
+    return share * static_cast<double>(first_->photons) / static_cast<double>(first_->emitted);
 }
 
 /// Samples areas only where most of what is in view lies, if the radius needs more samples than
@@ -406,6 +423,7 @@ std::string PhotonMapping::describe_pass() const {
 void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.photons_emitted;
     statistics.photons_stored = image_.photons_stored;
+    statistics.photons_in_view = image_.in_view * static_cast<double>(image_.photons_emitted);
     statistics.radius = image_.bandwidth.radii.indirect;
     statistics.caustic_radius = image_.bandwidth.radii.caustic;
     statistics.neighbours = image_.bandwidth.neighbours;
