@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "methods/plan_render.hpp"
 #include "plan/plan.hpp"
 
 #include <algorithm>
@@ -103,12 +104,15 @@ private:
         tuned_.pilot_seconds = seconds_since(start_);
         on_pick_(tuned_);
         call_witness();
-        control_.emplace(target, tuned_.candidates.front(), witness_ ? &*witness_ : nullptr,
-                         pilots_.with_unbiased(), tuned_.pilot_seconds);
+        const Witnesses witnesses{.picture = witness_ ? &*witness_ : nullptr,
+                                  .caustics = caustic_witness_ ? &*caustic_witness_ : nullptr};
+        control_.emplace(target, tuned_.candidates.front(), witnesses, pilots_.with_unbiased(),
+                         tuned_.pilot_seconds);
     }
 
-    /// Prepares the witness of the best candidate, if it has bias: the unbiased method, or where
-    /// that misses light, the candidate itself with narrow bandwidths.
+    /// Prepares the witnesses of the best candidate, if it has bias: the unbiased method, and for
+    /// caustics, which that finds by rare paths, narrow passes of the candidate itself. Where the
+    /// unbiased method misses light, they judge all.
     void call_witness() {
         const MethodInfo* unbiased = tuned_.target.methods.unbiased();
         if (best_is_unbiased()) {
@@ -116,6 +120,11 @@ private:
         }
         if (unbiased && exploration_.eye_paths_find_all) {
             witness_.emplace(render_, *unbiased, exploration_.short_pass(*unbiased));
+            if (plan_render(scene_, best().settings, tuned_.target.methods)
+                    .needs(Feature::caustics)) {
+                caustic_witness_.emplace(render_, tuned_.target.methods.at(best().settings.method),
+                                         best().settings, times_passes_of_caustics);
+            }
         } else {
             witness_.emplace(render_, tuned_.target.methods.at(best().settings.method),
                              best().settings);
@@ -132,6 +141,10 @@ private:
             return;
         }
         tuned_.witness_seconds = witness_->seconds();
+        if (caustic_witness_ && caustic_witness_->images()) {
+            tuned_.witness_seconds += caustic_witness_->seconds();
+            tuned_.witness_of_caustics = caustic_witness_->pass().method;
+        }
         // The result of a render that went on with the witness's method has no bias to judge.
         const bool is_judged = tuned_.measured && tuned_.measured->testimony;
         if (is_judged || tuned_.outcome == RunOutcome::unconfirmed) {
@@ -146,7 +159,7 @@ private:
         tuned_.candidates.insert(tuned_.candidates.begin(), control_->of_witness());
         tuned_.settings = tuned_.candidates.front().settings;
         on_pick_(tuned_);
-        control_.emplace(tuned_.target, tuned_.candidates.front(), nullptr, false,
+        control_.emplace(tuned_.target, tuned_.candidates.front(), Witnesses(), false,
                          seconds_since(start_));
         tuned_.result = render_(tuned_.settings, std::ref(*control_));
     }
@@ -170,8 +183,9 @@ private:
     const OnPick& on_pick_;
     Clock::time_point start_;
     AutotunedRender tuned_;
-    std::optional<Witness> witness_;    ///< of the final render, if its method has bias
-    std::optional<RunControl> control_; ///< of the final render, once it is picked
+    std::optional<Witness> witness_;         ///< of the final render, if its method has bias
+    std::optional<Witness> caustic_witness_; ///< if eye paths find caustics, but only rarely
+    std::optional<RunControl> control_;      ///< of the final render, once it is picked
 };
 
 } // namespace

@@ -22,7 +22,8 @@ struct AutotunedRender {
     std::optional<MeasuredError> measured; ///< of the result; none: it has too few passes
     RunOutcome outcome = RunOutcome::unfinished;
     std::string witness; ///< the method that judged the result's bias; empty: none was needed
-    double witness_seconds = 0;
+    std::string witness_of_caustics; ///< the method whose narrow passes judged these; or empty
+    double witness_seconds = 0;      ///< of both
 
     /// Whether the result has the target error, as far as a witness can tell.
     bool reached() const { return outcome == RunOutcome::reached; }
@@ -38,11 +39,11 @@ bool is_blind_to_caustics(const Scene& scene);
 /// Renders with the method and the numbers of photons and samples that reach the target error
 /// soonest, or have the least error within the time budget. Chooses from short pilots of this scene
 /// on this device. A render reaches an error when its measured noise plus its expected squared bias
-/// is no larger, and a witness confirms it: pictures by the unbiased method, or passes with narrow
-/// bandwidths where that method is blind. If a witness finds more bias than expected, or the render
-/// takes far more passes than expected, and the unbiased method is faster for that, the render
-/// starts again with it. Throws Error if no method is expected to reach the error within
-/// `default_time_limit` and the target has no budget.
+/// is no larger, and a witness confirms it: pictures by the unbiased method, and passes with narrow
+/// bandwidths for caustics, or for all light where that method is blind. If a witness finds more
+/// bias than expected, or the render takes far more passes than expected, and the unbiased method
+/// is faster for that, the render starts again with it. Throws Error if no method is expected to
+/// reach the error within `default_time_limit` and the target has no budget.
 AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
                          const UserSet& user_set, const Target& target, const OnPick& on_pick);
 

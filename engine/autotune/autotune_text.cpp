@@ -27,9 +27,12 @@ std::string describe_target(const AutotunedRender& render) {
     }
     std::string judge;
     if (!render.witness.empty()) {
-        judge = render.witness_seconds > 0
-                    ? fmt::format(" by '{}' in {:.2g} s", render.witness, render.witness_seconds)
-                    : fmt::format(" by '{}' of the pilots", render.witness);
+        judge = fmt::format(" by '{}'", render.witness);
+        if (!render.witness_of_caustics.empty()) {
+            judge += fmt::format(" and, of caustics, narrow '{}'", render.witness_of_caustics);
+        }
+        judge += render.witness_seconds > 0 ? fmt::format(" in {:.2g} s", render.witness_seconds)
+                                            : " of the pilots";
     }
     switch (render.outcome) {
     case RunOutcome::reached:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace argand {
@@ -19,9 +20,11 @@ constexpr double lost_by_smoothing = 2.5, spread_of_loss = 0.5;
 // Ordinary noise is seldom as large.
 constexpr float most_over_darker = 1.2f;
 
-/// The mean of all values. Its error follows from the means of 8 × 8 tiles of the image, because
-/// neighbouring pixels share photons and are not independent.
-Estimate mean_of_tiles(const std::vector<double>& values, int width, int height) {
+// The lesser of the squares of two normal numbers is 1 - 2/pi of the variance on average.
+constexpr double least_of_two = 1 - 2 / std::numbers::pi;
+
+/// Mean of the values of each of 8 × 8 tiles.
+std::vector<double> tile_means(const std::vector<double>& values, int width, int height) {
     constexpr int side = 8;
     std::array<double, side * side> sums{}, counts{};
     for (int y = 0; y < height; ++y) {
@@ -35,21 +38,37 @@ Estimate mean_of_tiles(const std::vector<double>& values, int width, int height)
             ++counts[tile];
         }
     }
-    double sum = 0, squares = 0, tiles = 0;
+    std::vector<double> means;
+    means.reserve(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         if (counts[i] > 0) {
-            const double mean = sums[i] / counts[i];
-            sum += mean;
-            squares += mean * mean;
-            ++tiles;
+            means.push_back(sums[i] / counts[i]);
         }
     }
-    Estimate estimate{.value = sum / tiles};
-    if (tiles > 1) {
-        const double variance = std::max(squares / tiles - estimate.value * estimate.value, 0.0);
-        estimate.error = std::sqrt(variance / (tiles - 1));
+    return means;
+}
+
+/// The mean over the picture of the product of a[0] - b[0] and a[1] - b[1], divided as in relMSE.
+/// Half the difference of their squares differs from the product by the signs of their noise only:
+/// its variance is that of the product, but its mean is 0, however much the product differs from
+/// place to place. So it tells the noise. Neighbouring pixels share photons, but tiles are
+/// independent, unless all of the picture shares them.
+Estimate mean_product(const ImagePair& a, const ImagePair& b, const Image& reference) {
+    const auto of_tiles = [&](std::size_t i, std::size_t j) {
+        return tile_means(rel_products(a[i], b[i], a[j], b[j], reference), reference.width,
+                          reference.height);
+    };
+    const std::vector<double> products = of_tiles(0, 1), first = of_tiles(0, 0),
+                              second = of_tiles(1, 1);
+    const auto tiles = static_cast<double>(products.size());
+    const double value = std::accumulate(products.begin(), products.end(), 0.0) / tiles;
+    double squares = 0;
+    for (std::size_t i = 0; i < products.size(); ++i) {
+        const double swapped = 0.5 * (first[i] - second[i]);
+        const double spread = products[i] - value;
+        squares += std::min(swapped * swapped, spread * spread);
     }
-    return estimate;
+    return {value, std::sqrt(squares / least_of_two) / tiles};
 }
 
 } // namespace
@@ -105,15 +124,12 @@ double Posterior::probability_below(double most) const {
 
 std::array<Estimate, 2> squared_difference(const ImagePair& a, const ImagePair& b,
                                            const Image& reference) {
-    const auto difference = [&](auto smooth) {
-        return mean_of_tiles(
-            rel_products(smooth(a[0]), smooth(b[0]), smooth(a[1]), smooth(b[1]), reference),
-            reference.width, reference.height);
+    const auto twice_smoothed = [](const ImagePair& images) {
+        return ImagePair{smoothed(smoothed(images[0])), smoothed(smoothed(images[1]))};
     };
-    const Estimate smooth =
-        difference([](const Image& image) { return smoothed(smoothed(image)); });
+    const Estimate smooth = mean_product(twice_smoothed(a), twice_smoothed(b), reference);
     const double value = lost_by_smoothing * smooth.value;
-    return {difference([](const Image& image) { return image; }),
+    return {mean_product(a, b, reference),
             Estimate{value, std::hypot(lost_by_smoothing * smooth.error, spread_of_loss * value)}};
 }
 

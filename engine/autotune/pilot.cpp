@@ -48,22 +48,26 @@ std::optional<PassPlan> PilotControl::operator()(const PictureSoFar& so_far) {
 /// Adds the images of a pass. Images that are still missing repeat the existing ones.
 void PilotControl::add(const PictureSoFar& so_far) {
     const std::vector<Layer> layers = so_far.layers();
-    const Image &mean = layers.front().image, estimated = estimated_light(layers);
+    const Image &mean = layers.front().image, estimated = estimated_light(layers),
+                caustic = caustic_light(layers);
     const auto others = static_cast<double>(so_far.passes - 1);
     const bool is_reduced = so_far.passes > initial_pilot_passes;
     const std::size_t stream = (so_far.passes - 1) % 2;
     PilotImages& images = is_reduced ? pilot_.reduced : pilot_.initial;
     images.whole[stream] = last_pass_of(mean, before_, others);
     images.estimated[stream] = last_pass_of(estimated, estimated_before_, others);
+    images.caustic[stream] = last_pass_of(caustic, caustic_before_, others);
     if (so_far.passes == 1) {
         images.whole[1] = images.whole[0];
         images.estimated[1] = images.estimated[0];
+        images.caustic[1] = images.caustic[0];
     }
     if (!is_reduced) {
         pilot_.reduced = pilot_.initial;
     }
     before_ = mean;
     estimated_before_ = estimated;
+    caustic_before_ = caustic;
     pilot_.passes = so_far.passes;
     pilot_.seconds = seconds_since(start_);
     pilot_.seconds_per_pass =
@@ -102,19 +106,24 @@ void PooledImages::add(const PilotImages& more, double samples_of_more, double s
         };
         include(images->whole, more.whole);
         include(images->estimated, more.estimated);
+        include(images->caustic, more.caustic);
     }
     samples += samples_of_more;
     seconds += seconds_of_more;
 }
 
 Image estimated_light(std::span<const Layer> layers) {
-    Image estimated = layers.front().image;
-    if (const Image* direct = find_layer(layers, "direct")) {
-        for (std::size_t i = 0; i < estimated.pixels.size(); ++i) {
-            estimated.pixels[i] -= direct->pixels[i];
-        }
+    const Image& whole = layers.front().image;
+    const Image* direct = find_layer(layers, "direct");
+    return direct ? weighted_sum(whole, 1, *direct, -1) : whole;
+}
+
+Image caustic_light(std::span<const Layer> layers) {
+    if (const Image* caustic = find_layer(layers, "caustic")) {
+        return *caustic;
     }
-    return estimated;
+    const Image& whole = layers.front().image;
+    return weighted_sum(whole, 0, whole, 0);
 }
 
 ErrorModel model_of(const Pilot& pilot, const ImagePair* truth, const Image& guess) {

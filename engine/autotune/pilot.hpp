@@ -17,6 +17,7 @@ inline constexpr double reduced_for_passes = 8;
 struct PilotImages {
     ImagePair whole;     ///< all light
     ImagePair estimated; ///< the light that is estimated from photons
+    ImagePair caustic;   ///< of that, caustics
 };
 
 /// The images of several renders with the same settings of a pass, pooled by their samples.
@@ -73,7 +74,7 @@ private:
     Clock::time_point start_;
     double seconds_before_ = 0; ///< at the start of the passes that are timed
     std::uint64_t passes_before_ = 0;
-    Image before_, estimated_before_;
+    Image before_, estimated_before_, caustic_before_;
 };
 
 /// The best guess of the true image, for the denominator of relMSE: guess_from() the least noisy
@@ -83,6 +84,9 @@ Image best_guess(std::span<const Pilot> pilots);
 /// The light that a method estimates from photons, the only light that has bias: all but direct
 /// light.
 Image estimated_light(std::span<const Layer> layers);
+
+/// The layer of caustics; black if there is none.
+Image caustic_light(std::span<const Layer> layers);
 
 /// Fits the pilot's error model. The squared bias combines three sources, each weighted by its
 /// uncertainty: the bias that is usual, the difference between the two bandwidths, and the

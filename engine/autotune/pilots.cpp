@@ -133,7 +133,8 @@ void Pilots::add_truth(const Pilot& unbiased) {
         return ImagePair{mean_of(a[0], b[0]), mean_of(a[1], b[1])};
     };
     truth_.add({.whole = mean(unbiased.initial.whole, unbiased.reduced.whole),
-                .estimated = mean(unbiased.initial.estimated, unbiased.reduced.estimated)},
+                .estimated = mean(unbiased.initial.estimated, unbiased.reduced.estimated),
+                .caustic = mean(unbiased.initial.caustic, unbiased.reduced.caustic)},
                samples, unbiased.seconds);
 }
 

@@ -19,21 +19,35 @@ constexpr double tolerance = 1.5;
 // Without a time budget a witness may take this many times as long as all else, and at least these
 // seconds.
 constexpr double most_of_witness = 2, seconds_of_witness = 2;
+// A render that could not be confirmed goes on to so many times the passes at most.
+constexpr double most_of_doubt = 2;
 // A render is overdue after so many times the promised passes, and at least these seconds.
 constexpr double most_of_promise = 2, least_overdue = 2;
+// Caustics that make up less than this share of the picture, as relMSE without them, need no
+// witness of their own.
+constexpr double least_caustics = 1e-4;
+
+ImagePair difference(const ImagePair& a, const ImagePair& b) {
+    return {weighted_sum(a[0], 1, b[0], -1), weighted_sum(a[1], 1, b[1], -1)};
+}
+
+bool are_worth_judging(const ImagePair& caustics, const Image& guess) {
+    const Image black = weighted_sum(guess, 0, guess, 0);
+    return squared_difference(caustics, {black, black}, guess)[0].value > least_caustics;
+}
 
 } // namespace
 
-RunControl::RunControl(const Target& target, const Candidate& candidate, Witness* witness,
+RunControl::RunControl(const Target& target, const Candidate& candidate, const Witnesses& witnesses,
                        bool may_switch, double spent)
-    : target_(target), candidate_(candidate), witness_(witness), may_switch_(may_switch),
-      spent_(spent), model_(candidate.model),
-      seconds_(target.seconds ? *target.seconds - spent : unlimited),
+    : target_(target), candidate_(candidate), witness_(witnesses.picture),
+      caustic_witness_(witnesses.caustics), may_switch_(may_switch), spent_(spent),
+      model_(candidate.model), seconds_(target.seconds ? *target.seconds - spent : unlimited),
       budget_(target.seconds ? std::optional(seconds_) : std::nullopt), start_(Clock::now()) {}
 
 void RunControl::continue_from(const Pilot& pilot) {
     inherited_passes_ = pilot.passes;
-    Image mean, estimated;
+    Image mean, estimated, caustic;
     for (std::uint64_t pass = 0; pass < inherited_passes_; ++pass) {
         const PilotImages& images = pass < initial_pilot_passes ? pilot.initial : pilot.reduced;
         const auto before = static_cast<double>(pass);
@@ -42,7 +56,8 @@ void RunControl::continue_from(const Pilot& pilot) {
         };
         mean = with(mean, images.whole);
         estimated = with(estimated, images.estimated);
-        add(mean, estimated);
+        caustic = with(caustic, images.caustic);
+        add(mean, estimated, caustic);
     }
 }
 
@@ -52,7 +67,8 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
         budget_.start_pass();
     } else if (so_far.passes == halves_.next()) {
         const std::vector<Layer> layers = so_far.layers();
-        add(layers.front().image, needs_estimated_light() ? estimated_light(layers) : Image());
+        add(layers.front().image, needs_estimated_light() ? estimated_light(layers) : Image(),
+            caustic_witness_ ? caustic_light(layers) : Image());
     }
     if (target_.error && measured_) {
         question();
@@ -109,22 +125,30 @@ bool RunControl::needs_estimated_light() const {
 }
 
 /// Adds the images at the end of a turn of the halves.
-void RunControl::add(const Image& mean_so_far, const Image& estimated_so_far) {
+void RunControl::add(const Image& mean_so_far, const Image& estimated_so_far,
+                     const Image& caustic_so_far) {
     halves_.add(mean_so_far);
     if (needs_estimated_light()) {
         estimated_.add(estimated_so_far);
+    }
+    if (caustic_witness_) {
+        caustic_.add(caustic_so_far);
     }
     if (halves_.both_have_passes()) {
         measure();
     }
 }
 
+Image RunControl::guess_of(const ImagePair& images) const {
+    return static_cast<double>(halves_.passes()) < passes_for_pixels
+               ? guess_from({smoothed(images[0]), smoothed(images[1])})
+               : guess_from(images);
+}
+
 void RunControl::measure() {
     const auto passes = static_cast<double>(halves_.passes());
     const ImagePair& means = halves_.means();
-    const Image guess = passes < passes_for_pixels
-                            ? guess_from({smoothed(means[0]), smoothed(means[1])})
-                            : guess_from(means);
+    const Image guess = guess_of(means);
     if (!std::isfinite(model_.fixed)) {
         // The pilot was too short to fit a model.
         const PilotImages images{means, estimated_.means()};
@@ -138,14 +162,8 @@ void RunControl::measure() {
         model_.initial_passes = initial_passes;
     }
     measured_ = {.passes = passes, .noise = halves_.noise(guess)};
-    const bool has_witness = witness_ && witness_->images() && target_.error;
-    if (has_witness) {
-        const Image seen = darkened_by(witness_->images()->whole, guess);
-        variance_of_witness_ = witness_->variance_per_pass(seen);
-        if (measured_->noise <= *target_.error) {
-            const double bias = std::sqrt(bias_share(model_.law, passes, model_.initial_passes));
-            measured_->testimony = witness_->testimony(means, bias, seen);
-        }
+    if (witness_ && witness_->images() && target_.error) {
+        hear_witnesses(guess);
     }
     measured_->bias = expected_bias(guess);
     is_doubtful_ = false;
@@ -153,6 +171,32 @@ void RunControl::measure() {
         is_doubtful_ = measured_->error() <= *target_.error;
         measured_->bias = judgement().bias();
     }
+}
+
+/// Sets the testimony, if the noise alone does not exceed the target error. guess: for the
+/// denominator of relMSE.
+void RunControl::hear_witnesses(const Image& guess) {
+    const ImagePair& means = halves_.means();
+    const PilotImages& seen = *witness_->images();
+    variance_of_witness_ = witness_->variance_per_pass(darkened_by(seen.whole, guess));
+    if (!(measured_->noise <= *target_.error)) {
+        return;
+    }
+    const double bias = std::sqrt(bias_share(model_.law, measured_->passes, model_.initial_passes));
+    judges_caustics_ = caustic_witness_ && are_worth_judging(caustic_.means(), guess);
+    if (!judges_caustics_ || !caustic_witness_->images()) {
+        measured_->testimony = witness_->testimony(means, bias, darkened_by(seen.whole, guess));
+        return;
+    }
+    const ImagePair &caustics = caustic_.means(), &narrow = caustic_witness_->images()->caustic;
+    const ImagePair others = difference(means, caustics),
+                    judges = difference(seen.whole, seen.caustic);
+    const Image sharp = sharpened_by(narrow, mean_of(caustics[0], caustics[1]));
+    const Image reference = weighted_sum(darkened_by(judges, guess_of(others)), 1, sharp, 1);
+    measured_->noise = halves_.noise(reference);
+    Testimony said = testimony_on(others, judges, 1, reference);
+    said.caustics = caustic_witness_->testimony_on_caustics(caustics, bias, reference);
+    measured_->testimony = said;
 }
 
 /// The bias that the error model expects and, as far as its noise allows, the truth about estimated
@@ -173,24 +217,26 @@ Judgement RunControl::judgement() const {
 /// confirms or refutes that, or has no more time.
 void RunControl::question() {
     while (measured_->error() <= *target_.error || is_doubtful_) {
+        doubted_since_ = doubted_since_ > 0 ? doubted_since_ : measured_->passes;
         if (!witness_) {
             outcome_ = RunOutcome::reached;
             return;
         }
-        double more = 0;
-        if (measured_->testimony) {
-            const Judgement now = judgement();
-            more = witness_->passes_missing();
-            if (more == 0 && now.verdict() == Verdict::confirmed &&
-                measured_->error() <= *target_.error) {
+        if (measured_->testimony && all_witnesses_have_spoken()) {
+            const Verdict verdict = judgement().verdict();
+            if (verdict == Verdict::confirmed && measured_->error() <= *target_.error) {
                 outcome_ = RunOutcome::reached;
             }
-            if (more == 0 && now.verdict() != Verdict::open) {
+            if (verdict != Verdict::open) {
                 return;
             }
-            more = std::max(more, (now.growth() - 1) * witness_->passes());
         }
-        if (!ask_witness(more)) {
+        const Request next = next_request();
+        if (!has_time_for(*next.witness)) {
+            outcome_ = may_go_on_in_doubt() ? RunOutcome::unfinished : RunOutcome::unconfirmed;
+            return;
+        }
+        if (!ask(next)) {
             outcome_ = RunOutcome::unconfirmed;
             return;
         }
@@ -198,13 +244,52 @@ void RunControl::question() {
     }
 }
 
-/// Renders more passes of the witness. Returns false if there is no time for them, or the user has
-/// interrupted it.
-bool RunControl::ask_witness(double passes) {
-    const double left = seconds_of_witness_left();
-    return left > 2 * witness_->seconds_per_pass() && budget_.once([&] {
-        return witness_->render_more(passes, left, std::max(expected_, measured_->passes));
+/// Whether to render more while the witness has no time, if that is not the end of the budget. A
+/// picture of less noise is easier to confirm, and where the picture may have too much error, more
+/// of it is an answer anyway.
+bool RunControl::may_go_on_in_doubt() const {
+    const bool speaks_against =
+        measured_->testimony && all_witnesses_have_spoken() && judgement().speaks_against();
+    return !target_.seconds && (speaks_against || measured_->error() > *target_.error ||
+                                measured_->passes < most_of_doubt * doubted_since_);
+}
+
+/// Whether the testimony counts: fewer passes may have missed rare paths, or all caustics.
+bool RunControl::all_witnesses_have_spoken() const {
+    return witness_->passes_missing() == 0 && !(judges_caustics_ && !caustic_witness_->images());
+}
+
+/// What is needed most to tell.
+RunControl::Request RunControl::next_request() const {
+    if (!measured_->testimony || witness_->passes_missing() > 0) {
+        return {witness_, witness_->images() ? witness_->passes_missing() : 0};
+    }
+    if (!all_witnesses_have_spoken()) {
+        return {caustic_witness_, 0};
+    }
+    const Judgement now = judgement();
+    Witness* noisier = now.caustics_are_in_doubt() ? caustic_witness_ : witness_;
+    return {noisier, (now.growth() - 1) * noisier->passes()};
+}
+
+bool RunControl::has_time_for(const Witness& witness) const {
+    // Kernels and the scene are set up anew for it: a short time is not worth that.
+    constexpr double least_share = 0.25;
+    return seconds_of_witness_left() >
+           std::max(2 * witness.seconds_per_pass(), least_share * witness.seconds());
+}
+
+/// Renders more passes of a witness. Returns false if the user has interrupted it.
+bool RunControl::ask(const Request& request) {
+    return budget_.once([&] {
+        return request.witness->render_more(request.passes, seconds_of_witness_left(),
+                                            std::max(expected_, measured_->passes));
     });
+}
+
+double RunControl::seconds_of_witnesses() const {
+    return (witness_ ? witness_->seconds() : 0) +
+           (caustic_witness_ ? caustic_witness_->seconds() : 0);
 }
 
 double RunControl::seconds_of_witness_left() const {
@@ -212,15 +297,13 @@ double RunControl::seconds_of_witness_left() const {
     if (target_.seconds) {
         return seconds_ - elapsed;
     }
-    const double others = spent_ + elapsed - witness_->seconds();
-    return std::min(std::max(most_of_witness * others, seconds_of_witness) - witness_->seconds(),
+    const double others = spent_ + elapsed - seconds_of_witnesses();
+    return std::min(std::max(most_of_witness * others, seconds_of_witness) - seconds_of_witnesses(),
                     default_time_limit - elapsed);
 }
 
-/// Seconds of the render so far, without those of its witness.
-double RunControl::own_seconds() const {
-    return seconds_since(start_) - (witness_ ? witness_->seconds() : 0);
-}
+/// Seconds of the render so far, without those of its witnesses.
+double RunControl::own_seconds() const { return seconds_since(start_) - seconds_of_witnesses(); }
 
 /// Whether the render takes so many more passes than promised that its error model is not to be
 /// believed. A pilot that rare bright photons have missed promises too much.
@@ -231,7 +314,7 @@ bool RunControl::is_overdue() const {
 /// Renders enough of an unbiased witness to know how long its method would take.
 void RunControl::complete_witness() {
     if (witness_ && witness_->is_unbiased() && witness_->passes_missing() > 0 &&
-        ask_witness(witness_->passes_missing())) {
+        has_time_for(*witness_) && ask({witness_, witness_->passes_missing()})) {
         measure();
     }
 }

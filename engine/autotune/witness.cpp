@@ -26,10 +26,7 @@ constexpr double least_usual = 1e-3;
 constexpr double exact = 0.2;
 // A witness usually can tell once its standard error is this share of what is to be confirmed.
 constexpr double telling = 0.6;
-// A narrow witness has the bandwidth of a render of so many times the passes: half the bandwidth.
-// Narrower ones see more of the bias, but their noise grows faster.
-constexpr double times_passes = 64;
-// It starts anew when it should have the bandwidth of so many times the passes.
+// A narrow witness starts anew when it should have the bandwidth of so many times the passes.
 constexpr double too_wide = 2;
 // Fewer unbiased passes may have missed all the rare bright paths that make up their noise.
 constexpr double least_passes = 8;
@@ -63,11 +60,19 @@ Testimony testimony_on(const ImagePair& picture, const ImagePair& witness, doubl
 
 Judgement::Judgement(const Prior& usual, const Testimony& testimony, double most)
     : testimony_(testimony), most_(most),
+      most_of_others_(most - testimony.caustics.value - testimony.caustics.error),
       posterior_(doubted(usual, most), std::array{testimony.pixels, testimony.smooth}) {}
 
 Verdict Judgement::verdict() const {
-    const double probability = posterior_.probability_below(most_);
-    if (testimony_.pixels.error < exact * most_) {
+    const Estimate& caustics = testimony_.caustics;
+    if (caustics.value - 2 * caustics.error > most_) {
+        return Verdict::refuted;
+    }
+    if (most_of_others_ <= 0) {
+        return Verdict::open;
+    }
+    const double probability = posterior_.probability_below(most_of_others_);
+    if (testimony_.pixels.error < exact * most_of_others_) {
         return probability > 0.5 ? Verdict::confirmed : Verdict::refuted;
     }
     return probability > confidence       ? Verdict::confirmed
@@ -75,11 +80,38 @@ Verdict Judgement::verdict() const {
                                           : Verdict::open;
 }
 
+Estimate Judgement::bias() const {
+    const Estimate others = posterior_.estimate();
+    return {others.value + testimony_.caustics.value,
+            std::hypot(others.error, testimony_.caustics.error)};
+}
+
+bool Judgement::caustics_are_in_doubt() const {
+    constexpr double most_share = 0.3;
+    return testimony_.caustics.error > most_share * most_;
+}
+
 double Judgement::growth() const {
     // The error of a product of two noisy halves falls as one over their samples.
-    const double error = std::min(testimony_.pixels.error, testimony_.smooth.error),
+    const double error = caustics_are_in_doubt()
+                             ? testimony_.caustics.error
+                             : std::min(testimony_.pixels.error, testimony_.smooth.error),
                  factor = error / (telling * most_);
     return std::isfinite(factor) ? std::clamp(factor, least_growth, most_growth) : most_growth;
+}
+
+Image sharpened_by(const ImagePair& narrow, const Image& blurred) {
+    Image sharp = blurred;
+    for (std::size_t i = 0; i < sharp.pixels.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const float first = narrow[0].pixels[i][k] - blurred.pixels[i][k],
+                        second = narrow[1].pixels[i][k] - blurred.pixels[i][k];
+            if (first * second > 0) {
+                sharp.pixels[i][k] += std::abs(first) < std::abs(second) ? first : second;
+            }
+        }
+    }
+    return sharp;
 }
 
 Image darkened_by(const ImagePair& witness, const Image& guess) {
@@ -103,13 +135,13 @@ void Witness::add(const PilotImages& images, double samples, double seconds) {
 bool Witness::render_more(double passes, double seconds, double expected) {
     RenderSettings settings = pass_;
     settings.seed += ++renders_;
-    if (!is_unbiased() && times_passes * expected > too_wide * planned_for_) {
-        planned_for_ = times_passes * expected;
+    if (!is_unbiased() && narrow_for_ * expected > too_wide * planned_for_) {
+        planned_for_ = narrow_for_ * expected;
         all_ = {};
     }
     const double plan = is_unbiased() ? std::max(passes, 2.0) : planned_for_;
     const Clock::time_point start = Clock::now();
-    IndependentHalves whole, estimated;
+    IndependentHalves whole, estimated, caustic;
     const auto is_over = [&](std::uint64_t done) {
         return static_cast<double>(done) >= passes || seconds_since(start) > seconds;
     };
@@ -119,6 +151,7 @@ bool Witness::render_more(double passes, double seconds, double expected) {
                 const std::vector<Layer> layers = so_far.layers();
                 whole.add(layers.front().image);
                 estimated.add(estimated_light(layers));
+                caustic.add(caustic_light(layers));
                 // Both halves have equally many passes when stream 0 is next.
                 if (whole.stream() == 0 && is_over(so_far.passes)) {
                     return std::nullopt;
@@ -129,7 +162,7 @@ bool Witness::render_more(double passes, double seconds, double expected) {
     const double spent = seconds_since(start);
     seconds_ += spent;
     if (whole.both_have_passes()) {
-        add({.whole = whole.means(), .estimated = estimated.means()},
+        add({.whole = whole.means(), .estimated = estimated.means(), .caustic = caustic.means()},
             static_cast<double>(whole.passes()) * settings.samples, spent);
     }
     return !result.statistics.interrupted && whole.both_have_passes();
@@ -147,10 +180,21 @@ double Witness::variance_per_pass(const Image& guess) const {
     return rel_variance(all_.images->whole, guess, guess) * passes() / 2;
 }
 
+/// The bias (not squared) at its own bandwidth, over that of one pass at the initial bandwidth.
+double Witness::own_bias() const {
+    return is_unbiased() ? 0 : std::sqrt(bias_at(law_of(method_, pass_), planned_for_));
+}
+
 Testimony Witness::testimony(const ImagePair& picture, double bias, const Image& guess) const {
-    const double own = is_unbiased() ? 0 : std::sqrt(bias_at(law_of(method_, pass_), planned_for_)),
-                 seen = 1 - own / bias;
+    const double seen = 1 - own_bias() / bias;
     return testimony_on(picture, all_.images->whole, seen * seen, guess);
+}
+
+Estimate Witness::testimony_on_caustics(const ImagePair& caustics, double bias,
+                                        const Image& guess) const {
+    // The law is that of edges. The peaks of caustics are blurred with the square of the width.
+    const double own = own_bias() / bias, seen = 1 - own * own;
+    return testimony_on(caustics, all_.images->caustic, seen * seen, guess).pixels;
 }
 
 } // namespace argand

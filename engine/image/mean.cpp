@@ -2,14 +2,17 @@
 
 namespace argand {
 
-Image weighted_mean(const Image& a, double weight_a, const Image& b, double weight_b) {
-    const double share_a = weight_a / (weight_a + weight_b);
-    const double share_b = weight_b / (weight_a + weight_b);
-    Image mean = a;
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-        mean.pixels[i] = share_a * glm::dvec3(a.pixels[i]) + share_b * glm::dvec3(b.pixels[i]);
+Image weighted_sum(const Image& a, double weight_a, const Image& b, double weight_b) {
+    Image sum = a;
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+        sum.pixels[i] = weight_a * glm::dvec3(a.pixels[i]) + weight_b * glm::dvec3(b.pixels[i]);
     }
-    return mean;
+    return sum;
+}
+
+Image weighted_mean(const Image& a, double weight_a, const Image& b, double weight_b) {
+    const double sum = weight_a + weight_b;
+    return weighted_sum(a, weight_a / sum, b, weight_b / sum);
 }
 
 } // namespace argand

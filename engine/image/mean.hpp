@@ -8,6 +8,9 @@ namespace argand {
 /// removes an image from a mean that contains it.
 Image weighted_mean(const Image& a, double weight_a, const Image& b, double weight_b);
 
+/// Weighted sum of two images of one size.
+Image weighted_sum(const Image& a, double weight_a, const Image& b, double weight_b);
+
 /// Mean of two images of one size, with equal weights.
 inline Image mean_of(const Image& a, const Image& b) { return weighted_mean(a, 1, b, 1); }
 

@@ -5,6 +5,7 @@
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
+#include "methods/photons_in_view.hpp"
 #include "methods/search_options.hpp"
 #include "methods/view_areas.hpp"
 #include "photon/photon_map.hpp"
@@ -85,6 +86,7 @@ struct ImageState {
     // Of the first pass.
     std::uint64_t first_paths = 0;
     std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
+    double in_view = 0; ///< photons stored in view per photon emitted
 };
 
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
@@ -115,6 +117,7 @@ void persist_image(Archive& archive, ImageState& image) {
     image.numbers.persist(archive);
     archive.value(image.first_paths);
     archive.value(image.most_photons);
+    archive.value(image.in_view);
 }
 
 class PhotonMapping : public Method {
@@ -154,6 +157,7 @@ public:
             sample_areas_in_view(c_, image_.view_reach, strategy_->typical_radius(learnt), 1);
             return learnt;
         });
+        image_.in_view = in_view_per_emitted(queries);
     }
 
     std::uint64_t passes() const override {
@@ -182,6 +186,7 @@ private:
     StoredPhotons trace_first(Budget& budget);
     double area_share() const;
     double evenness_in_view();
+    double in_view_per_emitted(std::span<const glm::vec4> queries);
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
@@ -293,9 +298,10 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     }
 }
 
-/// Records from all over the slots of a pass: its bounces follow one another there.
-std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots) {
-    constexpr std::uint64_t runs = 64, in_run = 4096;
+/// Records from all over the slots of a pass, in this many runs: its bounces follow one another
+/// there.
+std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots,
+                                       std::uint64_t runs, std::uint64_t in_run) {
     if (slots <= runs * in_run) {
         return download<PhotonRecord>(device, photons, slots);
     }
@@ -323,7 +329,8 @@ double PhotonMapping::evenness_in_view() {
     double count = 0;
     double sum = 0;
     double squares = 0;
-    for (const PhotonRecord& photon : some_photons(c_.device, photons_.photons, first_->slots)) {
+    for (const PhotonRecord& photon :
+         some_photons(c_.device, photons_.photons, first_->slots, 64, 4096)) {
         if (photon.normal == no_photon) {
             continue;
         }
@@ -346,6 +353,40 @@ double PhotonMapping::evenness_in_view() {
 /// photons that discs hold: a pass alone is noisier anyway, and samples for their full number would
 /// soon take most of the time.
 double PhotonMapping::area_share() const {
+double PhotonMapping::in_view_per_emitted(std::span<const glm::vec4> queries) {
+    if (first_->emitted == 0) {
+        return 0;
+    }
+    const double share = share_in_view(
+        some_photons(c_.device, photons_.photons, first_->slots, 16, 512), queries,
+        c_.scene.cameras[c_.settings.camera], double(c_.settings.width) / c_.settings.height);
+    return share * static_cast<double>(first_->photons) / static_cast<double>(first_->emitted);
+}
+
+/// Samples areas only where most of what is in view lies, if the radius needs more samples than
+/// there is room for on all surfaces: in a room on a large ground, in the room and before it.
+void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius) {
+    constexpr double reach = 4; // over the median distance of what is in view
+    const DeviceScene& scene = c_.on_device;
+    if (queries.empty() || has_room_for_area_samples(scene.surface_area, radius)) {
+        return;
+    }
+    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
+    std::vector<double> distances;
+    distances.reserve(queries.size());
+    for (const glm::vec4& query : queries) {
+        distances.push_back(glm::distance(glm::vec3(query), eye));
+    }
+    c_.on_device.areas =
+        sample_areas(c_.device, c_.scene, scene, {eye, reach * median(std::move(distances))});
+}
+
+/// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a
+/// pass alone is noisier anyway, and samples for its full number would soon take most of the time.
+std::uint64_t PhotonMapping::wanted_area_samples(double radius) const {
+    if (!strategy_->corrects_boundaries(c_.settings)) {
+        return 0;
+    }
     const double by =
         progressive_ ? image_.bandwidth.radii.indirect / image_.learnt.radii.indirect : 1;
     return std::clamp(by * by, least_area_share, 1.0);
@@ -446,6 +487,7 @@ std::string PhotonMapping::describe_pass() const {
 void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.photons_emitted;
     statistics.photons_stored = image_.photons_stored;
+    statistics.photons_in_view = image_.in_view * static_cast<double>(image_.photons_emitted);
     statistics.radius = image_.bandwidth.radii.indirect;
     statistics.caustic_radius = image_.bandwidth.radii.caustic;
     statistics.neighbours = image_.bandwidth.neighbours;

@@ -24,6 +24,9 @@ struct RenderStatistics {
     std::uint64_t passes = 0;
     std::uint64_t photons_emitted = 0;
     std::uint64_t photons_stored = 0;
+    /// Of these, about so many lie on surfaces that the picture shows directly, at the share of a
+    /// sample of the first pass.
+    double photons_in_view = 0;
     // Of the last pass; 0 where the method has no such thing.
     double radius = 0;
     double caustic_radius = 0; ///< radius for caustic photons

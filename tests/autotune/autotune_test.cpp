@@ -188,7 +188,7 @@ TEST(Autotune, EndsInTimeIfNoiseDoesNotFall) {
     const Target target{.error = 1e-8, .seconds = {}};
     const Candidate candidate{
         .settings = small(), .model = {.fixed = 0.01}, .seconds_per_pass = 0.001, .passes = 100};
-    RunControl control(target, candidate, nullptr, false, 0);
+    RunControl control(target, candidate, {}, false, 0);
     const ImagePair halves{noisy(16, 16, 0, 0.5, 1), noisy(16, 16, 0, 0.5, 2)};
     Image mean = halves[0];
     for (std::uint64_t done = 0;

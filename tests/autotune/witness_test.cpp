@@ -51,6 +51,35 @@ TEST(Witness, AnExactTestimonyDecidesWithoutConfidence) {
     EXPECT_EQ(Judgement(usual, testimony(0.0044, 0.0005), 0.004).verdict(), Verdict::refuted);
 }
 
+TEST(Witness, JudgesCausticsApart) {
+    const auto with_caustics = [](double value, double error) {
+        Testimony all = testimony(0.0005, 0.0005);
+        all.caustics = {value, error};
+        return Judgement(usual, all, 0.004);
+    };
+    EXPECT_EQ(with_caustics(0.001, 0.0002).verdict(), Verdict::confirmed);
+    EXPECT_NEAR(with_caustics(0.001, 0.0002).bias().value, 0.0015, 0.0005);
+    // However little bias there is in all other light.
+    EXPECT_EQ(with_caustics(0.008, 0.0002).verdict(), Verdict::refuted);
+    EXPECT_GT(with_caustics(0.008, 0.0002).bias().value, 0.008);
+    // The noise of narrow passes keeps it open, and they must grow.
+    const Judgement noisy_caustics = with_caustics(0.001, 0.005);
+    EXPECT_EQ(noisy_caustics.verdict(), Verdict::open);
+    EXPECT_TRUE(noisy_caustics.caustics_are_in_doubt());
+    EXPECT_GT(noisy_caustics.growth(), with_caustics(0.001, 0.003).growth());
+    EXPECT_FALSE(with_caustics(0.001, 0.0002).caustics_are_in_doubt());
+}
+
+TEST(Witness, SharpensWhereNarrowPicturesAgree) {
+    const Image blurred = exact(1);
+    const auto value = [&](double first, double second) {
+        return sharpened_by({exact(first), exact(second)}, blurred).pixels[0].r - true_radiance;
+    };
+    EXPECT_NEAR(value(5, 3), 3, 1e-5);
+    EXPECT_NEAR(value(0.2, 0), 0.2, 1e-5);
+    EXPECT_NEAR(value(2, 0), 1, 1e-5);
+}
+
 TEST(Witness, GrowsAsItsErrorRequires) {
     const auto growth = [](double error) {
         return Judgement(usual, testimony(0.002, error), 0.004).growth();
@@ -113,9 +142,59 @@ TEST(Witness, GrowsByIndependentPassesOfBothHalves) {
     EXPECT_TRUE(witness.truth());
     EXPECT_NEAR(witness.variance_per_pass(exact(0)) * 1.01 * true_radiance * true_radiance, 1, 0.1);
     // The unbiased method adds to pictures that exist.
-    witness.add({.whole = {exact(1), exact(1)}, .estimated = {exact(1), exact(1)}}, 32, 1);
+    const ImagePair bright{exact(1), exact(1)};
+    witness.add({.whole = bright, .estimated = bright, .caustic = bright}, 32, 1);
     EXPECT_EQ(witness.passes(), 16);
     EXPECT_NEAR(witness.images()->whole[0].pixels[0].r, true_radiance + 0.5, 1.5);
+}
+
+/// Adds to the pixels of a square of 4 x 4.
+Image with_spot(Image image, float more) {
+    for (int y = 8; y < 12; ++y) {
+        for (int x = 8; x < 12; ++x) {
+            image.pixels[static_cast<std::size_t>(y * side + x)] += more;
+        }
+    }
+    return image;
+}
+
+TEST(Witness, TellsNoiseFromBiasInOnePlace) {
+    // The blur of a small caustic: much bias in few pixels.
+    const ImagePair picture{with_spot(noisy(side, side, 0, 0.1, 1), 3),
+                            with_spot(noisy(side, side, 0, 0.1, 2), 3)},
+        witness{noisy(side, side, 0, 0.1, 3), noisy(side, side, 0, 0.1, 4)};
+    const double expected = 9 * 16 / (1.01 * true_radiance * true_radiance * side * side);
+    const Estimate bias = testimony_on(picture, witness, 1, exact(0)).pixels;
+    EXPECT_LT(bias.error, 0.2 * expected);
+    EXPECT_NEAR(bias.value, expected, 4 * bias.error);
+}
+
+TEST(Witness, KnowsItsOwnNoise) {
+    double squares = 0, told = 0;
+    for (std::uint32_t i = 0; i < 32; ++i) {
+        const auto next = [&](std::uint32_t k) { return noisy(side, side, 0, 0.5, 4 * i + k); };
+        const Estimate none =
+            testimony_on({next(0), next(1)}, {next(2), next(3)}, 1, exact(0)).pixels;
+        // A negative mean counts as 0 with that much more error: half of the means are seen.
+        squares += 2 * none.value * none.value / 32;
+        told += (none.value > 0 ? 2 * none.error * none.error : 0) / 32;
+    }
+    EXPECT_GT(told / squares, 0.5);
+    EXPECT_LT(told / squares, 2);
+}
+
+TEST(Witness, MeasuresTheBlurOfCausticsWithItsOwn) {
+    const MethodTable methods = builtin_methods();
+    Passes passes{.deviation = 0};
+    const RenderPasses render = passes.render();
+    Witness witness(render, methods.at("photons"), {.samples = 4}, times_passes_of_caustics);
+    EXPECT_TRUE(witness.render_more(2, 10, 1));
+    EXPECT_EQ(passes.expected, (std::vector<double>{729, 729}));
+    // There is no layer of caustics: the passes see none. The law gives them a ninth of the blur.
+    const ImagePair blur{exact(1 - true_radiance), exact(1 - true_radiance)};
+    const double seen = 8.0 / 9,
+                 expected = 1 / (seen * seen * 1.01 * true_radiance * true_radiance);
+    EXPECT_NEAR(witness.testimony_on_caustics(blur, 1, exact(0)).value, expected, 1e-3 * expected);
 }
 
 TEST(Witness, WithBiasHasNarrowBandwidths) {

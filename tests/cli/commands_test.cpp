@@ -109,6 +109,8 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
     }
     EXPECT_EQ(report.at("photons_emitted"), 2000);
     EXPECT_GT(report.at("photons_stored"), 0);
+    EXPECT_GT(report.at("photons_in_view"), 0);
+    EXPECT_LT(report.at("photons_in_view"), report.at("photons_stored"));
     EXPECT_EQ(report.at("non_finite_samples"), 0);
     EXPECT_EQ(report.at("interrupted"), false);
     for (int channel = 0; channel < 3; ++channel) {

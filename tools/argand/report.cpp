@@ -1,6 +1,7 @@
 #include "report.hpp"
 
 #include <charconv>
+#include <cmath>
 
 namespace argand {
 
@@ -125,6 +126,7 @@ Json render_report(const RenderReport& render) {
                    {"passes", statistics.passes},
                    {"photons_emitted", statistics.photons_emitted},
                    {"photons_stored", statistics.photons_stored},
+                   {"photons_in_view", std::round(statistics.photons_in_view)},
                    {"mean_footprints", statistics.mean_footprints},
                    {"flux",
                     {{"emitted", flux_json(statistics.flux, statistics.flux.emitted)},
@@ -162,6 +164,8 @@ Json autotune_report(const AutotunedRender& render, MethodTable methods) {
             {"noise", render.measured ? Json(render.measured->noise) : Json()},
             {"squared_bias", render.measured ? Json(render.measured->bias.value) : Json()},
             {"witness", render.witness.empty() ? Json() : Json(render.witness)},
+            {"witness_of_caustics",
+             render.witness_of_caustics.empty() ? Json() : Json(render.witness_of_caustics)},
             {"witness_seconds", render.witness_seconds},
             {"reached", target.error ? Json(render.reached()) : Json()}};
 }
