@@ -86,7 +86,7 @@ struct ImageState {
     // Of the first pass.
     std::uint64_t first_paths = 0;
     std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
-    double in_view = 0; ///< photons stored in view per photon emitted
+    double in_view = 0;             ///< photons stored in view per photon emitted
 };
 
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
@@ -349,10 +349,6 @@ double PhotonMapping::evenness_in_view() {
     return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
 }
 
-/// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the
-/// photons that discs hold: a pass alone is noisier anyway, and samples for their full number would
-/// soon take most of the time.
-double PhotonMapping::area_share() const {
 double PhotonMapping::in_view_per_emitted(std::span<const glm::vec4> queries) {
     if (first_->emitted == 0) {
         return 0;
@@ -363,30 +359,10 @@ double PhotonMapping::in_view_per_emitted(std::span<const glm::vec4> queries) {
     return share * static_cast<double>(first_->photons) / static_cast<double>(first_->emitted);
 }
 
-/// Samples areas only where most of what is in view lies, if the radius needs more samples than
-/// there is room for on all surfaces: in a room on a large ground, in the room and before it.
-void PhotonMapping::sample_areas_in_view(const std::vector<glm::vec4>& queries, double radius) {
-    constexpr double reach = 4; // over the median distance of what is in view
-    const DeviceScene& scene = c_.on_device;
-    if (queries.empty() || has_room_for_area_samples(scene.surface_area, radius)) {
-        return;
-    }
-    const glm::vec3 eye = c_.scene.cameras[c_.settings.camera].position;
-    std::vector<double> distances;
-    distances.reserve(queries.size());
-    for (const glm::vec4& query : queries) {
-        distances.push_back(glm::distance(glm::vec3(query), eye));
-    }
-    c_.on_device.areas =
-        sample_areas(c_.device, c_.scene, scene, {eye, reach * median(std::move(distances))});
-}
-
-/// Where widths fall from pass to pass, discs get fewer samples with the photons that they hold: a
-/// pass alone is noisier anyway, and samples for its full number would soon take most of the time.
-std::uint64_t PhotonMapping::wanted_area_samples(double radius) const {
-    if (!strategy_->corrects_boundaries(c_.settings)) {
-        return 0;
-    }
+/// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the
+/// photons that discs hold: a pass alone is noisier anyway, and samples for their full number would
+/// soon take most of the time.
+double PhotonMapping::area_share() const {
     const double by =
         progressive_ ? image_.bandwidth.radii.indirect / image_.learnt.radii.indirect : 1;
     return std::clamp(by * by, least_area_share, 1.0);
