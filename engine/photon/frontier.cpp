@@ -30,6 +30,8 @@ namespace {
 // its own stream; those of a GPU should read what lies side by side.
 constexpr std::uint32_t chunk_on_cpu = 256;
 constexpr std::uint32_t chunk_on_gpu = 16;
+// The references of all children of so many are still counted in 32 bits.
+constexpr std::uint64_t most_on_any_device = 1u << 28;
 
 /// Nodes of a level, or parts of them.
 struct Nodes {
@@ -149,8 +151,8 @@ Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& querie
              settings.memory, least_frontier_memory);
     }
     limit_ = static_cast<std::uint32_t>(
-        std::min(settings.memory / bytes_a_frontier_reference,
-                 device.info().limits.storage_range / sizeof(glm::uvec4)));
+        std::min({settings.memory / bytes_a_frontier_reference,
+                  device.info().limits.storage_range / sizeof(glm::uvec4), most_on_any_device}));
     batch_ = limit_ / 2;
     const std::uint64_t queries_room = std::max<std::uint64_t>(query_count_, 1);
     // Nodes that are partitioned have more than query_leaf queries.

@@ -104,6 +104,11 @@ TEST_F(BadInput, ProgressiveWidthsThatAreNone) {
         expect_failure(scene + "--progressive " + option, usage, name);
         expect_failure(scene + "--method progressive " + option, usage, name);
     }
+    expect_failure(scene + "--method photons --query-leaf 4", usage,
+                   "without --query simultaneous");
+    expect_failure(scene + "--method photons --query simultaneous --frontier-memory 131071", usage,
+                   "from 131072");
+    expect_failure(scene + "--method knn --query simultaneous", usage, "--query: it has no effect");
     expect_failure(scene + "--method path --progressive", usage, "--progressive: it has no effect");
     for (const char* option : {"--passes 4", "--r1 0.1", "--radius-exponent 0.2"}) {
         expect_failure(scene + option, usage, "add that");

@@ -97,6 +97,19 @@ void check_progressive(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+/// Throws UsageError on options of queries that are answered together, if each is by itself.
+void check_query(const RenderOptions& options, const CLI::App& command) {
+    if (options.settings.query == QuerySearch::simultaneous) {
+        return;
+    }
+    for (const char* option : {"--query-leaf", "--frontier-memory"}) {
+        if (is_given(command, option)) {
+            throw UsageError(fmt::format(
+                "reading {}: it has no effect without --query simultaneous; add that", option));
+        }
+    }
+}
+
 void check_lens(const RenderOptions& options) {
     if (options.settings.focus && !(options.settings.aperture > 0)) {
         throw UsageError("reading --focus: it has no effect without --aperture; add that");
@@ -105,6 +118,7 @@ void check_lens(const RenderOptions& options) {
 
 void check(const RenderOptions& options, const CLI::App& command) {
     check_lens(options);
+    check_query(options, command);
     check_methods({options.settings.method}, options.methods);
     check_checkpoints(options, command);
     if (is_autotuned(options, command)) {

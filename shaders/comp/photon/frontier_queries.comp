@@ -2,6 +2,7 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/frontier.h"
+#include "shared/maths.h"
 #include "shared/photon_records.h"
 #include "shared/query_record.h"
 #include "shared/segments.h"

@@ -6,7 +6,9 @@ FN void main() {
     }
     uint slot = active_slots[i];
     QueryRecord q = queries[slot];
-    places[i] = uvec4(float_bits(vec3(q.x, q.y, q.z)), slot);
+    vec3 p = vec3(q.x, q.y, q.z);
+    // A box around a query that is nowhere would not end.
+    places[i] = uvec4(float_bits(is_finite3(p) ? p : vec3(real(0.0))), slot);
     segments[i] = 0u;
     if (params.first == 0u) {
         real zero = real(0.0);
