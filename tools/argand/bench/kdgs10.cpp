@@ -240,7 +240,8 @@ PaperTable bench_kdgs10(Device& device, const Kdgs10Settings& settings) {
     PaperTable table{"Simultaneous queries against a tree over the photons"};
     Bench bench(device, settings);
     for (std::uint64_t photons = 10'000; photons <= settings.most_photons; photons *= 10) {
-        const std::uint64_t stored = std::min(photons, max_stored_photons(device));
+        // A workspace has room for three photons for each one that is emitted.
+        const std::uint64_t stored = std::min(photons, max_stored_photons(device) / 3 * 3);
         for (std::uint64_t queries = 1'000; queries <= settings.most_queries; queries *= 10) {
             for (const bool near : {true, false}) {
                 for (const bool coherent : {true, false}) {
