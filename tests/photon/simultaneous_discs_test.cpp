@@ -125,8 +125,8 @@ TEST_F(SimultaneousDiscs, EqualThoseOfTheTree) {
 
 // Batches of photons add up, and parts that wait.
 TEST_F(SimultaneousDiscs, LittleMemoryAndSmallBudgetsDoNotChangeThem) {
-    const std::vector<PhotonRecord> photons = bumpy_photons(20'000);
-    const std::vector<Query> queries = on_floor(600);
+    const std::vector<PhotonRecord> photons = bumpy_photons(7000);
+    const std::vector<Query> queries = on_floor(300);
     Discs how{.radii = {0.2, 0.1}, .area_samples = 3000};
     const auto tree = estimates(device(), photons, queries, how, {});
     const FrontierSettings plenty;
