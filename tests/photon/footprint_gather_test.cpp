@@ -5,6 +5,7 @@
 #include "shared/photon.h"
 #include "world/world.hpp"
 
+#include <optional>
 #include <random>
 
 namespace argand::testing {
@@ -32,6 +33,8 @@ struct GatherSettings {
     bool uniform_kernel = false;
     bool careful = true;
     std::uint64_t area_samples = 0;
+    std::uint32_t part = map_whole;
+    std::optional<FrontierSettings> frontier; ///< none: through the tree
 };
 
 /// A scale with which the semi-axes of caustic photons equal their differentials. The axes of other
@@ -65,12 +68,14 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
         build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),
                          {.area_samples = settings.area_samples,
                           .leaf_size = settings.leaf_size,
-                          .footprints = plain_scale()});
+                          .footprints = plain_scale(),
+                          .frontier = settings.frontier});
 
     Sums result;
     FootprintEstimator estimator(device, scene.plan, settings.uniform_kernel, settings.budget);
-    result.sums = answers(device, estimator, map, queries, {.until_complete = settings.careful},
-                          result.finished);
+    result.sums =
+        answers(device, estimator, map, queries,
+                {.until_complete = settings.careful, .part = settings.part}, result.finished);
     const std::size_t kept = stored + map.area_samples;
     result.photons = download<PhotonRecord>(device, map.photons, kept);
     result.footprints = download<glm::uvec4>(device, map.footprints, kept);
@@ -210,6 +215,38 @@ TEST_F(GatherFootprints, IsTheSumOverFootprintsThatReachTheQuery) {
                 .leaf_size = leaf_size, .uniform_kernel = uniform_kernel, .careful = false};
             expect_exact_sums(gather(device(), splats, queries, settings), queries, uniform_kernel);
         }
+        const FrontierSettings little{.query_leaf = 2, .memory = least_frontier_memory};
+        for (const FrontierSettings& frontier : {FrontierSettings(), little}) {
+            SCOPED_TRACE(::testing::Message() << "simultaneous, " << frontier.memory << " bytes");
+            expect_exact_sums(gather(device(), splats, queries,
+                                     {.uniform_kernel = uniform_kernel, .frontier = frontier}),
+                              queries, uniform_kernel);
+        }
+    }
+}
+
+TEST_F(GatherFootprints, SimultaneousAnswersEqualThoseOfTheTree) {
+    const std::vector<Splat> splats = bumpy(3001, 0.1f);
+    const std::vector<Query> queries = bumpy_queries(403);
+    for (const std::uint32_t part : {map_whole, map_indirect, map_caustic}) {
+        for (const std::uint64_t area_samples : {0u, 1000u}) {
+            SCOPED_TRACE(::testing::Message() << part << ", " << area_samples);
+            GatherSettings settings{.area_samples = area_samples, .part = part};
+            const Sums tree = gather(device(), splats, queries, settings);
+            settings.frontier = FrontierSettings();
+            const Sums found = gather(device(), splats, queries, settings);
+            EXPECT_EQ(found.footprints, tree.footprints);
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    EXPECT_RELATIVE(found.sums[i].indirect[channel], tree.sums[i].indirect[channel],
+                                    1e-5);
+                    EXPECT_RELATIVE(found.sums[i].caustic[channel], tree.sums[i].caustic[channel],
+                                    1e-5);
+                }
+            }
+            EXPECT_EQ(found.sums[0].indirect.g > 0, part != map_caustic);
+            EXPECT_EQ(found.sums[0].caustic.g > 0, part != map_indirect);
+        }
     }
 }
 
@@ -250,6 +287,9 @@ TEST_F(GatherFootprints, MillionInOnePointIsTheExactSum) {
     expect_exact_sums(gathered, queries);
     EXPECT_GT(gathered.sums[1].caustic.g, 0);
     EXPECT_EQ(gathered.sums[2], Gathered());
+    expect_exact_sums(
+        gather(device(), splats, queries, {.budget = 3000, .frontier = FrontierSettings()}),
+        queries);
     // One dispatch does not complete the queries: this is reported, and nothing is added.
     const Sums hurried = gather(device(), splats, {queries[0]}, {.careful = false});
     EXPECT_FALSE(hurried.finished);
