@@ -35,13 +35,19 @@ Option query_option() {
 
 std::vector<Option> search_options() {
     Option leaf = member_option(
-        "query-leaf", "With --query simultaneous: queries that are not parted further",
+        "query-leaf",
+        "With --query simultaneous: queries that are not parted further, whatever that would save",
         [](RenderSettings & s) -> auto& { return s.frontier.query_leaf; }, 1, 1 << 20);
+    Option cost = member_option(
+        "partition-cost",
+        "With --query simultaneous: what it costs to sort a photon to parts of queries, in "
+        "comparisons with a query; 0: they are parted down to --query-leaf",
+        [](RenderSettings & s) -> auto& { return s.frontier.partition_cost; }, 0, 1e6);
     Option memory = member_option(
         "frontier-memory",
         "With --query simultaneous: bytes for photons that are being sorted to queries",
         [](RenderSettings & s) -> auto& { return s.frontier.memory; }, least_frontier_memory, 1e12);
-    return {query_option(), leaf, memory};
+    return {query_option(), leaf, cost, memory};
 }
 
 std::optional<FrontierSettings> frontier_of(const RenderSettings& settings) {

@@ -7,7 +7,7 @@
 namespace argand {
 
 /// Options of methods that can answer queries of the photon map together: query, query-leaf,
-/// frontier-memory.
+/// partition-cost, frontier-memory.
 std::vector<Option> search_options();
 
 /// How a map answers queries together; none if each finds its photons through a tree.

@@ -27,7 +27,7 @@ namespace argand {
 namespace {
 
 // References that an invocation takes. Lanes of a CPU go through memory one after another, each in
-// its own stream; those of a GPU should read what lies side by side.
+// its own stream; those of a GPU should read what lies nearly side by side.
 constexpr std::uint32_t chunk_on_cpu = 256;
 constexpr std::uint32_t chunk_on_gpu = 16;
 // The references of all children of so many are still counted in 32 bits.
@@ -75,9 +75,9 @@ void copy_elements(Device& device, const Buffer& from, std::uint64_t first, cons
 
 class Search {
 public:
-    Search(Device& device, const PhotonMap& map, const PhotonQueries& queries, double reach,
-           const FrontierSettings& settings, const std::function<void(const FrontierLeaves&)>& add,
-           FrontierStatistics* statistics);
+    Search(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+           std::uint32_t query_count, double reach, const FrontierSettings& settings,
+           const std::function<void(const FrontierLeaves&)>& add, FrontierStatistics* statistics);
 
     void run();
 
@@ -115,7 +115,8 @@ private:
     /// Photons taken together. The two parts of a single node have room, even if each photon goes
     /// to both.
     std::uint32_t batch_ = 0;
-    bool careful_ = false; ///< children are made by a single partition
+    std::uint32_t first_photon_ = 0; ///< of those taken together
+    bool careful_ = false;           ///< children are made by a single partition
 
     Nodes now_;                           ///< of the level
     Nodes parts_, other_parts_;           ///< of the nodes' queries
@@ -133,8 +134,8 @@ private:
     std::vector<Waiting> waiting_;
 };
 
-Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& queries, double reach,
-               const FrontierSettings& settings,
+Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+               std::uint32_t query_count, double reach, const FrontierSettings& settings,
                const std::function<void(const FrontierLeaves&)>& add,
                FrontierStatistics* statistics)
     : device_(device), map_(map), queries_(queries), settings_(settings), add_(add),
@@ -142,22 +143,15 @@ Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& querie
       // Enlarged, for the roundings of differences between positions.
       reach_(static_cast<float>(reach * 1.00001)),
       of_footprints_(static_cast<bool>(map.footprints)),
-      chunk_(device.info().lane_serial() ? chunk_on_cpu : chunk_on_gpu),
-      query_count_(download_word(device, queries.count.buffer, queries.count.index)),
+      chunk_(device.info().lane_serial() ? chunk_on_cpu : chunk_on_gpu), query_count_(query_count),
       photon_count_(download_word(device, map.counters, counter_stored)) {
-    if (settings.memory < least_frontier_memory) {
-        fail("answering queries simultaneously: {} bytes are too few for the frontier; it takes {} "
-             "at least",
-             settings.memory, least_frontier_memory);
-    }
     limit_ = static_cast<std::uint32_t>(
         std::min({settings.memory / bytes_a_frontier_reference,
                   device.info().limits.storage_range / sizeof(glm::uvec4), most_on_any_device}));
     batch_ = limit_ / 2;
-    const std::uint64_t queries_room = std::max<std::uint64_t>(query_count_, 1);
     // Nodes that are partitioned have more than query_leaf queries.
     most_nodes_ =
-        std::min(most_frontier_children * queries_room / (settings.query_leaf + 1), queries_room) +
+        std::min(most_frontier_children * query_count_ / (settings.query_leaf + 1), query_count_) +
         most_frontier_children;
     const auto allocate = [&](std::uint64_t count, std::uint64_t bytes) {
         return device.allocate("simultaneous search", count * bytes);
@@ -169,8 +163,8 @@ Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& querie
                  .ancestors = allocate(most_nodes_, 4)};
     }
     for (Places& places : places_) {
-        places = {.places = allocate(queries_room, sizeof(glm::uvec4)),
-                  .segments = allocate(queries_room, 4)};
+        places = {.places = allocate(query_count_, sizeof(glm::uvec4)),
+                  .segments = allocate(query_count_, 4)};
     }
     copies_ = allocate(most_nodes_, 4);
     first_copies_ = allocate(most_nodes_, 4);
@@ -179,13 +173,13 @@ Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& querie
     families_ = allocate(most_nodes_, 8);
     sources_ = allocate(most_nodes_, 4);
     query_lefts_ = allocate(most_nodes_, 4);
-    flags_ = allocate(queries_room, 4);
-    flag_sums_ = allocate(queries_room, 4);
-    to_ = allocate(queries_room, 4);
+    flags_ = allocate(query_count_, 4);
+    flag_sums_ = allocate(query_count_, 4);
+    to_ = allocate(query_count_, 4);
     const std::uint64_t together = std::min(std::max(photon_count_, 1u), batch_);
     photon_flags_ = allocate(together, 4);
     photon_sums_ = allocate(together, 4);
-    extents_ = allocate(of_footprints_ ? std::max(photon_count_, 1u) : 1, sizeof(glm::vec4));
+    extents_ = allocate(of_footprints_ ? together : 1, sizeof(glm::vec4));
     counters_ = allocate(frontier_counters, 4);
     make_room(std::max<std::uint64_t>(4 * together, least_frontier_references), 0);
 }
@@ -197,6 +191,8 @@ void Search::make_room(std::uint64_t references, std::uint32_t kept) {
     const auto allocate = [&](std::uint64_t count, std::uint64_t bytes) {
         return device_.allocate("simultaneous search", count * bytes);
     };
+    // Freed first, for they may be large.
+    next_references_ = counts_ = sums_ = waiting_references_ = Buffer();
     const Buffer before = references_;
     references_ = allocate(most_references_, sizeof(glm::uvec4));
     copy_elements(device_, before, 0, references_, 0, kept, sizeof(glm::uvec4));
@@ -204,7 +200,6 @@ void Search::make_room(std::uint64_t references, std::uint32_t kept) {
     chunk_sources_ = allocate(chunks, 4);
     counts_ = allocate(most_frontier_children * chunks, 4);
     sums_ = allocate(most_frontier_children * chunks, 4);
-    waiting_references_ = Buffer();
 }
 
 FrontierParams Search::params(std::uint32_t first, std::uint32_t end) const {
@@ -223,9 +218,6 @@ std::vector<std::uint32_t> Search::read_counters() {
 }
 
 void Search::run() {
-    if (query_count_ == 0) {
-        return;
-    }
     std::uint32_t first = 0;
     do {
         dispatch(device_,
@@ -246,6 +238,7 @@ void Search::run() {
 
 /// Searches among the photons first <= i < end of the map.
 void Search::search_among(std::uint32_t first, std::uint32_t end) {
+    first_photon_ = first;
     segment_boxes(device_, places_[0].places, Lanes::point,
                   {.of_elements = places_[0].segments, .end = query_count_}, 1, now_.boxes);
     dispatch(device_,
@@ -323,7 +316,7 @@ void Search::take_levels(Part part) {
                                         .extents = extents_,
                                         .places = sums_,
                                         .next_references = next_references_,
-                                        .params = params(0, part.chunks),
+                                        .params = params(first_photon_, part.chunks),
                                         .constants = {.of_footprints = of_footprints_}},
                  part.chunks);
         std::swap(now_, parts_);
@@ -438,7 +431,7 @@ void Search::divide_photons(const Part& part, std::uint32_t children) {
                                      .boxes = parts_.boxes,
                                      .extents = extents_,
                                      .counts = counts_,
-                                     .params = params(0, part.chunks),
+                                     .params = params(first_photon_, part.chunks),
                                      .constants = {.of_footprints = of_footprints_}},
              part.chunks);
     exclusive_scan(device_, counts_, sums_, most_frontier_children * part.chunks);
@@ -591,7 +584,8 @@ void Search::count_photons(const Part& part, std::uint32_t children) {
     const auto references = download<glm::uvec4>(device_, references_, part.end_photon);
     const auto families = download<glm::uvec2>(device_, families_, part.end_node);
     const auto boxes = download<BoxRecord>(device_, parts_.boxes, children);
-    const auto extents = download<glm::vec4>(device_, extents_, of_footprints_ ? photon_count_ : 0);
+    const auto extents = download<glm::vec4>(
+        device_, extents_, of_footprints_ ? std::min(photon_count_ - first_photon_, batch_) : 0);
     for (std::uint32_t i = part.first_node; i < part.end_node; ++i) {
         if (nodes[i].state != frontier_active) {
             continue;
@@ -599,8 +593,9 @@ void Search::count_photons(const Part& part, std::uint32_t children) {
         statistics_->references += nodes[i].count;
         for (std::uint32_t j = nodes[i].first; j < nodes[i].first + nodes[i].count; ++j) {
             const glm::vec3 p = glm::uintBitsToFloat(glm::uvec3(references[j]));
-            const glm::vec3 extent =
-                of_footprints_ ? glm::vec3(extents[references[j].w]) : glm::vec3(reach_);
+            const glm::vec3 extent = of_footprints_
+                                         ? glm::vec3(extents[references[j].w - first_photon_])
+                                         : glm::vec3(reach_);
             std::uint32_t to = 0;
             for (std::uint32_t c = families[i].x; c < families[i].y; ++c) {
                 to += reaches(p, extent, box_low(boxes[c]), box_high(boxes[c])) ? 1 : 0;
@@ -614,11 +609,21 @@ void Search::count_photons(const Part& part, std::uint32_t children) {
 
 } // namespace
 
-void search_simultaneously(Device& device, const PhotonMap& map, const PhotonQueries& queries,
-                           double reach, const FrontierSettings& settings,
-                           const std::function<void(const FrontierLeaves&)>& add,
-                           FrontierStatistics* statistics) {
-    Search(device, map, queries, reach, settings, add, statistics).run();
+std::uint32_t search_simultaneously(Device& device, const PhotonMap& map,
+                                    const PhotonQueries& queries, double reach,
+                                    const FrontierSettings& settings,
+                                    const std::function<void(const FrontierLeaves&)>& add,
+                                    FrontierStatistics* statistics) {
+    if (settings.memory < least_frontier_memory) {
+        fail("answering queries simultaneously: {} bytes are too few for the frontier; it takes {} "
+             "at least",
+             settings.memory, least_frontier_memory);
+    }
+    const std::uint32_t count = download_word(device, queries.count.buffer, queries.count.index);
+    if (count > 0) {
+        Search(device, map, queries, count, reach, settings, add, statistics).run();
+    }
+    return count;
 }
 
 } // namespace argand

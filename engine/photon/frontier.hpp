@@ -21,7 +21,7 @@ struct FrontierLeaves {
 
 /// What a search did.
 struct FrontierStatistics {
-    std::uint64_t levels = 0;
+    std::uint64_t levels = 0;     ///< or parts of levels, where some wait
     std::uint64_t photons = 0;    ///< of the map
     std::uint64_t entered = 0;    ///< photons in the box of all queries' balls
     std::uint64_t box_tests = 0;  ///< of photons
@@ -42,10 +42,12 @@ struct FrontierStatistics {
 /// turn, until each pair of a query and a photon within its reach has been in exactly one leaf.
 /// `add` only records. reach: distance within which photons count; of a map with footprints these
 /// decide instead. Waits for the device. Throws Error if settings.memory is less than
-/// least_frontier_memory. statistics: added to if not null, which takes time.
-void search_simultaneously(Device& device, const PhotonMap& map, const PhotonQueries& queries,
-                           double reach, const FrontierSettings& settings,
-                           const std::function<void(const FrontierLeaves&)>& add,
-                           FrontierStatistics* statistics = nullptr);
+/// least_frontier_memory. statistics: added to if not null, which takes time. Returns the number of
+/// queries.
+std::uint32_t search_simultaneously(Device& device, const PhotonMap& map,
+                                    const PhotonQueries& queries, double reach,
+                                    const FrontierSettings& settings,
+                                    const std::function<void(const FrontierLeaves&)>& add,
+                                    FrontierStatistics* statistics = nullptr);
 
 } // namespace argand

@@ -3,6 +3,7 @@
 #include "kernels/frontier_answer.hpp"
 #include "kernels/frontier_bindings.hpp"
 #include "photon/frontier.hpp"
+#include "photon/gather.hpp"
 #include "photon/gather_dispatch.hpp"
 
 #include <algorithm>
@@ -11,10 +12,10 @@ namespace argand {
 
 /// What an estimator says of its answers.
 struct Answering {
-    double reach = 0;               ///< distance within which photons count
-    std::uint32_t area_samples = 0; ///< that correct estimates
-    bool caustic_correction = true; ///< whether they correct caustics, too
-    std::uint32_t budget = 0;       ///< photons that a dispatch adds to a query at most
+    double reach = 0;                     ///< distance within which photons count
+    std::uint32_t area_samples = 0;       ///< that correct estimates
+    bool caustic_correction = true;       ///< whether they correct caustics, too
+    std::uint32_t budget = gather_budget; ///< photons that a dispatch adds to a query at most
 };
 
 /// Specialization constants for the member `frontier` of a leaf kernel's constants.
@@ -25,11 +26,10 @@ inline kernels::FrontierConstants frontier_constants(const Plan& plan,
             .caustics = plan.needs(Feature::caustics)};
 }
 
-/// Turns the sums of queries into their answers.
+/// Turns the sums of `count` queries into their answers.
 inline void store_answers(Device& device, const PhotonMap& map, const PhotonQueries& queries,
-                          const Answering& how) {
+                          std::uint32_t count, const Answering& how) {
     const PhotonGatherParams params = gather_params(map, queries, 0);
-    const std::uint32_t count = download_word(device, queries.count.buffer, queries.count.index);
     dispatch(
         device,
         kernels::frontier_answer{.active_slots = queries.slots,
@@ -74,8 +74,9 @@ void answer_simultaneously(Device& device, const PhotonMap& map, const PhotonQue
             }
         }
     };
-    search_simultaneously(device, map, queries, how.reach, *map.frontier, add);
-    store_answers(device, map, queries, how);
+    const std::uint32_t count =
+        search_simultaneously(device, map, queries, how.reach, *map.frontier, add);
+    store_answers(device, map, queries, count, how);
 }
 
 } // namespace argand

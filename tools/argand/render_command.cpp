@@ -102,7 +102,7 @@ void check_query(const RenderOptions& options, const CLI::App& command) {
     if (options.settings.query == QuerySearch::simultaneous) {
         return;
     }
-    for (const char* option : {"--query-leaf", "--frontier-memory"}) {
+    for (const char* option : {"--query-leaf", "--partition-cost", "--frontier-memory"}) {
         if (is_given(command, option)) {
             throw UsageError(fmt::format(
                 "reading {}: it has no effect without --query simultaneous; add that", option));

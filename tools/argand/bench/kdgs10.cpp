@@ -109,7 +109,7 @@ public:
 
 private:
     static DeviceScene empty_scene(Device& device);
-    void store(const std::vector<PhotonRecord>& photons);
+    void store(std::uint64_t photons);
     double timed_map(bool together, PhotonMap& map);
     double timed_answers(const PhotonMap& map, const PhotonQueries& queries, double radius);
     double useful_pairs(const PhotonMap& map, const PhotonQueries& queries, double radius);
@@ -129,10 +129,12 @@ DeviceScene Bench::empty_scene(Device& device) {
     return scene;
 }
 
-void Bench::store(const std::vector<PhotonRecord>& photons) {
-    if (stored_.photons == photons.size()) {
+/// Stores so many photons, if they are not stored already.
+void Bench::store(std::uint64_t count) {
+    if (stored_.photons == count) {
         return;
     }
+    const std::vector<PhotonRecord> photons = photon_records(count);
     workspace_ = PhotonWorkspace();
     workspace_ = make_photon_workspace(device_, (photons.size() + 2) / 3);
     device_.upload(workspace_.photons, 0, std::as_bytes(std::span(photons)));
@@ -177,7 +179,7 @@ double Bench::useful_pairs(const PhotonMap& map, const PhotonQueries& queries, d
 }
 
 nlohmann::ordered_json Bench::measure(const Load& load) {
-    store(photon_records(load.photons));
+    store(load.photons);
     std::vector<QueryRecord> records;
     records.reserve(load.queries);
     for (const Point& point : query_points(load)) {
@@ -208,10 +210,11 @@ nlohmann::ordered_json Bench::measure(const Load& load) {
             bytes = std::max(bytes, device_.memory_by_name().at("simultaneous search").current);
         },
         &statistics);
-    // A reference is read to count it, and read and written to copy it. A query's photon is read.
-    const double moved =
-        16.0 * (3.0 * double(statistics.references) + double(statistics.replicated)) +
-        32.0 * double(load.photons);
+    // A reference is read to count it, and read to copy it; its copies are written. Photons are
+    // read once. What leaves read is not counted.
+    const double moved = 16.0 * (3.0 * double(statistics.references) -
+                                 double(statistics.discarded) + double(statistics.replicated)) +
+                         32.0 * double(load.photons);
     const auto photons = static_cast<double>(load.photons);
     const auto references = static_cast<double>(std::max<std::uint64_t>(statistics.references, 1));
     return {{"queries", load.queries},

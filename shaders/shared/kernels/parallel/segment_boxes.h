@@ -19,19 +19,18 @@ FN void main() {
     vec3 low = vec3(real(0.0));
     vec3 high = vec3(real(0.0));
     for (; i < end; ++i) {
+        bool begins = segments[i] != segment;
+        if (begins && segment != no_segment) {
+            grow_segment(segment, low, high);
+        }
+        segment = segments[i];
+        if (segment == no_segment) {
+            continue; // the element may never have been written
+        }
         vec3 element_low = bits_float(uvec3(elements[lanes * i]));
         vec3 element_high = bits_float(uvec3(elements[lanes * i + lanes - 1u]));
-        if (segments[i] == segment) {
-            low = min(low, element_low);
-            high = max(high, element_high);
-        } else {
-            if (segment != no_segment) {
-                grow_segment(segment, low, high);
-            }
-            segment = segments[i];
-            low = element_low;
-            high = element_high;
-        }
+        low = begins ? element_low : min(low, element_low);
+        high = begins ? element_high : max(high, element_high);
     }
     if (segment != no_segment) {
         grow_segment(segment, low, high);

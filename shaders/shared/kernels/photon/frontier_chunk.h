@@ -20,10 +20,8 @@ FN Chunk make_chunk(uint i) {
     chunk.stride = chunks_of(node.count, params.chunk);
     chunk.at = most_frontier_children * first_chunks[chunk.node] + k;
     for (uint c = 0u; c < most_frontier_children; ++c) {
-        // A box that no photon reaches stands for a child that is not there.
-        vec3 beyond = vec3(real(3.0e38));
-        chunk.low[c] = beyond;
-        chunk.high[c] = -beyond;
+        chunk.low[c] = vec3(real(0.0));
+        chunk.high[c] = vec3(real(0.0));
         if (c < chunk.children) {
             BoxRecord box = boxes[first_child + c];
             chunk.low[c] = box_low(box);
@@ -33,6 +31,9 @@ FN Chunk make_chunk(uint i) {
     return chunk;
 }
 
+FN bool is_child(IN(Chunk) chunk, uint c) { return c < chunk.children; }
+
+// params.first is the first photon of the batch.
 FN vec3 extent_of(uvec4 reference) {
-    return of_footprints ? vec3(extents[reference.w]) : vec3(params.reach);
+    return of_footprints ? vec3(extents[reference.w - params.first]) : vec3(params.reach);
 }

@@ -16,7 +16,7 @@ FN void main() {
         vec3 p = bits_float(uvec3(reference));
         vec3 extent = extent_of(reference);
         for (uint c = 0u; c < most_frontier_children; ++c) {
-            if (reaches(p, extent, chunk.low[c], chunk.high[c])) {
+            if (is_child(chunk, c) && reaches(p, extent, chunk.low[c], chunk.high[c])) {
                 next_references[to[c]] = reference;
                 to[c] += 1u;
             }

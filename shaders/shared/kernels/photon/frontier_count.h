@@ -17,7 +17,8 @@ FN void main() {
         vec3 p = bits_float(uvec3(reference));
         vec3 extent = extent_of(reference);
         for (uint c = 0u; c < most_frontier_children; ++c) {
-            found[c] += reaches(p, extent, chunk.low[c], chunk.high[c]) ? 1u : 0u;
+            found[c] +=
+                is_child(chunk, c) && reaches(p, extent, chunk.low[c], chunk.high[c]) ? 1u : 0u;
         }
     }
     for (uint c = 0u; c < most_frontier_children; ++c) {

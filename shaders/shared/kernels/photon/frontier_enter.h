@@ -18,7 +18,7 @@ FN void main() {
         FootprintDuals duals = unpack_duals(footprints[i]);
         // Slightly enlarged, for rounding and packing.
         extent = footprint_extent(footprint_of_duals(duals, normal, params.flatness)) * real(1.001);
-        extents[i] = vec4(extent, real(0.0));
+        extents[i - params.first] = vec4(extent, real(0.0));
     }
     vec3 p = vec3(photon.x, photon.y, photon.z);
     flags[i - params.first] =
