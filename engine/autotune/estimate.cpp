@@ -53,7 +53,8 @@ std::vector<double> tile_means(const std::vector<double>& values, int width, int
 /// its variance is that of the product, but its mean is 0, however much the product differs from
 /// place to place. So it tells the noise. Neighbouring pixels share photons, but tiles are
 /// independent, unless all of the picture shares them.
-Estimate mean_product(const ImagePair& a, const ImagePair& b, const Image& reference) {
+/// Where images of a pair differ by more than noise, the products' own spread is all there is.
+Estimate mean_product(const ImagePair& a, const ImagePair& b, const Image& reference, bool alike) {
     const auto of_tiles = [&](std::size_t i, std::size_t j) {
         return tile_means(rel_products(a[i], b[i], a[j], b[j], reference), reference.width,
                           reference.height);
@@ -66,9 +67,10 @@ Estimate mean_product(const ImagePair& a, const ImagePair& b, const Image& refer
     for (std::size_t i = 0; i < products.size(); ++i) {
         const double swapped = 0.5 * (first[i] - second[i]);
         const double spread = products[i] - value;
-        squares += std::min(swapped * swapped, spread * spread);
+        squares +=
+            alike ? std::min(swapped * swapped, spread * spread) / least_of_two : spread * spread;
     }
-    return {value, std::sqrt(squares / least_of_two) / tiles};
+    return {value, std::sqrt(squares) / tiles};
 }
 
 } // namespace
@@ -123,13 +125,13 @@ double Posterior::probability_below(double most) const {
 }
 
 std::array<Estimate, 2> squared_difference(const ImagePair& a, const ImagePair& b,
-                                           const Image& reference) {
+                                           const Image& reference, bool alike) {
     const auto twice_smoothed = [](const ImagePair& images) {
         return ImagePair{smoothed(smoothed(images[0])), smoothed(smoothed(images[1]))};
     };
-    const Estimate smooth = mean_product(twice_smoothed(a), twice_smoothed(b), reference);
+    const Estimate smooth = mean_product(twice_smoothed(a), twice_smoothed(b), reference, alike);
     const double value = lost_by_smoothing * smooth.value;
-    return {mean_product(a, b, reference),
+    return {mean_product(a, b, reference, alike),
             Estimate{value, std::hypot(lost_by_smoothing * smooth.error, spread_of_loss * value)}};
 }
 

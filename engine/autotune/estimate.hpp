@@ -49,9 +49,10 @@ private:
 /// the mean over the pixels of (a[0] − b[0])(a[1] − b[1]), divided as in relMSE by a denominator
 /// computed from `reference`. The first estimate uses the images as they are. The second uses
 /// smoothed images, which have lost most of the noise of single pixels, and makes up for the bias
-/// of density estimation that smoothing removes.
+/// of density estimation that smoothing removes. alike: whether the images of a pair differ by
+/// their noise only, which tells the estimate's error better.
 std::array<Estimate, 2> squared_difference(const ImagePair& a, const ImagePair& b,
-                                           const Image& reference);
+                                           const Image& reference, bool alike = true);
 
 /// The mean over 3 × 3 pixels.
 Image smoothed(const Image& image);

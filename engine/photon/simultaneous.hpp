@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/frontier_answer.hpp"
 #include "kernels/frontier_bindings.hpp"
 #include "photon/frontier.hpp"
 #include "photon/gather.hpp"
@@ -27,24 +26,8 @@ inline kernels::FrontierConstants frontier_constants(const Plan& plan,
 }
 
 /// Turns the sums of `count` queries into their answers.
-inline void store_answers(Device& device, const PhotonMap& map, const PhotonQueries& queries,
-                          std::uint32_t count, const Answering& how) {
-    const PhotonGatherParams params = gather_params(map, queries, 0);
-    dispatch(
-        device,
-        kernels::frontier_answer{.active_slots = queries.slots,
-                                 .queries = queries.points,
-                                 .gathers = queries.suspended,
-                                 .estimates = queries.estimates,
-                                 .params = {.end = count,
-                                            .boundary_correction = how.area_samples > 0 ? 1u : 0u,
-                                            .caustic_correction = how.caustic_correction ? 1u : 0u,
-                                            .corrected_x = params.corrected_x,
-                                            .corrected_y = params.corrected_y,
-                                            .corrected_z = params.corrected_z,
-                                            .corrected_distance = params.corrected_distance}},
-        count);
-}
+void store_answers(Device& device, const PhotonMap& map, const PhotonQueries& queries,
+                   std::uint32_t count, const Answering& how);
 
 /// Answers all queries at once. Calls run.operator()<Kernel>(params, bindings, threads) for the
 /// leaves of each level, as often as their photons require: Kernel adds them to the sums, and reads

@@ -1,6 +1,10 @@
 #include "device/kernel.hpp"
 #include "kernels/footprint_gather.hpp"
 #include "kernels/footprint_gather_texels.hpp"
+#include "kernels/leaf_discs.hpp"
+#include "kernels/leaf_discs_texels.hpp"
+#include "kernels/leaf_footprints.hpp"
+#include "kernels/leaf_footprints_texels.hpp"
 #include "kernels/nearest_gather.hpp"
 #include "kernels/nearest_gather_texels.hpp"
 #include "kernels/photon_gather.hpp"
@@ -21,6 +25,8 @@ namespace {
 
 const std::vector<std::pair<const KernelInfo*, const KernelInfo*>> pairs = {
     {&kernels::footprint_gather::info, &kernels::footprint_gather_texels::info},
+    {&kernels::leaf_discs::info, &kernels::leaf_discs_texels::info},
+    {&kernels::leaf_footprints::info, &kernels::leaf_footprints_texels::info},
     {&kernels::nearest_gather::info, &kernels::nearest_gather_texels::info},
     {&kernels::photon_gather::info, &kernels::photon_gather_texels::info},
     {&kernels::trace_any::info, &kernels::trace_any_texels::info},
