@@ -90,8 +90,8 @@ void RunningError::measure() {
 
     const double of_one = noise_after({.density = 1, .law = model_.law}, passes);
     model_.estimated = noise_of(means_[1].estimated, means_[3].estimated, guess) / of_one;
-    std::array<Estimate, 2> measured =
-        squared_difference({of_quarter[0], of_quarter[1]}, {of_quarter[2], of_quarter[3]}, guess, false);
+    std::array<Estimate, 2> measured = squared_difference(
+        {of_quarter[0], of_quarter[1]}, {of_quarter[2], of_quarter[3]}, guess, false);
     for (Estimate& estimate : measured) {
         estimate = scaled(estimate, 1 / ((bias_of[0] - bias_of[2]) * (bias_of[1] - bias_of[3])));
     }
