@@ -1,5 +1,6 @@
 #include "methods/search_options.hpp"
 
+#include "base/error.hpp"
 #include "methods/render_options.hpp"
 
 #include <algorithm>
@@ -26,6 +27,10 @@ Option query_option() {
                 [](RenderSettings& settings, const std::string& text) {
                     const auto* const name =
                         std::find(search_names.begin(), search_names.end(), text);
+                    if (name == search_names.end()) {
+                        throw UsageError(
+                            fmt::format("reading --query: '{}' is no way to search", text));
+                    }
                     settings.query = static_cast<QuerySearch>(name - search_names.begin());
                 },
             .sweep = {.full = {"simultaneous"}, .matters = finds_photons}};

@@ -69,7 +69,7 @@ TEST_F(Outputs, TerminalsShowPassesRadiusAndErrorAndPipesNothing) {
     const Outcome shown = argand(render + "-o shown.exr 2>" + terminal.name(), on_host);
     ASSERT_EQ(shown.exit_code, 0);
     const std::string text = terminal.read();
-    EXPECT_THAT(text, ::testing::ContainsRegex("pass 1, radius 0\\.[0-9]+"));
+    EXPECT_THAT(text, ::testing::ContainsRegex("pass [0-9]+, radius 0\\.[0-9]+"));
     EXPECT_THAT(text, ::testing::ContainsRegex("pass 4[0-9], radius 0\\.[0-9]+, error about "));
     const Outcome piped = argand(render + "-o piped.exr", on_host);
     ASSERT_EQ(piped.exit_code, 0);

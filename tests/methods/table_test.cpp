@@ -110,7 +110,8 @@ TEST(Option, WhatTheMethodChoosesCanBeAskedFor) {
             RenderSettings settings;
             if (option.get(settings) == "auto") {
                 SCOPED_TRACE(method.name + " --" + option.name);
-                option.set(settings, value_text(option.low));
+                option.set(settings,
+                           option.choices.empty() ? value_text(option.low) : option.choices.back());
                 EXPECT_NE(option.get(settings), "auto");
                 option.set(settings, "auto");
                 EXPECT_EQ(option.get(settings), "auto");

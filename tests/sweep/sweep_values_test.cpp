@@ -42,7 +42,8 @@ TEST(SweepValues, OfTheFullSweep) {
                                                     {"spp", {"1", "4", "16", "64", "256"}},
                                                     {"bounces", {"1", "4"}}}));
     Values discs = of_all_maps;
-    discs.merge(Values{{"kernel", {"uniform"}}, {"support", {"ball"}}});
+    discs.merge(
+        Values{{"kernel", {"uniform"}}, {"support", {"ball"}}, {"query", {"simultaneous"}}});
     EXPECT_EQ(values("photons", Extent::full), discs);
     discs.erase("radius");
     discs.merge(Values{{"passes", {"4", "16", "64"}}, {"r1", {"0.125", "0.5"}}});
@@ -55,6 +56,7 @@ TEST(SweepValues, OfTheFullSweep) {
                             {"caustic-smoothing", {"2", "8"}},
                             {"flatness", {"0.1", "1"}},
                             {"uniform-kernel", {"on"}},
+                            {"query", {"simultaneous"}},
                             {"paper-axes", {"on"}},
                             {"paper-reemission", {"on"}}});
     EXPECT_EQ(values("footprints", Extent::full), footprints);

@@ -376,6 +376,7 @@ FN void main() {
         return;
     }
     Query q = make_query(active_slots[i]);
+    q.node = first_node(params.part); // also where walks end
     Search s;
     uint steps = 0u;
     if (params.first != 0u) {

@@ -11,10 +11,9 @@ FN bool load_query(OUT(Query) q) {
         return false;
     }
     q = make_query(active_slots[i]);
+    q.node = first_node(params.part); // also where the walk ends
     if (params.first == 0u) {
         load_sums(q);
-    } else {
-        q.node = first_node(params.part);
     }
     return params.first != 0u || q.node != lbvh_end;
 }
