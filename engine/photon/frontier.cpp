@@ -1,4 +1,4 @@
-#include "photon/frontier.hpp"
+#include "photon/frontier_search.hpp"
 
 #include "base/error.hpp"
 #include "kernels/frontier_begin.hpp"
@@ -18,11 +18,11 @@
 #include "shared/frontier.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
-#include <vector>
 
 namespace argand {
+
+namespace frontier {
 
 namespace {
 
@@ -33,38 +33,8 @@ constexpr std::uint32_t chunk_on_gpu = 16;
 // The references of all children of so many are still counted in 32 bits.
 constexpr std::uint64_t most_on_any_device = 1u << 28;
 
-/// Nodes of a level, or parts of them.
-struct Nodes {
-    Buffer ranges;    ///< SegmentRange: their queries
-    Buffer boxes;     ///< BoxRecord: of their queries
-    Buffer nodes;     ///< FrontierNode
-    Buffer ancestors; ///< uint: the node of the level before
-};
+} // namespace
 
-/// Queries in the order of nodes.
-struct Places {
-    Buffer places;   ///< uvec4 per query: its position and slot
-    Buffer segments; ///< uint per query: its node, or no_segment
-};
-
-/// Nodes of a level that lie side by side, as their queries and references do.
-struct Part {
-    std::uint32_t side = 0; ///< where the queries are
-    std::uint32_t first_node = 0, end_node = 0;
-    std::uint32_t first_query = 0, end_query = 0;
-    std::uint32_t first_photon = 0, end_photon = 0; ///< references
-    std::uint32_t active = 0;                       ///< nodes with children
-    std::uint32_t chunks = 0;                       ///< of their references
-};
-
-/// A part that waits for room. Its queries stay where they are: no other part moves them.
-struct Waiting {
-    Part part;
-    Nodes nodes;
-    std::uint32_t place = 0; ///< of its references among those that wait
-};
-
-/// Copies `count` elements of `bytes` bytes between two buffers.
 void copy_elements(Device& device, const Buffer& from, std::uint64_t first, const Buffer& to,
                    std::uint64_t place, std::uint64_t count, std::uint64_t bytes) {
     if (count > 0) {
@@ -72,67 +42,6 @@ void copy_elements(Device& device, const Buffer& from, std::uint64_t first, cons
                     BufferView(to, place * bytes, count * bytes));
     }
 }
-
-class Search {
-public:
-    Search(Device& device, const PhotonMap& map, const PhotonQueries& queries,
-           std::uint32_t query_count, double reach, const FrontierSettings& settings,
-           const std::function<void(const FrontierLeaves&)>& add, FrontierStatistics* statistics);
-
-    void run();
-
-private:
-    void make_room(std::uint64_t references, std::uint32_t kept);
-    void search_among(std::uint32_t first, std::uint32_t end);
-    void take_levels(Part part);
-    std::uint32_t divide_queries(Part& part);
-    std::uint32_t partition_queries(Part& part, std::uint32_t level_side, std::uint32_t nodes,
-                                    std::uint32_t parts, bool again);
-    void divide_photons(const Part& part, std::uint32_t children);
-    Part split(const Part& part, std::uint32_t children);
-    void wait_or_finish(const Part& part);
-    Part resume();
-    void add_leaves(const Part& part, std::uint32_t most_photons);
-    void count_leaves(const Part& part);
-    void count_photons(const Part& part, std::uint32_t children);
-    std::vector<std::uint32_t> read_counters();
-    FrontierParams params(std::uint32_t first, std::uint32_t end) const;
-
-    Device& device_;
-    const PhotonMap& map_;
-    const PhotonQueries& queries_;
-    FrontierSettings settings_;
-    const std::function<void(const FrontierLeaves&)>& add_;
-    FrontierStatistics* statistics_;
-    float reach_;
-    bool of_footprints_;
-    std::uint32_t chunk_;
-    std::uint32_t query_count_;
-    std::uint32_t photon_count_;
-    std::uint64_t most_nodes_ = 0;      ///< of a level
-    std::uint32_t most_references_ = 0; ///< of a level, for which there is room now
-    std::uint32_t limit_ = 0;           ///< of most_references_
-    /// Photons taken together. The two parts of a single node have room, even if each photon goes
-    /// to both.
-    std::uint32_t batch_ = 0;
-    std::uint32_t first_photon_ = 0; ///< of those taken together
-    bool careful_ = false;           ///< children are made by a single partition
-
-    Nodes now_;                           ///< of the level
-    Nodes parts_, other_parts_;           ///< of the nodes' queries
-    std::array<Places, 3> places_;        ///< of the level, and of parts
-    Buffer references_, next_references_; ///< uvec4: position and index of a photon
-    Buffer copies_, first_copies_, chunks_, first_chunks_, families_; ///< per node
-    Buffer sources_, query_lefts_;                                    ///< uint per part
-    Buffer chunk_sources_;                                            ///< uint per chunk
-    Buffer counts_, sums_;                                            ///< uint per chunk and child
-    Buffer flags_, flag_sums_, to_;                                   ///< uint per query
-    Buffer photon_flags_, photon_sums_; ///< uint per photon of a batch
-    Buffer extents_;                    ///< vec4 per photon: half sizes of footprints
-    Buffer counters_;
-    Buffer waiting_references_;
-    std::vector<Waiting> waiting_;
-};
 
 Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& queries,
                std::uint32_t query_count, double reach, const FrontierSettings& settings,
@@ -452,100 +361,6 @@ void Search::divide_photons(const Part& part, std::uint32_t children) {
              children);
 }
 
-/// Splits a part whose children have more references than there is room for. Returns its first
-/// nodes, for whose children there is room; the others wait. If there is room for those of no node,
-/// the part is to have fewer.
-Part Search::split(const Part& part, std::uint32_t children) {
-    const auto ancestors = download<std::uint32_t>(device_, parts_.ancestors, children);
-    const auto of_children = download<FrontierNode>(device_, parts_.nodes, children);
-    const auto nodes = download<FrontierNode>(device_, now_.nodes, part.end_node);
-    const auto ranges = download<SegmentRange>(device_, now_.ranges, part.end_node);
-    std::uint32_t child = 0;
-    while (of_children[child].first + of_children[child].count <= most_references_) {
-        ++child;
-    }
-    const std::uint32_t node = ancestors[child];
-    if (node == ancestors[0]) {
-        careful_ = true;
-        return part;
-    }
-    Part taken = part;
-    Part rest = part;
-    taken.end_node = rest.first_node = node;
-    taken.end_query = rest.first_query = ranges[node].first;
-    taken.end_photon = rest.first_photon = nodes[node].first;
-    rest.active = rest.chunks = 0;
-    for (std::uint32_t i = node; i < part.end_node; ++i) {
-        if (nodes[i].state == frontier_active) {
-            ++rest.active;
-            rest.chunks += chunks_of(nodes[i].count, chunk_);
-        }
-    }
-    taken.active -= rest.active;
-    taken.chunks -= rest.chunks;
-    wait_or_finish(rest);
-    return taken;
-}
-
-/// Copies `count` nodes of a level.
-void copy_nodes(Device& device, const Nodes& from, std::uint32_t first, const Nodes& to,
-                std::uint32_t place, std::uint32_t count) {
-    copy_elements(device, from.ranges, first, to.ranges, place, count, sizeof(SegmentRange));
-    copy_elements(device, from.boxes, first, to.boxes, place, count, sizeof(BoxRecord));
-    copy_elements(device, from.nodes, first, to.nodes, place, count, sizeof(FrontierNode));
-}
-
-/// Keeps a part until resume(). If there is no room for its references, its active nodes become
-/// leaves instead, which takes longer but no memory.
-void Search::wait_or_finish(const Part& part) {
-    const std::uint32_t photons = part.end_photon - part.first_photon;
-    const std::uint32_t count = part.end_node - part.first_node;
-    const std::uint32_t place = waiting_.empty()
-                                    ? 0
-                                    : waiting_.back().place + waiting_.back().part.end_photon -
-                                          waiting_.back().part.first_photon;
-    if (photons > most_references_ - place) {
-        auto nodes = download<FrontierNode>(device_, now_.nodes, count, part.first_node);
-        std::uint32_t most = 0;
-        for (FrontierNode& node : nodes) {
-            // The leaves have been added already.
-            node.state = node.state == frontier_active ? frontier_leaf : frontier_ended;
-            most = node.state == frontier_leaf ? std::max(most, node.count) : most;
-        }
-        device_.upload(now_.nodes, part.first_node * sizeof(FrontierNode),
-                       std::as_bytes(std::span(nodes)));
-        add_leaves(part, most);
-        return;
-    }
-    if (!waiting_references_) {
-        waiting_references_ =
-            device_.allocate("simultaneous search", most_references_ * sizeof(glm::uvec4));
-    }
-    Waiting waiting{.part = part, .place = place};
-    waiting.nodes = {
-        .ranges = device_.allocate("simultaneous search", count * sizeof(SegmentRange)),
-        .boxes = device_.allocate("simultaneous search", count * sizeof(BoxRecord)),
-        .nodes = device_.allocate("simultaneous search", count * sizeof(FrontierNode))};
-    copy_nodes(device_, now_, part.first_node, waiting.nodes, 0, count);
-    copy_elements(device_, references_, part.first_photon, waiting_references_, place, photons,
-                  sizeof(glm::uvec4));
-    waiting_.push_back(std::move(waiting));
-    if (statistics_ != nullptr) {
-        ++statistics_->waits;
-    }
-}
-
-/// The part that has waited for the shortest time, where it was.
-Part Search::resume() {
-    const Waiting waiting = std::move(waiting_.back());
-    waiting_.pop_back();
-    const Part part = waiting.part;
-    copy_nodes(device_, waiting.nodes, 0, now_, part.first_node, part.end_node - part.first_node);
-    copy_elements(device_, waiting_references_, waiting.place, references_, part.first_photon,
-                  part.end_photon - part.first_photon, sizeof(glm::uvec4));
-    return part;
-}
-
 void Search::add_leaves(const Part& part, std::uint32_t most_photons) {
     count_leaves(part);
     if (most_photons > 0) {
@@ -559,55 +374,7 @@ void Search::add_leaves(const Part& part, std::uint32_t most_photons) {
     }
 }
 
-void Search::count_leaves(const Part& part) {
-    if (statistics_ == nullptr) {
-        return;
-    }
-    ++statistics_->levels;
-    const std::uint32_t count = part.end_node - part.first_node;
-    const auto nodes = download<FrontierNode>(device_, now_.nodes, count, part.first_node);
-    const auto ranges = download<SegmentRange>(device_, now_.ranges, count, part.first_node);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (nodes[i].state == frontier_leaf) {
-            ++statistics_->leaves;
-            statistics_->pairs += std::uint64_t(nodes[i].count) * ranges[i].count;
-        }
-    }
-}
-
-/// Counts the references that go to no child, and those that go to several.
-void Search::count_photons(const Part& part, std::uint32_t children) {
-    if (statistics_ == nullptr) {
-        return;
-    }
-    const auto nodes = download<FrontierNode>(device_, now_.nodes, part.end_node);
-    const auto references = download<glm::uvec4>(device_, references_, part.end_photon);
-    const auto families = download<glm::uvec2>(device_, families_, part.end_node);
-    const auto boxes = download<BoxRecord>(device_, parts_.boxes, children);
-    const auto extents = download<glm::vec4>(
-        device_, extents_, of_footprints_ ? std::min(photon_count_ - first_photon_, batch_) : 0);
-    for (std::uint32_t i = part.first_node; i < part.end_node; ++i) {
-        if (nodes[i].state != frontier_active) {
-            continue;
-        }
-        statistics_->references += nodes[i].count;
-        for (std::uint32_t j = nodes[i].first; j < nodes[i].first + nodes[i].count; ++j) {
-            const glm::vec3 p = glm::uintBitsToFloat(glm::uvec3(references[j]));
-            const glm::vec3 extent = of_footprints_
-                                         ? glm::vec3(extents[references[j].w - first_photon_])
-                                         : glm::vec3(reach_);
-            std::uint32_t to = 0;
-            for (std::uint32_t c = families[i].x; c < families[i].y; ++c) {
-                to += reaches(p, extent, box_low(boxes[c]), box_high(boxes[c])) ? 1 : 0;
-            }
-            statistics_->box_tests += families[i].y - families[i].x;
-            statistics_->discarded += to == 0 ? 1 : 0;
-            statistics_->replicated += to > 1 ? to - 1 : 0;
-        }
-    }
-}
-
-} // namespace
+} // namespace frontier
 
 std::uint32_t search_simultaneously(Device& device, const PhotonMap& map,
                                     const PhotonQueries& queries, double reach,
@@ -621,7 +388,7 @@ std::uint32_t search_simultaneously(Device& device, const PhotonMap& map,
     }
     const std::uint32_t count = download_word(device, queries.count.buffer, queries.count.index);
     if (count > 0) {
-        Search(device, map, queries, count, reach, settings, add, statistics).run();
+        frontier::Search(device, map, queries, count, reach, settings, add, statistics).run();
     }
     return count;
 }
