@@ -110,7 +110,7 @@ Buffer order_along_curve(Device& device, const PhotonSurfaces& surfaces, const P
     const glm::vec3& low = surfaces.box.low;
     const glm::vec3& high = surfaces.box.high;
     const Buffer codes = device.scratch("area codes", pieces.count * word);
-    const Buffer order = device.scratch("area order", pieces.count * word);
+    Buffer order = device.scratch("area order", pieces.count * word);
     const Buffer areas = device.scratch("areas of pieces", pieces.count * word);
     dispatch(device,
              kernels::area_codes{.positions = surfaces.positions,

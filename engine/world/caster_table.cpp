@@ -63,7 +63,8 @@ void extend(Bounds& box, const glm::vec3& low, const glm::vec3& high) {
 }
 
 /// Uploads the vertices of each moving caster, which may be listed several times, in parts.
-void upload_parts(Device& device, std::map<std::uint32_t, std::vector<std::uint32_t>> casters,
+/// Sorts the lists.
+void upload_parts(Device& device, std::map<std::uint32_t, std::vector<std::uint32_t>>& casters,
                   CasterTable& table) {
     std::vector<std::uint32_t> vertices;
     std::vector<CasterPart> parts;
@@ -151,7 +152,7 @@ CasterTable make_caster_table(Device& device, const Scene& scene,
     for (const auto& [root, box] : at_rest) {
         table.at_rest.push_back(box);
     }
-    upload_parts(device, std::move(moving), table);
+    upload_parts(device, moving, table);
     return table;
 }
 
