@@ -1,6 +1,7 @@
 #include "photon/frontier_search.hpp"
 
 #include "base/error.hpp"
+#include "device/copy_elements.hpp"
 #include "kernels/frontier_begin.hpp"
 #include "kernels/frontier_copy.hpp"
 #include "kernels/frontier_count.hpp"
@@ -35,14 +36,6 @@ constexpr std::uint64_t most_on_any_device = 1u << 28;
 
 } // namespace
 
-void copy_elements(Device& device, const Buffer& from, std::uint64_t first, const Buffer& to,
-                   std::uint64_t place, std::uint64_t count, std::uint64_t bytes) {
-    if (count > 0) {
-        device.copy(BufferView(from, first * bytes, count * bytes),
-                    BufferView(to, place * bytes, count * bytes));
-    }
-}
-
 Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& queries,
                std::uint32_t query_count, double reach, const FrontierSettings& settings,
                const std::function<void(const FrontierLeaves&)>& add,
@@ -59,9 +52,10 @@ Search::Search(Device& device, const PhotonMap& map, const PhotonQueries& querie
                   device.info().limits.storage_range / sizeof(glm::uvec4), most_on_any_device}));
     batch_ = limit_ / 2;
     // Nodes that are partitioned have more than query_leaf queries.
-    most_nodes_ =
-        std::min(most_frontier_children * query_count_ / (settings.query_leaf + 1), query_count_) +
-        most_frontier_children;
+    const std::uint64_t queries_in_all = query_count_;
+    most_nodes_ = std::min(most_frontier_children * queries_in_all / (settings.query_leaf + 1),
+                           queries_in_all) +
+                  most_frontier_children;
     const auto allocate = [&](std::uint64_t count, std::uint64_t bytes) {
         return device.allocate("simultaneous search", count * bytes);
     };

@@ -53,4 +53,5 @@ void Search::count_photons(const Part& part, std::uint32_t children) {
         }
     }
 }
+
 } // namespace argand::frontier

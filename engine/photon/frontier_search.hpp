@@ -40,10 +40,6 @@ struct Waiting {
     std::uint32_t place = 0; ///< of its references among those that wait
 };
 
-/// Copies `count` elements of `bytes` bytes between two buffers.
-void copy_elements(Device& device, const Buffer& from, std::uint64_t first, const Buffer& to,
-                   std::uint64_t place, std::uint64_t count, std::uint64_t bytes);
-
 /// One search: its buffers, and what becomes of them from level to level.
 class Search {
 public:

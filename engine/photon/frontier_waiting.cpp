@@ -1,3 +1,4 @@
+#include "device/copy_elements.hpp"
 #include "photon/frontier_search.hpp"
 #include "shared/frontier.h"
 #include "shared/segments.h"
@@ -104,4 +105,5 @@ Part Search::resume() {
                   part.end_photon - part.first_photon, sizeof(glm::uvec4));
     return part;
 }
+
 } // namespace argand::frontier

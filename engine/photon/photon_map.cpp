@@ -1,5 +1,6 @@
 #include "photon/photon_map.hpp"
 
+#include "device/copy_elements.hpp"
 #include "kernels/area_cover.hpp"
 #include "kernels/area_footprints.hpp"
 #include "kernels/area_rays.hpp"
@@ -51,13 +52,6 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.heads = device.allocate("photon map heads", capacity * 4);
 }
 
-/// Copies the first bytes of a buffer, if any.
-void copy_bytes(Device& device, const Buffer& from, const Buffer& to, std::uint64_t bytes) {
-    if (bytes > 0) {
-        device.copy(BufferView(from, 0, bytes), BufferView(to, 0, bytes));
-    }
-}
-
 /// Grows the buffers to `wanted` records, at most the device's storage range, and keeps the first
 /// `stored`.
 void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::uint64_t wanted) {
@@ -68,8 +62,8 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     const Buffer photons = w.photons;
     const Buffer offsets = w.offsets;
     allocate_stored(device, w, capacity);
-    copy_bytes(device, photons, w.photons, stored * sizeof(PhotonRecord));
-    copy_bytes(device, offsets, w.offsets, w.footprints ? stored * sizeof(glm::uvec4) : 0);
+    copy_elements(device, photons, 0, w.photons, 0, stored, sizeof(PhotonRecord));
+    copy_elements(device, offsets, 0, w.offsets, 0, w.footprints ? stored : 0, sizeof(glm::uvec4));
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -288,7 +282,7 @@ void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& 
                  .constants = {.around_footprints = static_cast<bool>(map.footprints)}},
              leaf_count);
     const Buffer leaves = device.allocate("photon map leaves", allocated * 4);
-    copy_bytes(device, compacted, leaves, allocated * 4);
+    copy_elements(device, compacted, 0, leaves, 0, allocated, 4);
     map.lbvh = build_lbvh_in_order(device, boxes, leaf_distances, leaves, Count(leaf_count));
 }
 
@@ -408,7 +402,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
         build_tree(device, w, settings.wide_codes, map);
     }
     map.counters = device.allocate("photon map counters", counter_count * 4);
-    copy_bytes(device, w.counters, map.counters, counter_count * 4);
+    copy_elements(device, w.counters, 0, map.counters, 0, counter_count, 4);
     return map;
 }
 

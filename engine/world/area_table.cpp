@@ -1,5 +1,6 @@
 #include "world/area_table.hpp"
 
+#include "device/copy_elements.hpp"
 #include "kernels/area_carries.hpp"
 #include "kernels/area_codes.hpp"
 #include "kernels/area_counts.hpp"
@@ -46,11 +47,6 @@ std::vector<std::uint32_t> which_store(const Scene& scene, float follow_roughnes
     return stores;
 }
 
-void copy_word(Device& device, const Buffer& from, std::uint64_t index, const Buffer& to,
-               std::uint64_t to_index) {
-    device.copy({from, index * word, word}, {to, to_index * word, word});
-}
-
 /// Name of the scratch memory for pieces that a list does not use.
 const char* other_than(const Buffer& list) {
     return list.name() == "area pieces" ? "area pieces, divided" : "area pieces";
@@ -80,7 +76,7 @@ Pieces pieces_within(Device& device, const PhotonSurfaces& surfaces, const Sampl
                  ends);
         reduce_max(device, places, state, area_state_most, ends);
         exclusive_scan(device, places, places, ends);
-        copy_word(device, places, pieces.count, state, area_state_pieces);
+        copy_elements(device, places, pieces.count, state, area_state_pieces, 1, word);
         const auto found = download<std::uint32_t>(device, state, area_state_pieces + 1);
         divides = found[area_state_most] > 1;
         if (divides && params.of_triangles == 0 &&
@@ -165,8 +161,8 @@ SampledAreas summed(Device& device, const PhotonSurfaces& surfaces, const Pieces
                                  .area_sums = result.sums,
                                  .params = params},
              pieces.count);
-    copy_word(device, lows, pieces.count, state, area_state_sum);
-    copy_word(device, highs, pieces.count, state, area_state_sum + 1);
+    copy_elements(device, lows, pieces.count, state, area_state_sum, 1, word);
+    copy_elements(device, highs, pieces.count, state, area_state_sum + 1, 1, word);
     const auto found = download<std::uint32_t>(device, state, area_state_count);
     const double units = found[area_state_sum + 1] * 4294967296.0 + found[area_state_sum];
     result.area = std::ldexp(units, -area_scale(found[area_state_largest], params.headroom_bits));
