@@ -24,8 +24,8 @@ void forget_vertices(Scene& scene) {
 }
 
 /// moving_scene(), one of whose meshes has this material.
-Scene moving_scene_of(const Material& material, std::size_t mesh) {
-    Scene scene = moving_scene();
+Scene moving_scene_of(const Material& material, std::size_t mesh, std::uint32_t triangles = 50) {
+    Scene scene = moving_scene(triangles);
     const auto index = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(material);
     const MovingMesh& moving = scene.motion.meshes[mesh];
@@ -210,10 +210,13 @@ TEST_F(WorldUpdates, RebuildTheTreeOnceRaysWouldVisitManyMoreNodes) {
     WorldUpdate update = world.update(scene_);
     EXPECT_TRUE(update.refitted);
     EXPECT_FALSE(update.rebuilt);
+    EXPECT_GT(world.tree_cost(), 1);
+    EXPECT_LT(world.tree_cost(), 1.3);
     move_to(1, scene_);
     update = world.update(scene_);
     EXPECT_FALSE(update.refitted);
     EXPECT_TRUE(update.rebuilt);
+    EXPECT_EQ(world.tree_cost(), 1);
     RenderSettings settings = settings_of("path", 16, 2);
     EXPECT_TRUE(same_bits(render_in(world, scene_, settings), render(scene_, settings)));
 }
@@ -253,6 +256,7 @@ TEST_F(WorldUpdates, AreasAreFoundAnewOnlyWhereSurfacesChange) {
 struct Transfers {
     std::uint64_t uploaded = 0;
     std::uint64_t vertices = 0; ///< bytes of vertices that the host fetched
+    std::uint64_t lights = 0;   ///< bytes of sums of lights that it fetched
 };
 class Transferred : public RenderTest {
 protected:
@@ -269,9 +273,10 @@ protected:
             world.update(scene);
             session.begin_frame(0);
             finish(session, [](double) { return true; });
-            const Transfers now{recording.uploaded_bytes(),
-                                recording.downloaded_bytes("positions")};
-            frame = {now.uploaded - before.uploaded, now.vertices - before.vertices};
+            const Transfers now{recording.uploaded_bytes(), recording.downloaded_bytes("positions"),
+                                recording.downloaded_bytes("sums of emissive parts")};
+            frame = {now.uploaded - before.uploaded, now.vertices - before.vertices,
+                     now.lights - before.lights};
             before = now;
         }
         return frame;
@@ -293,12 +298,35 @@ TEST_F(Transferred, FramesFetchNoCasterOfCaustics) {
     EXPECT_EQ(of(moving_scene_of(glass, 1)).vertices, 0u);
 }
 
-// Their emission is chosen by the table of lights, which the host makes.
-TEST_F(Transferred, FramesFetchMeshesThatShine) {
+// A part of 128 of their triangles has a row in the tables by which lights are chosen.
+TEST_F(Transferred, FramesBringNothingForATriangleThatShines) {
     Material lamp;
     lamp.emission = glm::vec3(3, 2, 1);
-    const Scene scene = moving_scene_of(lamp, 0);
-    EXPECT_EQ(of(scene).vertices, scene.motion.meshes[0].positions.size() * sizeof(glm::vec4));
+    const Transfers few = of(moving_scene_of(lamp, 0, 128));
+    const Transfers many = of(moving_scene_of(lamp, 0, 12'800));
+    EXPECT_EQ(few.vertices, 0u);
+    EXPECT_EQ(many.vertices, 0u);
+    EXPECT_GT(few.lights, 0u);
+    EXPECT_EQ(many.lights, 100 * few.lights);
+    EXPECT_LT(many.lights + many.uploaded - few.uploaded, 12'800u);
+}
+
+// The host's table is that of the same triangles at rest.
+TEST_F(Transferred, MovingLampsLightTheSceneAsThoseAtRest) {
+    Material lamp;
+    lamp.emission = glm::vec3(3, 2, 1);
+    for (const char* method : {"path", "photons"}) {
+        SCOPED_TRACE(method);
+        Scene moving = moving_scene_of(lamp, 0);
+        move_to(0.5, moving);
+        Scene resting = moving;
+        resting.motion = {};
+        RenderSettings settings = settings_of(method, 24, 64);
+        settings.photons = 20'000;
+        const RenderResult a = render(moving, settings);
+        const RenderResult b = render(resting, settings);
+        EXPECT_LT(compare(a.layers[0].image, b.layers[0].image).rel_mse, 1e-4);
+    }
 }
 
 TEST_F(WorldUpdates, RendersShareATree) {
