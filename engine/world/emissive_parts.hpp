@@ -11,7 +11,8 @@
 namespace argand {
 
 /// The emissive triangles of a scene whose lights a device makes, because some of them move: their
-/// order, and which of them make up an emitter. It does not depend on the moment.
+/// order, and which of them make up an emitter. It does not depend on the moment. A part ends where
+/// the next triangle belongs to another emitter, so a file whose emitters alternate has many.
 struct EmissiveParts {
     Buffer triangles;                   ///< uint: the triangles, by rising index
     Buffer parts;                       ///< EmissivePart

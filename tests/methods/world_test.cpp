@@ -329,6 +329,78 @@ TEST_F(Transferred, MovingLampsLightTheSceneAsThoseAtRest) {
     }
 }
 
+/// What a frame has run and uploaded.
+struct FrameWork {
+    std::uint64_t poses, refits, builds, areas, lights, uploaded, downloaded_vertices;
+};
+
+// Each change costs what depends on it, and no more: lights belong to a render, the rest to a
+// world.
+TEST_F(WorldUpdates, FramesDoOnlyWhatTheirChangesRequire) {
+    Material lamp;
+    lamp.emission = glm::vec3(3, 2, 1);
+    scene_ = moving_scene_of(lamp, 0, 2'000);
+    RecordingDevice recording(device());
+    World world(recording, scene_);
+    RenderSettings settings = settings_of("photons", 8, 1);
+    settings.photons = 1000;
+    Session session(world, scene_, settings);
+    const auto counts = [&] {
+        return FrameWork{
+            recording.runs_of("pose_vertices"),     recording.runs_of("ray_refit"),
+            recording.runs_of("lbvh_codes"),        recording.runs_of("area_triangles"),
+            recording.runs_of("emissive_lights"),   recording.uploaded_bytes(),
+            recording.downloaded_bytes("positions")};
+    };
+    const auto frame = [&] {
+        const FrameWork before = counts();
+        world.update(scene_);
+        session.begin_frame(0);
+        finish(session, [](double) { return true; });
+        const FrameWork now = counts();
+        EXPECT_EQ(now.lights - before.lights, 1u);
+        EXPECT_EQ(now.downloaded_vertices, 0u);
+        return FrameWork{now.poses - before.poses,
+                         now.refits - before.refits,
+                         now.builds - before.builds,
+                         now.areas - before.areas,
+                         now.lights - before.lights,
+                         now.uploaded - before.uploaded,
+                         0};
+    };
+    const auto expect_world = [](const FrameWork& work, std::uint64_t updates) {
+        EXPECT_EQ(work.poses, updates);
+        EXPECT_EQ(work.refits, updates);
+        EXPECT_EQ(work.areas, updates);
+    };
+    move_to(0.25, scene_);
+    frame();
+    const FrameWork nothing = frame();
+    expect_world(nothing, 0);
+    scene_.cameras[0].position.x += 0.01f;
+    const FrameWork camera = frame();
+    expect_world(camera, 0);
+    EXPECT_EQ(camera.builds, nothing.builds); // those of the photon map
+    EXPECT_EQ(camera.uploaded, nothing.uploaded);
+    scene_.lights.back().position.x += 0.01f;
+    const FrameWork light = frame();
+    expect_world(light, 0);
+    EXPECT_EQ(light.uploaded, nothing.uploaded);
+    scene_.motion.nodes[1].keys = {};
+    scene_.motion.nodes[1].rest.scale = glm::dvec3(0.4);
+    const FrameWork object = frame();
+    expect_world(object, 1);
+    const std::uint64_t moves = // matrices, and for each material whether it stores photons
+        2 * sizeof(PoseMatrix) + scene_.materials.size() * sizeof(std::uint32_t);
+    EXPECT_EQ(object.uploaded - nothing.uploaded, moves);
+    move_to(0.26, scene_);
+    scene_.cameras[0].position.x += 0.01f;
+    scene_.materials[1].base_color = glm::vec3(0.3f);
+    const FrameWork everything = frame();
+    expect_world(everything, 1);
+    EXPECT_EQ(everything.uploaded - nothing.uploaded, moves + sizeof(MaterialRecord));
+}
+
 TEST_F(WorldUpdates, RendersShareATree) {
     RecordingDevice recording(device());
     World world(recording, scene_);
