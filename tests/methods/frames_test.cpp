@@ -61,18 +61,26 @@ TEST_P(Frames, AllocateAndCompileNothingForSurfacesAndLightsSeenBefore) {
 
 INSTANTIATE_METHODS(Frames);
 
-class ManyFrames : public RenderTest {};
-
-TEST_F(ManyFrames, SlowAThousandAllocateAndCompileNothing) {
-    RenderSettings settings = settings_of("photons", 4, 1);
-    settings.photons = 300;
-    std::vector<double> times;
-    for (int frame = 0; frame < 1000; ++frame) {
-        times.push_back(frame % 5 / 5.0);
+class ManyFrames : public RenderTest {
+protected:
+    void expect_settled_for(int frames, const std::string& method) {
+        RenderSettings settings = settings_of(method, 4, 1);
+        settings.photons = 300;
+        std::vector<double> times;
+        times.reserve(static_cast<std::size_t>(frames));
+        for (int frame = 0; frame < frames; ++frame) {
+            times.push_back(frame % 5 / 5.0);
+        }
+        Scene scene = moving_scene();
+        scene.materials[0].emission = glm::vec3(0.5f); // of the meshes that move
+        expect_settled(open_anew(), scene, settings, times, 10);
     }
-    Scene scene = moving_scene();
-    scene.materials[0].emission = glm::vec3(0.5f); // of the meshes that move
-    expect_settled(open_anew(), scene, settings, times, 10);
+};
+
+TEST_F(ManyFrames, SlowAThousandAllocateAndCompileNothing) { expect_settled_for(1000, "path"); }
+
+TEST_F(ManyFrames, SlowOfAPhotonMapAllocateAndCompileNothing) {
+    expect_settled_for(100, "photons");
 }
 
 } // namespace
