@@ -66,7 +66,8 @@ void set_focus(SceneRecord& record, const LightTable& table, const std::vector<F
     constexpr double largest = 0.5; // over the scene's sphere; larger ones gain too little
     std::vector<FoundLight> outside;
     std::copy_if(found.begin(), found.end(), std::back_inserter(outside), [&](const FoundLight& f) {
-        return f.indirect && f.radiance > 0 && is_from_outside(table.lights[f.light]);
+        return f.indirect && f.radiance > 0 &&
+               is_from_outside(table.lights[row_of(table, f.light)]);
     });
     if (outside.size() < least_points) {
         return;
@@ -176,11 +177,12 @@ void learn_lights(RenderContext& context) {
     FoundShares for_rays{.light = std::vector<double>(emitters, 0.0)};
     FoundShares for_photons = for_rays;
     for (const FoundLight& f : found.lights) {
+        const std::uint32_t emitter = table.emitter[row_of(table, f.light)];
         if (!f.indirect || !direct_only) {
-            add(for_rays, table.emitter[f.light], f.radiance);
+            add(for_rays, emitter, f.radiance);
         }
         if (f.indirect) {
-            add(for_photons, table.emitter[f.light], f.radiance);
+            add(for_photons, emitter, f.radiance);
         }
     }
     if (photons && outside > 0) {

@@ -5,12 +5,12 @@
 
 namespace argand {
 
-Bounds bounds(const PlacedScene& placed) {
+Bounds bounds(const Scene& scene) {
     Bounds box;
-    for (const glm::uvec3& triangle : placed.scene.triangles) {
+    for (const glm::uvec3& triangle : scene.triangles) {
         for (int corner = 0; corner < 3; ++corner) {
-            box.low = glm::min(box.low, placed.positions[triangle[corner]]);
-            box.high = glm::max(box.high, placed.positions[triangle[corner]]);
+            box.low = glm::min(box.low, scene.positions[triangle[corner]]);
+            box.high = glm::max(box.high, scene.positions[triangle[corner]]);
         }
     }
     return box;
@@ -24,11 +24,11 @@ double longest_animation(const Scene& scene) {
     return seconds;
 }
 
-double area(const PlacedScene& placed, std::size_t triangle) {
-    const glm::uvec3& corners = placed.scene.triangles[triangle];
-    const glm::dvec3 a(placed.positions[corners.x]);
-    const glm::dvec3 b(placed.positions[corners.y]);
-    const glm::dvec3 c(placed.positions[corners.z]);
+double area(const Scene& scene, std::size_t triangle) {
+    const glm::uvec3& corners = scene.triangles[triangle];
+    const glm::dvec3 a(scene.positions[corners.x]);
+    const glm::dvec3 b(scene.positions[corners.y]);
+    const glm::dvec3 c(scene.positions[corners.z]);
     return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 

@@ -69,24 +69,14 @@ struct Scene {
         notes; ///< unsupported features and added objects, one line each, for the user
 };
 
-/// A scene, and where its vertices are. A film's moving vertices are placed on a device only, and
-/// those in Scene::positions are of an earlier moment. It refers to both.
-struct PlacedScene {
-    PlacedScene(const Scene& placed) : PlacedScene(placed, placed.positions) {}
-    PlacedScene(const Scene& placed, const std::vector<glm::vec3>& at)
-        : scene(placed), positions(at) {}
-    const Scene& scene;
-    const std::vector<glm::vec3>& positions;
-};
-
 /// Bounding box of the vertices that triangles use; low > high if there are none.
-Bounds bounds(const PlacedScene& placed);
+Bounds bounds(const Scene& scene);
 
 /// Time of the last key of all animations; 0 if there are none.
 double longest_animation(const Scene& scene);
 
 /// Area of a triangle, in double precision.
-double area(const PlacedScene& placed, std::size_t triangle);
+double area(const Scene& scene, std::size_t triangle);
 
 /// Sum of the areas of all triangles, in double precision.
 double surface_area(const Scene& scene);

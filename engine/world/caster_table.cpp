@@ -1,61 +1,18 @@
 #include "world/caster_table.hpp"
 
-#include "base/disjoint_sets.hpp"
-#include "base/hash_floats.hpp"
 #include "kernels/caster_boxes.hpp"
 #include "scene/material_record.hpp"
 #include "shared/caster_records.h"
 #include "shared/follow.h"
 #include "shared/geometry_records.h"
+#include "world/connected_triangles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <unordered_map>
-#include <utility>
 
 namespace argand {
 
 namespace {
-
-/// For each triangle the mesh that moves it; null if it stands still.
-std::vector<const MovingMesh*> movers(const Scene& scene) {
-    std::vector<const MovingMesh*> result(scene.triangles.size(), nullptr);
-    for (const MovingMesh& mesh : scene.motion.meshes) {
-        const auto first = result.begin() + static_cast<std::ptrdiff_t>(mesh.first_triangle);
-        std::fill(first, first + static_cast<std::ptrdiff_t>(mesh.triangles), &mesh);
-    }
-    return result;
-}
-
-/// The space in which triangles are connected: that of a skin, of a node, or the world.
-using Space = std::pair<int, std::int64_t>;
-Space space_of(const MovingMesh* mover) {
-    return mover == nullptr ? Space{-1, -1}
-                            : Space{mover->skin, mover->skin < 0 ? mover->node : -1};
-}
-
-/// Joins triangles that have a corner at the same place of one space.
-DisjointSets connected(const Scene& scene, const std::vector<bool>& followed,
-                       const std::vector<const MovingMesh*>& mover) {
-    using TriangleAt = std::unordered_map<std::array<float, 3>, std::uint32_t, HashFloats>;
-    std::map<Space, TriangleAt> spaces;
-    DisjointSets sets(scene.triangles.size());
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        if (!followed[scene.triangle_material[i]]) {
-            continue;
-        }
-        TriangleAt& triangle_at = spaces[space_of(mover[i])];
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = scene.triangles[i][k];
-            const glm::vec3& p = mover[i] != nullptr
-                                     ? mover[i]->positions[vertex - mover[i]->first_vertex]
-                                     : scene.positions[vertex];
-            sets.join(triangle_at.try_emplace({p.x, p.y, p.z}, i).first->second, i);
-        }
-    }
-    return sets;
-}
 
 void extend(Bounds& box, const glm::vec3& low, const glm::vec3& high) {
     box.low = glm::min(box.low, low);
@@ -129,15 +86,13 @@ std::vector<bool> are_followed(const Scene& scene, float follow_roughness) {
 CasterTable make_caster_table(Device& device, const Scene& scene,
                               const std::vector<bool>& followed) {
     const std::vector<const MovingMesh*> mover = movers(scene);
-    DisjointSets sets = connected(scene, followed, mover);
+    const std::vector<std::uint32_t> triangles = triangles_of(scene, followed);
+    DisjointSets sets = connected(scene, triangles, mover);
     std::map<std::uint32_t, Bounds> at_rest;
     std::map<std::uint32_t, std::vector<std::uint32_t>> moving;
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        if (!followed[scene.triangle_material[i]]) {
-            continue;
-        }
-        const glm::uvec3& t = scene.triangles[i];
-        if (mover[i] != nullptr) {
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const glm::uvec3& t = scene.triangles[triangles[i]];
+        if (mover[triangles[i]] != nullptr) {
             std::vector<std::uint32_t>& vertices = moving[sets.root(i)];
             vertices.insert(vertices.end(), {t.x, t.y, t.z});
             continue;

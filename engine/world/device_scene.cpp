@@ -21,7 +21,7 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
         record.sky_g = scene.sky->g;
         record.sky_b = scene.sky->b;
     }
-    record.light_count = static_cast<std::uint32_t>(lights.lights.size());
+    record.light_count = lights.light_count;
     record.first_emitter = lights.first_triangle;
     record.emitter_count = lights.triangle_count;
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
@@ -55,10 +55,16 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
     // rounding.
     const float radius = 0.50001f * glm::length(box.high - box.low);
 
-    result.light_table = make_light_table(result.placed(scene), shining, radius);
+    if (result.emissive) {
+        result.light_table =
+            make_light_table(device, scene, *result.emissive, result.positions, result.triangles,
+                             result.materials, radius, result.lights);
+    } else {
+        result.light_table = make_light_table(scene, shining, radius);
+        result.lights = upload(device, "lights", result.light_table.lights);
+    }
     result.record = scene_record(scene, result.light_table, center, radius);
     result.record.follow_roughness = result.plan.request.follow_roughness;
-    result.lights = upload(device, "lights", result.light_table.lights);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);
 }
@@ -84,6 +90,11 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
         return;
     }
     const std::vector<LightChoice> of_photons = light_choices(table, for_photons);
+    if (scene.emissive) {
+        scene.light_choices =
+            choices_of_lights(device, table, *scene.emissive, scene.lights, choices, of_photons);
+        return;
+    }
     choices.insert(choices.end(), of_photons.begin(), of_photons.end());
     scene.light_choices = upload(device, "light choices", choices);
 }

@@ -8,6 +8,7 @@
 #include "shared/scene_records.h"
 #include "world/area_table.hpp"
 #include "world/caster_table.hpp"
+#include "world/emissive_parts.hpp"
 #include "world/light_table.hpp"
 
 #include <memory>
@@ -26,22 +27,16 @@ struct DeviceScene {
     Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
     TriangleBvh bvh;
     SceneRecord record;     ///< the host's copy of `scene`
-    LightTable light_table; ///< the host's copy of `lights`, and their emitters
+    LightTable light_table; ///< what the host knows of `lights`, and their emitters
     /// Probabilities with which each emitter is chosen for shadow rays, and for photons.
     std::vector<double> ray_shares, photon_shares;
-    PhotonSurfaces photon_surfaces;             ///< empty without a photon map
-    double surface_area = 0;                    ///< their area; 0 without a photon map
-    std::shared_ptr<const CasterTable> casters; ///< null without followed paths and a photon map
-    /// Of all vertices on the host, if meshes that move shine: those of the device, of such meshes.
-    /// Other moving ones are of an earlier moment.
-    std::shared_ptr<const std::vector<glm::vec3>> moved_positions;
+    PhotonSurfaces photon_surfaces;                ///< empty without a photon map
+    double surface_area = 0;                       ///< their area; 0 without a photon map
+    std::shared_ptr<const CasterTable> casters;    ///< null without followed paths and a photon map
+    std::shared_ptr<const EmissiveParts> emissive; ///< null if no mesh that moves shines
     SampledAreas areas;
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
-    /// The scene with its vertices where they are now.
-    PlacedScene placed(const Scene& of) const {
-        return moved_positions ? PlacedScene(of, *moved_positions) : PlacedScene(of);
-    }
     /// Buffers for the member `scene` of a kernel that shades.
     kernels::SceneBindings bindings() const;
     /// Specialization constants for the member `scene` of its constants.
@@ -51,9 +46,9 @@ struct DeviceScene {
 /// Memory to bind where a kernel does not read its buffer.
 Buffer unneeded(Device& device);
 
-/// Adds the parts of a scene that belong to one render: its lights and how they are chosen. Needs
-/// moved_positions and the plan. shining: see shining_triangles(). World::on_device() adds the
-/// others. Records only.
+/// Adds the parts of a scene that belong to one render: its lights and how they are chosen. All
+/// others but casters and areas must be there (World::on_device()). shining: the triangles that
+/// emit light. Waits for the device if there are emissive parts.
 void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
                    const std::vector<std::uint32_t>& shining, DeviceScene& result);
 

@@ -2,7 +2,8 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/hash_floats.hpp"
-#include "shared/lights.h"
+#include "scene/material_record.hpp"
+#include "shared/emissive.h"
 
 #include <algorithm>
 #include <array>
@@ -41,30 +42,6 @@ LightRecord record_of(const Light& light) {
     return record;
 }
 
-LightRecord record_of(const PlacedScene& placed, std::size_t triangle, const Material& material) {
-    const glm::uvec3& corners = placed.scene.triangles[triangle];
-    const glm::vec3& a = placed.positions[corners.x];
-    const glm::vec3& b = placed.positions[corners.y];
-    const glm::vec3& c = placed.positions[corners.z];
-    LightRecord record{};
-    record.kind = light_triangle;
-    record.x = a.x;
-    record.y = a.y;
-    record.z = a.z;
-    record.dx = b.x;
-    record.dy = b.y;
-    record.dz = b.z;
-    record.ex = c.x;
-    record.ey = c.y;
-    record.ez = c.z;
-    record.r = material.emission.r;
-    record.g = material.emission.g;
-    record.b = material.emission.b;
-    record.triangle_and_sides =
-        2 * static_cast<std::uint32_t>(triangle) + (material.double_sided ? 1u : 0u);
-    return record;
-}
-
 using Position = std::array<float, 3>;
 
 /// Numbers the emitters in the order of their first lights.
@@ -94,6 +71,59 @@ std::vector<std::uint32_t> find_emitters(const std::vector<LightRecord>& lights)
     return emitters;
 }
 
+double weight_of(const glm::dvec3& power) { return (power.r + power.g + power.b) / 3; }
+
+/// Adds a light, unless it has no power.
+void add_light(LightTable& table, const LightRecord& light, float scene_radius) {
+    const glm::dvec3 power(light_power(light, all_light_kinds, scene_radius));
+    if (weight_of(power) > 0) {
+        add_row(table, light, power);
+    }
+}
+
+} // namespace
+
+std::size_t row_of(const LightTable& table, std::uint32_t light) {
+    if (table.first_light.empty()) {
+        return light;
+    }
+    const auto after = std::upper_bound(table.first_light.begin(), table.first_light.end(), light);
+    return static_cast<std::size_t>(after - table.first_light.begin()) - 1;
+}
+
+std::vector<bool> which_emit(const Scene& scene) {
+    std::vector<bool> emitting;
+    emitting.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        emitting.push_back(emits(material));
+    }
+    return emitting;
+}
+
+void add_row(LightTable& table, const LightRecord& light, const glm::dvec3& power) {
+    table.lights.push_back(light);
+    table.power += power;
+    table.weights.push_back(weight_of(power));
+    table.weight += table.weights.back();
+}
+
+void add_punctual_lights(const Scene& scene, float scene_radius, LightTable& table) {
+    for (const Light& light : scene.lights) {
+        add_light(table, record_of(light), scene_radius);
+    }
+}
+
+void add_sky(const Scene& scene, float scene_radius, LightTable& table) {
+    if (scene.sky) {
+        LightRecord sky{};
+        sky.kind = light_sky;
+        sky.r = scene.sky->r;
+        sky.g = scene.sky->g;
+        sky.b = scene.sky->b;
+        add_light(table, sky, scene_radius);
+    }
+}
+
 std::vector<double> weights_of_emitters(const LightTable& table) {
     std::vector<double> weights;
     for (std::size_t i = 0; i < table.lights.size(); ++i) {
@@ -103,51 +133,22 @@ std::vector<double> weights_of_emitters(const LightTable& table) {
     return weights;
 }
 
-/// Adds a light, unless it has no power.
-void add_light(LightTable& table, const LightRecord& light, float scene_radius) {
-    const glm::vec3 power = light_power(light, all_light_kinds, scene_radius);
-    const double weight = (double(power.r) + power.g + power.b) / 3;
-    if (weight > 0) {
-        table.lights.push_back(light);
-        table.power += glm::dvec3(power);
-        table.weights.push_back(weight);
-        table.weight += weight;
-    }
-}
-
-} // namespace
-
-std::vector<std::uint32_t> shining_triangles(const Scene& scene) {
-    std::vector<std::uint32_t> shining;
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        if (emits(scene.materials[scene.triangle_material[i]])) {
-            shining.push_back(i);
-        }
-    }
-    return shining;
-}
-
-LightTable make_light_table(const PlacedScene& placed, const std::vector<std::uint32_t>& shining,
+LightTable make_light_table(const Scene& scene, const std::vector<std::uint32_t>& shining,
                             float scene_radius) {
-    const Scene& scene = placed.scene;
     LightTable table;
-    for (const Light& light : scene.lights) {
-        add_light(table, record_of(light), scene_radius);
-    }
+    add_punctual_lights(scene, scene_radius, table);
     table.first_triangle = static_cast<std::uint32_t>(table.lights.size());
     for (const std::uint32_t i : shining) {
-        const Material& material = scene.materials[scene.triangle_material[i]];
-        add_light(table, record_of(placed, i, material), scene_radius);
+        const glm::uvec3& corners = scene.triangles[i];
+        add_light(table,
+                  emissive_light(i, scene.positions[corners.x], scene.positions[corners.y],
+                                 scene.positions[corners.z],
+                                 material_record(scene.materials[scene.triangle_material[i]])),
+                  scene_radius);
     }
     table.triangle_count = static_cast<std::uint32_t>(table.lights.size()) - table.first_triangle;
-    if (scene.sky) {
-        LightRecord sky{};
-        sky.kind = light_sky;
-        sky.r = scene.sky->r;
-        sky.g = scene.sky->g;
-        sky.b = scene.sky->b;
-        add_light(table, sky, scene_radius);
-    }
+    add_sky(scene, scene_radius, table);
+    table.light_count = static_cast<std::uint32_t>(table.lights.size());
     table.emitter = find_emitters(table.lights);
     table.emitter_weights = weights_of_emitters(table);
     return table;
@@ -156,9 +157,11 @@ LightTable make_light_table(const PlacedScene& placed, const std::vector<std::ui
 std::vector<double> plain_shares(const LightTable& table) {
     std::vector<double> shares;
     shares.reserve(table.emitter_weights.size());
-    const auto count = static_cast<double>(table.emitter_weights.size());
+    const auto count = static_cast<double>(std::count_if(table.emitter_weights.begin(),
+                                                         table.emitter_weights.end(),
+                                                         [](double weight) { return weight > 0; }));
     for (const double weight : table.emitter_weights) {
-        shares.push_back(0.5 * weight / table.weight + 0.5 / count);
+        shares.push_back(weight > 0 ? 0.5 * weight / table.weight + 0.5 / count : 0);
     }
     return shares;
 }
@@ -189,7 +192,7 @@ std::vector<LightChoice> light_choices(const LightTable& table, const std::vecto
     for (std::size_t i = 0; i < table.lights.size(); ++i) {
         const double share = shares[table.emitter[i]];
         const double probability =
-            share * table.weights[i] / table.emitter_weights[table.emitter[i]];
+            share > 0 ? share * table.weights[i] / table.emitter_weights[table.emitter[i]] : 0;
         choices.push_back(
             {.before = static_cast<std::uint32_t>(std::min(before * digits, digits - 1)),
              .probability = static_cast<float>(probability),

@@ -12,13 +12,14 @@ namespace argand {
 
 namespace {
 
-std::vector<std::uint32_t> materials_of(const Scene& scene, const MovingMesh& mesh) {
-    const auto first =
-        scene.triangle_material.begin() + static_cast<std::ptrdiff_t>(mesh.first_triangle);
-    std::vector<std::uint32_t> materials(first,
-                                         first + static_cast<std::ptrdiff_t>(mesh.triangles));
-    std::sort(materials.begin(), materials.end());
-    materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+/// The materials of moving meshes, each once.
+std::set<std::uint32_t> materials_of(const Scene& scene) {
+    std::set<std::uint32_t> materials;
+    for (const MovingMesh& mesh : scene.motion.meshes) {
+        const auto first =
+            scene.triangle_material.begin() + static_cast<std::ptrdiff_t>(mesh.first_triangle);
+        materials.insert(first, first + static_cast<std::ptrdiff_t>(mesh.triangles));
+    }
     return materials;
 }
 
@@ -49,10 +50,7 @@ MovingMeshes::MovingMeshes(Device& device, const Scene& scene)
     part_boxes_ = device.allocate("boxes of moving parts",
                                   std::max<std::size_t>(tables_.parts.size(), 1) * sizeof(PoseBox));
     no_normals_ = device.allocate("not needed", sizeof(glm::vec4));
-    materials_.reserve(scene.motion.meshes.size());
-    for (const MovingMesh& mesh : scene.motion.meshes) {
-        materials_.push_back(materials_of(scene, mesh));
-    }
+    materials_ = materials_of(scene);
     // Only the device needs them.
     tables_.vertices = {};
     tables_.joints = {};
@@ -94,9 +92,7 @@ void MovingMeshes::place(const Buffer& positions, const Buffer* normals) {
                                     .normals = normals ? *normals : no_normals_,
                                     .params = {count, normals ? 1u : 0u}},
              count);
-    positions_ = positions;
     boxes_.clear();
-    is_on_host_.assign(tables_.meshes.size(), false);
     const auto parts = static_cast<std::uint32_t>(tables_.parts.size());
     dispatch(device_,
              kernels::pose_boxes{.parts = parts_,
@@ -133,28 +129,9 @@ const std::vector<Bounds>& MovingMeshes::boxes(const Scene& scene) {
     return boxes_;
 }
 
-void MovingMeshes::fetch(std::size_t mesh) {
-    const PosedMesh& record = tables_.meshes[mesh];
-    const std::vector<glm::vec4> positions =
-        download<glm::vec4>(device_, positions_, record.vertices, record.first_vertex);
-    std::copy(positions.begin(), positions.end(),
-              on_host_->begin() + static_cast<std::ptrdiff_t>(record.first_vertex));
-    is_on_host_[mesh] = true;
-}
-
-std::shared_ptr<const std::vector<glm::vec3>> MovingMeshes::on_host(const Scene& scene) {
-    const auto shines = [&](std::uint32_t material) { return emits(scene.materials[material]); };
-    for (std::size_t mesh = 0; mesh < tables_.meshes.size(); ++mesh) {
-        if (is_on_host_[mesh] ||
-            std::none_of(materials_[mesh].begin(), materials_[mesh].end(), shines)) {
-            continue;
-        }
-        if (!on_host_) {
-            on_host_ = std::make_shared<std::vector<glm::vec3>>(scene.positions);
-        }
-        fetch(mesh);
-    }
-    return on_host_;
+bool MovingMeshes::have_any(const std::vector<bool>& materials) const {
+    return std::any_of(materials_.begin(), materials_.end(),
+                       [&](std::uint32_t material) { return materials[material]; });
 }
 
 } // namespace argand

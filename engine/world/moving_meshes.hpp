@@ -4,7 +4,7 @@
 #include "world/pose_tables.hpp"
 
 #include <cstdint>
-#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,24 +37,17 @@ public:
     /// were placed since the last call. Throws Error if a position is not finite.
     const std::vector<Bounds>& boxes(const Scene& scene);
 
-    /// Positions on the host of all the scene's vertices; null if no mesh that moves has shone yet.
-    /// Of moving meshes only those that shine are up to date. Waits for the device if it has to
-    /// fetch any.
-    std::shared_ptr<const std::vector<glm::vec3>> on_host(const Scene& scene);
+    /// Whether any mesh has one of these materials. materials: a flag for each.
+    bool have_any(const std::vector<bool>& materials) const;
 
 private:
-    void fetch(std::size_t mesh);
-
     Device& device_;
     PoseTables tables_; ///< without what only the device needs
     PoseRecords pose_;  ///< as it was uploaded last
     Buffer vertices_, joints_, offsets_, meshes_, parts_, matrices_, weights_;
     Buffer part_boxes_, no_normals_;
-    Buffer positions_;                                  ///< where the vertices were placed
-    std::vector<std::vector<std::uint32_t>> materials_; ///< of each mesh
-    std::vector<Bounds> boxes_;                         ///< of each mesh; empty: not known
-    std::shared_ptr<std::vector<glm::vec3>> on_host_;   ///< null until it is asked for
-    std::vector<bool> is_on_host_;                      ///< each mesh, as it is placed
+    std::set<std::uint32_t> materials_; ///< of all meshes
+    std::vector<Bounds> boxes_;         ///< of each mesh; empty: not known
 };
 
 } // namespace argand

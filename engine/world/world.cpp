@@ -2,6 +2,7 @@
 
 #include "base/same_bits.hpp"
 #include "scene/material_record.hpp"
+#include "world/connected_triangles.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -96,6 +97,7 @@ void World::build_tree(const Scene& scene) {
                               static_cast<std::uint32_t>(scene.triangles.size()),
                               !scene.motion.meshes.empty());
     cost_of_build_ = 0; // known when it is asked for
+    tree_cost_ = 1;
 }
 
 void World::upload_turned(const Scene& scene, WorldUpdate& update) {
@@ -139,13 +141,10 @@ Bounds World::box(const Scene& scene) {
 
 /// The triangles that emit light: found anew only where other materials do.
 const std::vector<std::uint32_t>& World::shining(const Scene& scene) {
-    std::vector<bool> emitting;
-    emitting.reserve(scene.materials.size());
-    for (const Material& material : scene.materials) {
-        emitting.push_back(emits(material));
-    }
+    std::vector<bool> emitting = which_emit(scene);
     if (emitting != emitting_) {
-        shining_ = shining_triangles(scene);
+        shining_ = triangles_of(scene, emitting);
+        emissive_ = nullptr;
         emitting_ = std::move(emitting);
     }
     return shining_;
@@ -182,7 +181,9 @@ WorldUpdate World::update(const Scene& scene) {
     for (MovedMesh& moved : update.moved) {
         moved.after = meshes_.boxes(scene)[moved.mesh];
     }
-    if (traversal_cost(device_, bvh_) > most_growth * cost_of_build_) {
+    const double cost = traversal_cost(device_, bvh_);
+    tree_cost_ = cost_of_build_ > 0 ? cost / cost_of_build_ : 1;
+    if (cost > most_growth * cost_of_build_) {
         build_tree(scene);
         update.refitted = false;
         update.rebuilt = true;
@@ -217,13 +218,20 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     }
     DeviceScene result;
     result.plan = plan;
-    result.moved_positions = meshes_.on_host(scene);
-    prepare_scene(device_, scene, box(scene), shining(scene), result);
     result.positions = positions_;
     result.normals = plan.needs(Feature::smooth_normals) ? normals_ : unneeded(device_);
     result.triangles = triangles_;
     result.materials = materials_;
     result.bvh = bvh_;
+    const std::vector<std::uint32_t>& shines = shining(scene);
+    if (meshes_.have_any(emitting_)) {
+        if (!emissive_) {
+            emissive_ =
+                std::make_shared<const EmissiveParts>(find_emissive_parts(device_, scene, shines));
+        }
+        result.emissive = emissive_;
+    }
+    prepare_scene(device_, scene, box(scene), shines, result);
     return result;
 }
 

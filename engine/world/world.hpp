@@ -49,8 +49,11 @@ public:
 
     /// The scene as a render with this plan needs it. It shares this world's buffers: update()
     /// changes what it holds. Waits for the device where it has to find areas for a photon map, or
-    /// to fetch the boxes of meshes that move, and the vertices of those that shine.
+    /// to fetch the boxes of meshes that move, and what those emit that shine.
     DeviceScene on_device(const Scene& scene, const Plan& plan);
+
+    /// What the tree costs rays (traversal_cost()), over what it cost when it was built last.
+    double tree_cost() const { return tree_cost_; }
 
     /// How many updates have changed anything.
     std::uint64_t revision() const { return revision_; }
@@ -76,14 +79,16 @@ private:
     TriangleBvh bvh_;
     std::uint64_t revision_ = 0;
     double cost_of_build_ = 0; ///< see traversal_cost(); 0: not known yet
+    double tree_cost_ = 1;
 
     MovingMeshes meshes_;
     Bounds box_at_rest_;         ///< of what does not move
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
     std::vector<MaterialRecord> uploaded_materials_;
 
-    std::vector<std::uint32_t> shining_; ///< triangles that emit light
-    std::vector<bool> emitting_;         ///< the materials among which they were found
+    std::vector<std::uint32_t> shining_;            ///< triangles that emit light
+    std::vector<bool> emitting_;                    ///< the materials among which they were found
+    std::shared_ptr<const EmissiveParts> emissive_; ///< of them; null until some of them move
 
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {

@@ -124,6 +124,7 @@ TEST_F(Frames, GoOnWhereTheyStopped) {
     ASSERT_EQ(reports.size(), 6u);
     EXPECT_EQ(reports[4]["frame"], 2);
     EXPECT_EQ(reports[5]["frame"], 4);
+    EXPECT_EQ(reports[5]["tree_cost"], 1); // no object moves
 }
 
 TEST_F(Frames, FollowObjectsThatMove) {

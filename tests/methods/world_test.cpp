@@ -24,8 +24,8 @@ void forget_vertices(Scene& scene) {
 }
 
 /// moving_scene(), one of whose meshes has this material.
-Scene moving_scene_of(const Material& material, std::size_t mesh) {
-    Scene scene = moving_scene();
+Scene moving_scene_of(const Material& material, std::size_t mesh, std::uint32_t triangles = 50) {
+    Scene scene = moving_scene(triangles);
     const auto index = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(material);
     const MovingMesh& moving = scene.motion.meshes[mesh];
@@ -210,10 +210,13 @@ TEST_F(WorldUpdates, RebuildTheTreeOnceRaysWouldVisitManyMoreNodes) {
     WorldUpdate update = world.update(scene_);
     EXPECT_TRUE(update.refitted);
     EXPECT_FALSE(update.rebuilt);
+    EXPECT_GT(world.tree_cost(), 1);
+    EXPECT_LT(world.tree_cost(), 1.3);
     move_to(1, scene_);
     update = world.update(scene_);
     EXPECT_FALSE(update.refitted);
     EXPECT_TRUE(update.rebuilt);
+    EXPECT_EQ(world.tree_cost(), 1);
     RenderSettings settings = settings_of("path", 16, 2);
     EXPECT_TRUE(same_bits(render_in(world, scene_, settings), render(scene_, settings)));
 }
@@ -253,6 +256,7 @@ TEST_F(WorldUpdates, AreasAreFoundAnewOnlyWhereSurfacesChange) {
 struct Transfers {
     std::uint64_t uploaded = 0;
     std::uint64_t vertices = 0; ///< bytes of vertices that the host fetched
+    std::uint64_t lights = 0;   ///< bytes of sums of lights that it fetched
 };
 class Transferred : public RenderTest {
 protected:
@@ -269,9 +273,10 @@ protected:
             world.update(scene);
             session.begin_frame(0);
             finish(session, [](double) { return true; });
-            const Transfers now{recording.uploaded_bytes(),
-                                recording.downloaded_bytes("positions")};
-            frame = {now.uploaded - before.uploaded, now.vertices - before.vertices};
+            const Transfers now{recording.uploaded_bytes(), recording.downloaded_bytes("positions"),
+                                recording.downloaded_bytes("sums of emissive parts")};
+            frame = {now.uploaded - before.uploaded, now.vertices - before.vertices,
+                     now.lights - before.lights};
             before = now;
         }
         return frame;
@@ -293,12 +298,107 @@ TEST_F(Transferred, FramesFetchNoCasterOfCaustics) {
     EXPECT_EQ(of(moving_scene_of(glass, 1)).vertices, 0u);
 }
 
-// Their emission is chosen by the table of lights, which the host makes.
-TEST_F(Transferred, FramesFetchMeshesThatShine) {
+// A part of 128 of their triangles has a row in the tables by which lights are chosen.
+TEST_F(Transferred, FramesBringNothingForATriangleThatShines) {
     Material lamp;
     lamp.emission = glm::vec3(3, 2, 1);
-    const Scene scene = moving_scene_of(lamp, 0);
-    EXPECT_EQ(of(scene).vertices, scene.motion.meshes[0].positions.size() * sizeof(glm::vec4));
+    const Transfers few = of(moving_scene_of(lamp, 0, 128));
+    const Transfers many = of(moving_scene_of(lamp, 0, 12'800));
+    EXPECT_EQ(few.vertices, 0u);
+    EXPECT_EQ(many.vertices, 0u);
+    EXPECT_GT(few.lights, 0u);
+    EXPECT_EQ(many.lights, 100 * few.lights);
+    EXPECT_LT(many.lights + many.uploaded - few.uploaded, 12'800u);
+}
+
+// The host's table is that of the same triangles at rest.
+TEST_F(Transferred, MovingLampsLightTheSceneAsThoseAtRest) {
+    Material lamp;
+    lamp.emission = glm::vec3(3, 2, 1);
+    for (const char* method : {"path", "photons"}) {
+        SCOPED_TRACE(method);
+        Scene moving = moving_scene_of(lamp, 0);
+        move_to(0.5, moving);
+        Scene resting = moving;
+        resting.motion = {};
+        RenderSettings settings = settings_of(method, 24, 64);
+        settings.photons = 20'000;
+        const RenderResult a = render(moving, settings);
+        const RenderResult b = render(resting, settings);
+        EXPECT_LT(compare(a.layers[0].image, b.layers[0].image).rel_mse, 1e-4);
+    }
+}
+
+/// What a frame has run and uploaded.
+struct FrameWork {
+    std::uint64_t poses, refits, builds, areas, lights, uploaded, downloaded_vertices;
+};
+
+// Each change costs what depends on it, and no more: lights belong to a render, the rest to a
+// world.
+TEST_F(WorldUpdates, FramesDoOnlyWhatTheirChangesRequire) {
+    Material lamp;
+    lamp.emission = glm::vec3(3, 2, 1);
+    scene_ = moving_scene_of(lamp, 0, 2'000);
+    RecordingDevice recording(device());
+    World world(recording, scene_);
+    RenderSettings settings = settings_of("photons", 8, 1);
+    settings.photons = 1000;
+    Session session(world, scene_, settings);
+    const auto counts = [&] {
+        return FrameWork{
+            recording.runs_of("pose_vertices"),     recording.runs_of("ray_refit"),
+            recording.runs_of("lbvh_codes"),        recording.runs_of("area_triangles"),
+            recording.runs_of("emissive_lights"),   recording.uploaded_bytes(),
+            recording.downloaded_bytes("positions")};
+    };
+    const auto frame = [&] {
+        const FrameWork before = counts();
+        world.update(scene_);
+        session.begin_frame(0);
+        finish(session, [](double) { return true; });
+        const FrameWork now = counts();
+        EXPECT_EQ(now.lights - before.lights, 1u);
+        EXPECT_EQ(now.downloaded_vertices, 0u);
+        return FrameWork{now.poses - before.poses,
+                         now.refits - before.refits,
+                         now.builds - before.builds,
+                         now.areas - before.areas,
+                         now.lights - before.lights,
+                         now.uploaded - before.uploaded,
+                         0};
+    };
+    const auto expect_world = [](const FrameWork& work, std::uint64_t updates) {
+        EXPECT_EQ(work.poses, updates);
+        EXPECT_EQ(work.refits, updates);
+        EXPECT_EQ(work.areas, updates);
+    };
+    move_to(0.25, scene_);
+    frame();
+    const FrameWork nothing = frame();
+    expect_world(nothing, 0);
+    scene_.cameras[0].position.x += 0.01f;
+    const FrameWork camera = frame();
+    expect_world(camera, 0);
+    EXPECT_EQ(camera.builds, nothing.builds); // those of the photon map
+    EXPECT_EQ(camera.uploaded, nothing.uploaded);
+    scene_.lights.back().position.x += 0.01f;
+    const FrameWork light = frame();
+    expect_world(light, 0);
+    EXPECT_EQ(light.uploaded, nothing.uploaded);
+    scene_.motion.nodes[1].keys = {};
+    scene_.motion.nodes[1].rest.scale = glm::dvec3(0.4);
+    const FrameWork object = frame();
+    expect_world(object, 1);
+    const std::uint64_t moves = // matrices, and for each material whether it stores photons
+        2 * sizeof(PoseMatrix) + scene_.materials.size() * sizeof(std::uint32_t);
+    EXPECT_EQ(object.uploaded - nothing.uploaded, moves);
+    move_to(0.26, scene_);
+    scene_.cameras[0].position.x += 0.01f;
+    scene_.materials[1].base_color = glm::vec3(0.3f);
+    const FrameWork everything = frame();
+    expect_world(everything, 1);
+    EXPECT_EQ(everything.uploaded - nothing.uploaded, moves + sizeof(MaterialRecord));
 }
 
 TEST_F(WorldUpdates, RendersShareATree) {

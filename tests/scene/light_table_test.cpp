@@ -1,6 +1,7 @@
 #include "world/light_table.hpp"
 
 #include "methods/scenes.hpp"
+#include "world/connected_triangles.hpp"
 
 #include <gmock/gmock.h>
 #include <numeric>
@@ -32,7 +33,7 @@ Scene sun_and_two_lamps() {
 }
 
 LightTable table_of(const Scene& scene, float scene_radius) {
-    return make_light_table(scene, shining_triangles(scene), scene_radius);
+    return make_light_table(scene, triangles_of(scene, which_emit(scene)), scene_radius);
 }
 
 double sum_of(const std::vector<double>& values) {

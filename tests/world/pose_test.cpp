@@ -226,7 +226,6 @@ TEST_F(PoseVertices, OfNoMeshTakeNoDevice) {
     Scene scene;
     MovingMeshes meshes(open(), scene);
     EXPECT_TRUE(meshes.empty());
-    EXPECT_EQ(meshes.on_host(scene), nullptr);
     EXPECT_TRUE(meshes.moved_by(scene, meshes.pose_of(scene)).empty());
 }
 
@@ -257,33 +256,6 @@ TEST_F(PoseVertices, MirroredOnesFaceTheSameWay) {
         const glm::vec4 expected(glm::normalize(glm::vec3(-0.3f, 0.8f, 0)), 0);
         EXPECT_NEAR(glm::distance(placed.normals[first + 1], expected), 0, 2e-7);
     }
-}
-
-TEST_F(PoseVertices, AreFetchedWhereTheHostNeedsThem) {
-    RandomScene random({});
-    random.add_mesh(5, -1, 0);
-    random.add_mesh(6, -1, 0);
-    Scene& scene = random.scene;
-    scene.materials.resize(2);
-    scene.materials[1].emission = glm::vec3(1);
-    for (std::size_t i = 0; i < scene.motion.meshes[1].triangles; ++i) {
-        scene.triangle_material[scene.motion.meshes[1].first_triangle + i] = 1;
-    }
-    MovingMeshes meshes(open(), scene);
-    const Placed placed = placed_by(open(), scene, meshes);
-    const auto are_there = [&](const std::vector<glm::vec3>& on_host, std::size_t mesh) {
-        const MovingMesh& of = scene.motion.meshes[mesh];
-        return std::equal(of.positions.begin(), of.positions.end(),
-                          on_host.begin() + static_cast<std::ptrdiff_t>(of.first_vertex),
-                          [&](const glm::vec3& object, const glm::vec3& world) {
-                              const auto v =
-                                  static_cast<std::size_t>(&object - of.positions.data());
-                              return glm::vec3(placed.positions[of.first_vertex + v]) == world;
-                          });
-    };
-    const auto lamps = meshes.on_host(scene);
-    EXPECT_FALSE(are_there(*lamps, 0));
-    EXPECT_TRUE(are_there(*lamps, 1));
 }
 
 TEST_F(PoseVertices, ThatAreNotFiniteAreRefused) {

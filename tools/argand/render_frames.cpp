@@ -145,6 +145,7 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         files.write(job, rendered, frame);
         nlohmann::ordered_json report{{"frame", frame}};
         report.update(report_on(job, rendered, outputs));
+        report["tree_cost"] = job.world->tree_cost();
         if (blurs) {
             report["parameters"]["at"] = seconds_of(frame);
             report["parameters"]["shutter"] = {job.shutter->open, job.shutter->close};
