@@ -122,7 +122,8 @@ void collect_found(Device& device, const EyeWorkspace& w, std::vector<FoundLight
                          .path = slot,
                          .indirect = (s.layers & 3u) == layer_indirect,
                          .radiance = radiance,
-                         .point = {ray.origin_x, ray.origin_y, ray.origin_z}});
+                         .point = {ray.origin_x, ray.origin_y, ray.origin_z},
+                         .direction = {-ray.direction_x, -ray.direction_y, -ray.direction_z}});
     }
 }
 

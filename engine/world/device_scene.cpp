@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
+#include <utility>
 
 namespace argand {
 
@@ -59,6 +61,7 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
     result.record = scene_record(scene, result.light_table, center, radius);
     result.record.follow_roughness = result.plan.request.follow_roughness;
     result.lights = upload(device, "lights", result.light_table.lights);
+    result.aim_nodes = unneeded(device);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);
 }
@@ -86,6 +89,40 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
     const std::vector<LightChoice> of_photons = light_choices(table, for_photons);
     choices.insert(choices.end(), of_photons.begin(), of_photons.end());
     scene.light_choices = upload(device, "light choices", choices);
+}
+
+float radius_around(const glm::vec3& point, const SceneRecord& scene) {
+    constexpr float rounding = 1.0001f;
+    const glm::vec3 center(scene.center_x, scene.center_y, scene.center_z);
+    return rounding * (scene.radius + glm::distance(point, center));
+}
+
+void set_aims(Device& device, DeviceScene& scene, std::vector<LightAim> aims) {
+    std::vector<LightRecord>& lights = scene.light_table.lights;
+    std::erase_if(aims, [&](const LightAim& aim) {
+        return aim.light >= lights.size() || !is_from_outside(lights[aim.light]);
+    });
+    if (aims.empty()) {
+        return;
+    }
+    std::vector<AimNode> nodes(1, {aim_leaf, 0, 0, 0});
+    for (const LightAim& aim : aims) {
+        LightRecord& light = lights[aim.light];
+        light.x = aim.middle.x;
+        light.y = aim.middle.y;
+        light.z = aim.middle.z;
+        light.ex = radius_around(aim.middle, scene.record);
+        const auto root = static_cast<std::uint32_t>(nodes.size());
+        light.triangle_and_sides = root;
+        std::transform(aim.tree.begin(), aim.tree.end(), std::back_inserter(nodes),
+                       [&](AimNode node) {
+                           node.child += root;
+                           return node;
+                       });
+    }
+    scene.aims = std::move(aims);
+    scene.lights = upload(device, "lights", lights);
+    scene.aim_nodes = upload(device, "aim nodes", nodes);
 }
 
 void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> spheres,
