@@ -356,7 +356,11 @@ std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene, 
 FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                           const RenderSettings& settings, const Camera& camera) {
     constexpr std::uint64_t least_paths = 1024, most_paths = 16384;
-    constexpr std::uint64_t share_of_image = 16;
+    const std::vector<LightRecord>& lights = scene.light_table.lights;
+    // Where photons start and in which directions is more to learn than how to choose lights.
+    const bool aims = scene.plan.needs(Feature::photon_map) &&
+                      std::any_of(lights.begin(), lights.end(), is_from_outside);
+    const std::uint64_t share_of_image = aims ? 4 : 16;
     EyeBatch batch = batch_of_small_image(w, settings, 32);
     // These paths must not be the image's own: a choice that depends on them would bias it.
     batch.seed = pcg4d({settings.seed, 0x11947u, 0, 0}).x;

@@ -21,7 +21,7 @@ using Samples = std::vector<AimSample>;
 vec4 random_numbers(uint i, uint of) { return random4(77, i, 0, of); }
 
 /// As the kernel photon_emit.
-AimedNumbers aimed(const std::vector<AimNode>& tree, const vec4& u) {
+AimedNumbers numbers_in(const std::vector<AimNode>& tree, const vec4& u) {
     AimedNumbers a = begin_aim(u);
     std::size_t index = 0;
     while (tree[index].axis != aim_leaf) {
@@ -73,7 +73,7 @@ TEST(AimTree, DensityIntegratesToOne) {
     for (std::size_t f = 0; f < functions.size(); ++f) {
         Sums sums;
         for (uint i = 0; i < 200'000; ++i) {
-            const AimedNumbers a = aimed(tree, random_numbers(i, 0));
+            const AimedNumbers a = numbers_in(tree, random_numbers(i, 0));
             const vec4 u = end_aim(a);
             ASSERT_GE(a.concentration, 0.249f);
             for (int axis = 0; axis < 4; ++axis) {
@@ -92,7 +92,7 @@ TEST(AimTree, FollowsTheSamples) {
     uint second = 0;
     constexpr uint count = 100'000;
     for (uint i = 0; i < count; ++i) {
-        const vec4 u = end_aim(aimed(tree, random_numbers(i, 1)));
+        const vec4 u = end_aim(numbers_in(tree, random_numbers(i, 1)));
         first +=
             glm::all(glm::lessThan(glm::abs(u - vec4(0.325f, 0.625f, 0.505f, 0.225f)), vec4(0.05f)))
                 ? 1
@@ -133,7 +133,7 @@ TEST(AimTree, ExtremeSamples) {
         ASSERT_TRUE(is_aim_tree(tree));
         Sums volume;
         for (uint i = 0; i < 20'000; ++i) {
-            const AimedNumbers a = aimed(tree, random_numbers(i, 2));
+            const AimedNumbers a = numbers_in(tree, random_numbers(i, 2));
             ASSERT_TRUE(std::isfinite(a.concentration) && a.concentration >= 0.249f);
             volume.add(1.0 / double(a.concentration));
         }
@@ -158,7 +158,7 @@ TEST(AimTree, NodesThatAreNoTree) {
     EXPECT_FALSE(is_aim_tree({}));
 }
 
-const Sphere bounds{vec3(1, 2, 3), 4};
+const Sphere scene_sphere{vec3(1, 2, 3), 4};
 
 /// A light from outside whose photons start around `middle`.
 LightRecord light_from(uint kind, const vec3& middle) {
@@ -172,16 +172,16 @@ LightRecord light_from(uint kind, const vec3& middle) {
     l.x = middle.x;
     l.y = middle.y;
     l.z = middle.z;
-    l.ex = bounds.radius + glm::distance(middle, bounds.center);
+    l.ex = scene_sphere.radius + glm::distance(middle, scene_sphere.center);
     l.triangle_and_sides = 1;
     return l;
 }
 
-bool emit(const LightRecord& l, const vec4& u, real concentration, EmittedPhoton& p) {
-    return light_emit_from_disc(l, all_light_kinds, bounds, concentration, u, vec4(0), p);
+bool emit_aimed(const LightRecord& l, const vec4& u, real concentration, EmittedPhoton& p) {
+    return light_emit_from_disc(l, all_light_kinds, scene_sphere, concentration, u, vec4(0), p);
 }
 
-const std::vector<vec3> middles = {bounds.center, vec3(1.5f, 1, 2), vec3(-2, 3, 5)};
+const std::vector<vec3> middles = {scene_sphere.center, vec3(1.5f, 1, 2), vec3(-2, 3, 5)};
 
 // What learning takes for the numbers of a photon are those that emit it.
 TEST(AimedLight, NumbersOfAPhotonAreItsOwn) {
@@ -191,7 +191,7 @@ TEST(AimedLight, NumbersOfAPhotonAreItsOwn) {
             for (uint i = 0; i < 2000; ++i) {
                 const vec4 u = random_numbers(i, 3);
                 EmittedPhoton p;
-                emit(l, u, 1, p);
+                emit_aimed(l, u, 1, p);
                 const glm::dvec4 found = numbers_of_photon(
                     l, middle, l.ex, p.origin + p.direction * (3.0f * u.x), p.direction);
                 for (int axis = kind == light_sky ? 0 : 2; axis < 4; ++axis) {
@@ -209,9 +209,9 @@ Sums flux_on_square(const LightRecord& l, const std::vector<AimNode>& tree, floa
                     float half) {
     Sums flux;
     for (uint i = 0; i < 200'000; ++i) {
-        const AimedNumbers a = aimed(tree, random_numbers(i, 4));
+        const AimedNumbers a = numbers_in(tree, random_numbers(i, 4));
         EmittedPhoton p;
-        const bool emitted = emit(l, end_aim(a), a.concentration, p);
+        const bool emitted = emit_aimed(l, end_aim(a), a.concentration, p);
         const float t = (1 - p.origin.z) / p.direction.z;
         const vec3 q = p.origin + p.direction * t;
         const bool hit = emitted && t > 0 && std::abs(q.x - x) < half && std::abs(q.y - y) < half;
@@ -265,11 +265,11 @@ TEST(AimedLight, AimedBesideTheScene) {
         const auto tree = make_aim_tree(samples_in({0.1, 0.1, 0.01, 0.01}, 0.02, 500), 0);
         Sums power;
         for (uint i = 0; i < 200'000; ++i) {
-            const AimedNumbers a = aimed(tree, random_numbers(i, 6));
+            const AimedNumbers a = numbers_in(tree, random_numbers(i, 6));
             EmittedPhoton p;
-            power.add(emit(l, end_aim(a), a.concentration, p) ? p.flux.x : 0);
+            power.add(emit_aimed(l, end_aim(a), a.concentration, p) ? p.flux.x : 0);
         }
-        const double expected = light_power(l, all_light_kinds, bounds.radius).x;
+        const double expected = light_power(l, all_light_kinds, scene_sphere.radius).x;
         EXPECT_NEAR(power.mean(), expected, 5 * power.deviation()) << kind;
     }
 }
