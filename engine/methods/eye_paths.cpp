@@ -242,16 +242,22 @@ private:
     std::size_t slots_;
 };
 
-/// One sample for each pixel of a small version of the image.
+/// One sample for each pixel of a small version of the image, with as many pixels as there are
+/// slots: a part of a larger one would be its top only.
 EyeBatch batch_of_small_image(const EyeWorkspace& w, const RenderSettings& settings,
                               int longer_side) {
     const int longer = std::max(settings.width, settings.height);
     EyeBatch batch{};
     batch.seed = settings.seed;
-    batch.width = static_cast<std::uint32_t>(std::max(settings.width * longer_side / longer, 1));
-    batch.height = static_cast<std::uint32_t>(std::max(settings.height * longer_side / longer, 1));
-    batch.pixels =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(batch.width * batch.height, w.slots));
+    const auto pixels_along = [&](int side) {
+        const std::int64_t pixels = std::int64_t(side) * longer_side / longer;
+        return static_cast<std::uint32_t>(std::max<std::int64_t>(pixels, 1));
+    };
+    do {
+        batch.width = pixels_along(settings.width);
+        batch.height = pixels_along(settings.height);
+        batch.pixels = batch.width * batch.height;
+    } while (batch.pixels > w.slots && --longer_side > 0);
     batch.samples = 1;
     batch.bounces = settings.bounces;
     batch.query_step = 1;
