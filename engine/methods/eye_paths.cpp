@@ -122,7 +122,8 @@ void collect_found(Device& device, const EyeWorkspace& w, std::vector<FoundLight
                          .path = slot,
                          .indirect = (s.layers & 3u) == layer_indirect,
                          .radiance = radiance,
-                         .point = {ray.origin_x, ray.origin_y, ray.origin_z}});
+                         .point = {ray.origin_x, ray.origin_y, ray.origin_z},
+                         .direction = {-ray.direction_x, -ray.direction_y, -ray.direction_z}});
     }
 }
 
@@ -241,16 +242,22 @@ private:
     std::size_t slots_;
 };
 
-/// One sample for each pixel of a small version of the image.
+/// One sample for each pixel of a small version of the image, with as many pixels as there are
+/// slots: a part of a larger one would be its top only.
 EyeBatch batch_of_small_image(const EyeWorkspace& w, const RenderSettings& settings,
                               int longer_side) {
     const int longer = std::max(settings.width, settings.height);
     EyeBatch batch{};
     batch.seed = settings.seed;
-    batch.width = static_cast<std::uint32_t>(std::max(settings.width * longer_side / longer, 1));
-    batch.height = static_cast<std::uint32_t>(std::max(settings.height * longer_side / longer, 1));
-    batch.pixels =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(batch.width * batch.height, w.slots));
+    const auto pixels_along = [&](int side) {
+        const std::int64_t pixels = std::int64_t(side) * longer_side / longer;
+        return static_cast<std::uint32_t>(std::max<std::int64_t>(pixels, 1));
+    };
+    do {
+        batch.width = pixels_along(settings.width);
+        batch.height = pixels_along(settings.height);
+        batch.pixels = batch.width * batch.height;
+    } while (batch.pixels > w.slots && --longer_side > 0);
     batch.samples = 1;
     batch.bounces = settings.bounces;
     batch.query_step = 1;
@@ -355,7 +362,11 @@ std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene, 
 FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                           const RenderSettings& settings, const Camera& camera) {
     constexpr std::uint64_t least_paths = 1024, most_paths = 16384;
-    constexpr std::uint64_t share_of_image = 16;
+    const std::vector<LightRecord>& lights = scene.light_table.lights;
+    // Where photons start and in which directions is more to learn than how to choose lights.
+    const bool aims = scene.plan.needs(Feature::photon_map) &&
+                      std::any_of(lights.begin(), lights.end(), is_from_outside);
+    const std::uint64_t share_of_image = aims ? 4 : 16;
     EyeBatch batch = batch_of_small_image(w, settings, 32);
     // These paths must not be the image's own: a choice that depends on them would bias it.
     batch.seed = pcg4d({settings.seed, 0x11947u, 0, 0}).x;

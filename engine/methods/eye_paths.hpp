@@ -59,6 +59,7 @@ struct FoundLight {
     bool indirect = false;   ///< the light is reflected again before it reaches the eye
     double radiance = 0;     ///< that it adds to the path's sample, as the sum of the channels
     glm::vec3 point{0};      ///< where it arrives
+    glm::vec3 direction{0};  ///< unit, in which it travels
 };
 
 /// The lights that the paths of a small version of the image find.

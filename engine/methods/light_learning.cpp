@@ -1,7 +1,7 @@
 #include "methods/light_learning.hpp"
 
 #include "base/error.hpp"
-#include "shared/lights.h"
+#include "methods/outside_aims.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,88 +16,11 @@ namespace argand {
 
 namespace {
 
-/// A number and how much it counts.
-struct Weighted {
-    double value = 0, weight = 0;
-};
-
-/// The least value such that this share of all weight lies at or below it. Requires some values.
-double quantile(std::vector<Weighted> values, double share) {
-    std::sort(values.begin(), values.end(),
-              [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
-    double left =
-        share * std::accumulate(values.begin(), values.end(), 0.0,
-                                [](double sum, const Weighted& v) { return sum + v.weight; });
-    for (const Weighted& v : values) {
-        left -= v.weight;
-        if (!(left > 0)) {
-            return v.value;
-        }
-    }
-    return values.back().value;
-}
-
-bool is_from_outside(const LightRecord& light) {
-    return ((1u << light.kind) & light_kinds_from_outside) != 0;
-}
-
-/// The middle of where light arrives: the weighted median along each axis.
-glm::vec3 middle_of(const std::vector<FoundLight>& found) {
-    glm::vec3 center(0);
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<Weighted> places;
-        places.reserve(found.size());
-        for (const FoundLight& f : found) {
-            places.push_back({f.point[axis], f.radiance});
-        }
-        center[axis] = static_cast<float>(quantile(std::move(places), 0.5));
-    }
-    return center;
-}
-
-/// Aims photons at the places where light from outside arrives that is reflected into view. Of a
-/// room whose window lets in the sun, the smallest sphere contains the patch of sun, and the
-/// largest the ground before the window.
-void set_focus(SceneRecord& record, const LightTable& table, const std::vector<FoundLight>& found) {
-    constexpr std::size_t least_points = 16;
-    constexpr std::array<double, 3> light_within = {0.6, 0.8, 0.95};
-    constexpr std::array<float, 3> shares = {0.4f, 0.15f, 0.1f};
-    constexpr double margin = 1.2;
-    constexpr double largest = 0.5; // over the scene's sphere; larger ones gain too little
-    std::vector<FoundLight> outside;
-    std::copy_if(found.begin(), found.end(), std::back_inserter(outside), [&](const FoundLight& f) {
-        return f.indirect && f.radiance > 0 &&
-               is_from_outside(table.lights[row_of(table, f.light)]);
-    });
-    if (outside.size() < least_points) {
-        return;
-    }
-    const glm::vec3 center = middle_of(outside);
-    std::vector<Weighted> distances;
-    distances.reserve(outside.size());
-    for (const FoundLight& f : outside) {
-        distances.push_back({glm::length(glm::dvec3(f.point) - glm::dvec3(center)), f.radiance});
-    }
-    record.focus_x = center.x;
-    record.focus_y = center.y;
-    record.focus_z = center.z;
-    const std::array<std::pair<float*, float*>, 3> spheres = {
-        {{&record.focus_radius_0, &record.focus_share_0},
-         {&record.focus_radius_1, &record.focus_share_1},
-         {&record.focus_radius_2, &record.focus_share_2}}};
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const double radius = margin * quantile(distances, light_within[i]);
-        const bool gains = radius > 0 && radius < largest * record.radius;
-        *spheres[i].first = gains ? static_cast<float>(radius) : record.radius;
-        *spheres[i].second = gains ? shares[i] : 0.0f;
-    }
-}
-
-/// Copies where photons are aimed.
-void copy_aims(const SceneRecord& from, SceneRecord& to) {
+/// Copies where photons from inside the scene are aimed.
+void copy_targets(const SceneRecord& from, SceneRecord& to) {
     SceneRecord record = from;
-    // Everything up to the aims belongs to the moment.
-    std::memcpy(&record, &to, offsetof(SceneRecord, focus_x));
+    // Everything up to the targets belongs to the moment.
+    std::memcpy(&record, &to, offsetof(SceneRecord, target_0));
     to = record;
 }
 
@@ -118,6 +41,28 @@ void make_relative(FoundLights& found) {
     }
 }
 
+/// Saves or loads how photons from outside are aimed.
+void persist_aims(Archive& archive, std::vector<LightAim>& aims) {
+    auto count = static_cast<std::uint32_t>(aims.size());
+    archive.value(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        LightAim aim = archive.loads() ? LightAim() : aims[i];
+        archive.value(aim.row);
+        archive.value(aim.middle);
+        archive.values(aim.tree);
+        if (archive.loads()) {
+            aims.push_back(std::move(aim));
+        }
+    }
+}
+
+bool are_aims(const std::vector<LightAim>& aims) {
+    return std::all_of(aims.begin(), aims.end(), [](const LightAim& aim) {
+        const glm::vec3& m = aim.middle;
+        return std::isfinite(m.x + m.y + m.z) && is_aim_tree(aim.tree);
+    });
+}
+
 void add(FoundShares& shares, std::uint32_t emitter, double light) {
     shares.light[emitter] += light;
     ++shares.samples;
@@ -127,7 +72,8 @@ void add(FoundShares& shares, std::uint32_t emitter, double light) {
 
 void keep_learnt(RenderContext& context, const DeviceScene& before) {
     DeviceScene& scene = context.on_device;
-    copy_aims(before.record, scene.record);
+    copy_targets(before.record, scene.record);
+    set_aims(context.device, scene, before.aims);
     const bool same_emitters = scene.light_table.emitter_weights.size() == before.ray_shares.size();
     const DeviceScene& choices = same_emitters ? before : scene;
     const std::vector<double> for_rays = choices.ray_shares, for_photons = choices.photon_shares;
@@ -143,6 +89,10 @@ void persist_lights(Archive& archive, RenderContext& context) {
     archive.values(learnt.ray_shares);
     archive.values(learnt.photon_shares);
     archive.value(learnt.areas.part);
+    if (archive.loads()) {
+        learnt.aims.clear();
+    }
+    persist_aims(archive, learnt.aims);
     if (!archive.loads()) {
         return;
     }
@@ -152,7 +102,7 @@ void persist_lights(Archive& archive, RenderContext& context) {
                            [](double share) { return share >= 0 && share <= 1.001; });
     };
     if (!are_shares(learnt.ray_shares) || !are_shares(learnt.photon_shares) ||
-        learnt.record.target_count > most_targets ||
+        !are_aims(learnt.aims) || learnt.record.target_count > most_targets ||
         !(learnt.record.view_share >= 0 && learnt.record.view_share < 0.5f)) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
@@ -186,7 +136,7 @@ void learn_lights(RenderContext& context) {
         }
     }
     if (photons && outside > 0) {
-        set_focus(scene.record, table, found.lights);
+        set_aims(context.device, scene, learn_aims(scene, found.lights));
     }
     set_light_choices(context.device, scene, learnt_shares(table, for_rays),
                       learnt_shares(table, for_photons));

@@ -31,9 +31,7 @@ glm::dvec3 middle_of(const LightRecord& light) {
            3.0;
 }
 
-bool is_inside(const LightRecord& light) {
-    return ((1u << light.kind) & light_kinds_from_outside) == 0;
-}
+bool is_inside(const LightRecord& light) { return !is_from_outside(light); }
 
 /// About the share of the photons from lights inside the scene that hits this sphere if none are
 /// aimed.

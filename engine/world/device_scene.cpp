@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
+#include <utility>
 
 namespace argand {
 
@@ -65,6 +67,7 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
     }
     result.record = scene_record(scene, result.light_table, center, radius);
     result.record.follow_roughness = result.plan.request.follow_roughness;
+    result.aim_nodes = unneeded(device);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);
 }
@@ -97,6 +100,42 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
     }
     choices.insert(choices.end(), of_photons.begin(), of_photons.end());
     scene.light_choices = upload(device, "light choices", choices);
+}
+
+float radius_around(const glm::vec3& point, const SceneRecord& scene) {
+    constexpr float rounding = 1.0001f;
+    const glm::vec3 center(scene.center_x, scene.center_y, scene.center_z);
+    return rounding * (scene.radius + glm::distance(point, center));
+}
+
+void set_aims(Device& device, DeviceScene& scene, std::vector<LightAim> aims) {
+    LightTable& table = scene.light_table;
+    std::erase_if(aims, [&](const LightAim& aim) {
+        return aim.row >= table.lights.size() || !is_from_outside(table.lights[aim.row]);
+    });
+    if (aims.empty()) {
+        return;
+    }
+    std::vector<AimNode> nodes(1, {aim_leaf, 0, 0, 0});
+    for (const LightAim& aim : aims) {
+        LightRecord& light = table.lights[aim.row];
+        light.x = aim.middle.x;
+        light.y = aim.middle.y;
+        light.z = aim.middle.z;
+        light.ex = radius_around(aim.middle, scene.record);
+        const auto root = static_cast<std::uint32_t>(nodes.size());
+        light.triangle_and_sides = root;
+        std::transform(aim.tree.begin(), aim.tree.end(), std::back_inserter(nodes),
+                       [&](AimNode node) {
+                           node.child += root;
+                           return node;
+                       });
+        const std::size_t index = table.first_light.empty() ? aim.row : table.first_light[aim.row];
+        device.upload(scene.lights, index * sizeof(LightRecord),
+                      std::as_bytes(std::span(&light, 1)));
+    }
+    scene.aims = std::move(aims);
+    scene.aim_nodes = upload(device, "aim nodes", nodes);
 }
 
 void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> spheres,

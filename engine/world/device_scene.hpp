@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 #include "shared/camera.h"
 #include "shared/scene_records.h"
+#include "world/aim_tree.hpp"
 #include "world/area_table.hpp"
 #include "world/caster_table.hpp"
 #include "world/emissive_parts.hpp"
@@ -25,11 +26,13 @@ struct DeviceScene {
     Buffer materials;     ///< MaterialRecord
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
+    Buffer aim_nodes;     ///< AimNode of all `aims`, after one that is not used; or not needed
     TriangleBvh bvh;
     SceneRecord record;     ///< the host's copy of `scene`
     LightTable light_table; ///< what the host knows of `lights`, and their emitters
     /// Probabilities with which each emitter is chosen for shadow rays, and for photons.
     std::vector<double> ray_shares, photon_shares;
+    std::vector<LightAim> aims;                    ///< how photons from outside are aimed
     PhotonSurfaces photon_surfaces;                ///< empty without a photon map
     double surface_area = 0;                       ///< their area; 0 without a photon map
     std::shared_ptr<const CasterTable> casters;    ///< null without followed paths and a photon map
@@ -56,6 +59,13 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
 /// uploads `record` with them. Records only.
 void set_light_choices(Device& device, DeviceScene& scene, const std::vector<double>& for_rays,
                        const std::vector<double>& for_photons);
+
+/// Radius of a sphere around a point that contains the scene's bounding sphere.
+float radius_around(const glm::vec3& point, const SceneRecord& scene);
+
+/// Aims photons from outside, and uploads `lights` with it. Those of lights that are not from
+/// outside are left as they are. Records only.
+void set_aims(Device& device, DeviceScene& scene, std::vector<LightAim> aims);
 
 /// Aims photons from lights inside the scene at up to four spheres (center, radius), and uploads
 /// `record` with them. share: of the photons, for all spheres together. Records only.

@@ -26,6 +26,11 @@ struct LightTable {
     std::uint32_t first_triangle = 0, triangle_count = 0; ///< emissive triangles among the lights
 };
 
+/// Whether this is the sky or a directional light.
+inline bool is_from_outside(const LightRecord& light) {
+    return ((1u << light.kind) & light_kinds_from_outside) != 0;
+}
+
 /// The row to which a light belongs.
 std::size_t row_of(const LightTable& table, std::uint32_t light);
 

@@ -18,7 +18,9 @@ CONSTANT uint light_kinds_from_outside = 20u; // directional and sky
 
 // A light of any kind. Laid out in 16-byte lanes.
 struct LightRecord {
-    float32 x, y, z; // position (point, spot) or first vertex (triangle)
+    // Position (point, spot), first vertex (triangle) or middle of the aimed photons (from
+    // outside).
+    float32 x, y, z;
     uint kind;
     // Intensity [cd] (point, spot), irradiance [lux] (directional) or radiance [cd/m²].
     float32 r, g, b;
@@ -26,8 +28,9 @@ struct LightRecord {
     // Unit direction in which light travels (spot, directional), or second vertex (triangle).
     float32 dx, dy, dz;
     float32 cos_outer;  // spot
-    float32 ex, ey, ez; // third vertex (triangle)
+    float32 ex, ey, ez; // third vertex (triangle); ex: radius of the aimed photons' disc (outside)
     // Triangle: twice its index among the scene's triangles, plus 1 if it emits from its back too.
+    // From outside: index of the root of its AimNodes; 0: its photons are not aimed.
     uint triangle_and_sides;
 };
 

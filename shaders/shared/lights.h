@@ -43,39 +43,6 @@ struct Sphere {
     real radius;
 };
 
-// Concentric spheres at which photons from outside are aimed. Spheres without a share of the
-// photons may have any radius.
-struct Focus {
-    vec3 center;
-    vec3 radius;
-    vec3 share;
-};
-
-// The sphere at which to aim a photon, as its radius; 0: the whole scene. choice: in [0,1).
-FN real choose_focus(IN(Focus) focus, real choice) {
-    if (choice < focus.share.x) {
-        return focus.radius.x;
-    }
-    if (choice < focus.share.x + focus.share.y) {
-        return focus.radius.y;
-    }
-    return choice < focus.share.x + focus.share.y + focus.share.z ? focus.radius.z : real(0.0);
-}
-
-// Density, across their direction, of photons that pass the focus at this distance, over the
-// density if none were aimed. aimed: radius of a sphere that certainly contains the photon, which
-// rounding must not deny; 0: none does.
-FN real focus_concentration(IN(Focus) focus, real scene_radius, real distance, real aimed) {
-    real nearest = min(distance, aimed > real(0.0) ? aimed : distance);
-    real concentration = real(1.0) - (focus.share.x + focus.share.y + focus.share.z);
-    vec3 ratio = vec3(scene_radius) / focus.radius;
-    vec3 density = focus.share * ratio * ratio;
-    concentration += nearest <= focus.radius.x && focus.share.x > real(0.0) ? density.x : real(0.0);
-    concentration += nearest <= focus.radius.y && focus.share.y > real(0.0) ? density.y : real(0.0);
-    concentration += nearest <= focus.radius.z && focus.share.z > real(0.0) ? density.z : real(0.0);
-    return concentration;
-}
-
 // Spheres, (center, radius), at which photons from lights inside the scene are aimed.
 struct Targets {
     vec4 spheres[most_targets];
@@ -134,6 +101,23 @@ FN vec3 light_normal(IN(LightRecord) l, OUT(real) area) {
 FN bool is_double_sided(IN(LightRecord) l) { return (l.triangle_and_sides & 1u) != 0u; }
 FN real light_sides(IN(LightRecord) l) { return is_double_sided(l) ? real(2.0) : real(1.0); }
 FN uint triangle_of_light(IN(LightRecord) l) { return l.triangle_and_sides >> 1u; }
+
+// Of lights from outside: the sphere before which aimed photons start, on a disc; it contains the
+// scene.
+FN Sphere aim_sphere(IN(LightRecord) l) {
+    Sphere s;
+    s.center = light_position(l);
+    s.radius = real(l.ex);
+    return s;
+}
+
+// Whether the photons of this light come from outside and are aimed by a tree (aim.h).
+FN bool is_aimed_from_outside(IN(LightRecord) l, uint kinds) {
+    return (is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky)) &&
+           l.triangle_and_sides != 0u;
+}
+
+FN uint aim_root(IN(LightRecord) l) { return l.triangle_and_sides; }
 
 // Power that a light sends into a scene with this bounding sphere, from colour (I, E or L) and
 // geometry: I times the solid angle, E·pi r², pi L A, 4 pi·pi r²·L.
@@ -299,24 +283,6 @@ FN bool light_emit(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, vec4 u, vec
     return emitted;
 }
 
-// Aims a photon from outside at the focus.
-FN void aim_at_focus(IN(Sphere) bounds, IN(Focus) focus, vec4 u, real choice,
-                     INOUT(EmittedPhoton) p) {
-    real aimed = choose_focus(focus, choice);
-    if (aimed > real(0.0)) {
-        Frame f = make_frame(p.direction);
-        vec2 d = sample_disc(vec2(u.z, u.w));
-        // Onto the plane on which all photons start, which lies before the bounding sphere.
-        real back = real(1.001) * bounds.radius - dot3(bounds.center - focus.center, f.z);
-        p.origin = focus.center + (f.x * d.x + f.y * d.y) * aimed - f.z * back;
-    }
-    vec3 across = p.origin - focus.center;
-    across -= p.direction * dot3(across, p.direction);
-    // Less its rounding errors: a photon that is wrongly taken to be outside becomes a firefly.
-    real distance = max(sqrt(dot3(across, across)) - bounds.radius * error_bound(16), real(0.0));
-    p.concentration = focus_concentration(focus, bounds.radius, distance, aimed);
-}
-
 // Solid-angle density of emit_evenly for lights inside the scene. front: normal of a triangle.
 FN real emission_density(IN(LightRecord) l, uint kinds, vec3 front, vec3 direction) {
     if (is_light(l, kinds, light_triangle)) {
@@ -387,19 +353,31 @@ FN bool aim_at_targets(IN(LightRecord) l, uint kinds, IN(Targets) targets, vec2 
     return even > real(0.0) && is_finite(p.concentration);
 }
 
-// As light_emit, but aims photons from outside at the focus, and others at the targets. Their flux
-// is divided by their concentration (balance heuristic), so that the mean is the same. choice: in
+// Emits a photon of a directional light or the sky from a disc that suits the tree of aim.h. u: the
+// tree's, of this concentration, by which flux is divided. Returns false if the photon starts
+// beside the disc that covers the bounding sphere.
+FN bool light_emit_from_disc(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, real concentration,
+                             vec4 u, vec4 v, OUT(EmittedPhoton) p) {
+    vec3 error;
+    Sphere around = aim_sphere(l);
+    bool emitted = emit_evenly(l, kinds, around, u, v, p, error);
+    real ratio = bounds.radius / around.radius;
+    p.concentration = concentration * ratio * ratio;
+    p.flux = light_power(l, kinds, bounds.radius) / p.concentration;
+    vec3 across = p.origin - bounds.center;
+    across -= p.direction * dot3(across, p.direction);
+    return emitted && dot3(across, across) <= bounds.radius * bounds.radius;
+}
+
+// As light_emit, but aims photons from lights inside the scene at the targets. Their flux is
+// divided by their concentration (balance heuristic), so that the mean is the same. choice: in
 // [0,1), at what to aim.
-FN bool light_emit_aimed(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Focus) focus,
-                         IN(Targets) targets, vec4 u, vec4 v, real choice, OUT(EmittedPhoton) p) {
+FN bool light_emit_aimed(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Targets) targets,
+                         vec4 u, vec4 v, real choice, OUT(EmittedPhoton) p) {
     vec3 error;
     bool emitted = emit_evenly(l, kinds, bounds, u, v, p, error);
-    if (is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky)) {
-        if (focus.share.x + focus.share.y + focus.share.z > real(0.0)) {
-            aim_at_focus(bounds, focus, u, choice, p);
-            p.flux = p.flux / p.concentration;
-        }
-    } else if ((targets.count > 0u || targets.view_share > real(0.0)) && emitted) {
+    bool from_outside = is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky);
+    if (!from_outside && (targets.count > 0u || targets.view_share > real(0.0)) && emitted) {
         emitted = aim_at_targets(l, kinds, targets, vec2(u.x, u.y), choice, p);
         p.flux = p.flux / (emitted ? p.concentration : real(1.0));
     }

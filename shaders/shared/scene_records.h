@@ -21,11 +21,6 @@ struct SceneRecord {
     float32 emitter_probability; // probability that a shadow ray is sent to an emissive triangle
     uint emitter_count;          // emissive triangles, which follow one another among the lights
     uint pad0, pad1;
-    // Concentric spheres at which photons from the sky and from directional lights are aimed, and
-    // the share of these photons for each (Focus).
-    float32 focus_x, focus_y, focus_z, pad2;
-    float32 focus_radius_0, focus_radius_1, focus_radius_2, pad3;
-    float32 focus_share_0, focus_share_1, focus_share_2, pad4;
     // Spheres (center and radius) at which photons from all other lights are aimed, their number,
     // and the share of these photons for each (Targets).
     lane4 target_0, target_1, target_2, target_3;

@@ -111,6 +111,63 @@ TEST_P(LightLearning, SunThroughAWindow) {
     EXPECT_RELATIVE(mean(layer(found, "indirect")).g, mean(layer(truth, "indirect")).g, 0.15);
 }
 
+/// A room of 2 m with an opening in one wall, under the sky and, if it shines, a sun.
+Scene room_with_opening(bool sun) {
+    Scene scene;
+    const std::uint32_t white = add_material(scene, lambertian({0.7f, 0.6f, 0.5f}));
+    add_box(scene, {-1, 0, -1}, {1, 2, 1}, white, true);
+    scene.triangles.resize(scene.triangles.size() - 2); // the wall at z = 1
+    scene.triangle_material.resize(scene.triangles.size());
+    add_quad(scene, {1, 0, 1}, {-2, 0, 0}, {0, 0.8f, 0}, white); // up to the opening
+    add_quad(scene, {1, 1.6f, 1}, {-2, 0, 0}, {0, 0.4f, 0}, white);
+    scene.sky = glm::vec3(1);
+    if (sun) {
+        scene.lights = {
+            directional_light(glm::normalize(glm::vec3(0.2f, -0.8f, -1)), glm::vec3(3))};
+    }
+    scene.cameras = {look_at({0.8f, 1, 0.8f}, {-0.3f, 0.7f, -0.8f}, 70)};
+    return scene;
+}
+
+// What the room gets by photons that are aimed through its opening is, in the mean over seeds, what
+// it gets by path tracing.
+TEST_P(LightLearning, SkyAndSunThroughAnOpening) {
+    for (const bool sun : {false, true}) {
+        SCOPED_TRACE(sun);
+        const Scene scene = room_with_opening(sun);
+        const RenderResult& truth =
+            render_once(sun ? "opening, sun" : "opening", scene, reference(1024));
+        double sum = 0;
+        constexpr int seeds = 4;
+        for (int seed = 0; seed < seeds; ++seed) {
+            RenderSettings settings = small_picture(GetParam());
+            settings.seed = static_cast<std::uint32_t>(seed) + 10;
+            const RenderResult found = render(scene, settings);
+            sum += mean(layer(found, "indirect")).g / seeds;
+            if (found.statistics.photons_emitted > 0) {
+                // 1.6 m² of opening let in 0.042 of the photons that start on a disc of 9.4 m².
+                EXPECT_GT(found.statistics.photons_in_view,
+                          0.12 * static_cast<double>(found.statistics.photons_emitted));
+            }
+        }
+        EXPECT_RELATIVE(sum, mean(layer(truth, "indirect")).g, 0.03);
+    }
+}
+
+// With one photon, or with a light that reaches nothing in view, little is learnt.
+TEST_P(LightLearning, NothingToAimAt) {
+    Scene scene = room_with_opening(true);
+    RenderSettings settings = small_picture(GetParam());
+    settings.photons = 1;
+    EXPECT_TRUE(std::isfinite(mean(layer(render(scene, settings), "")).g));
+    // The sun shines on the room's back only.
+    scene.lights[0].direction = glm::vec3(0, 0, 1);
+    EXPECT_GT(mean(layer(render(scene, small_picture(GetParam())), "")).g, 0);
+    // The camera looks away from everything.
+    scene.cameras = {look_at({0, 1, 20}, {0, 1, 40}, 40)};
+    EXPECT_RELATIVE(mean(layer(render(scene, small_picture(GetParam())), "")).g, 1, 1e-5);
+}
+
 INSTANTIATE_METHODS(LightLearning);
 
 } // namespace

@@ -3,6 +3,7 @@
 #define ARGAND_TEST_LIGHT_FUNCTIONS_H
 
 #include "arguments.h"
+#include "shared/aim.h"
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/light_differential.h"
@@ -15,7 +16,7 @@ CONSTANT uint of_spot_solid_angles = 61u;
 CONSTANT uint of_light_normal = 62u;
 CONSTANT uint of_light_power = 63u;
 CONSTANT uint of_emitter_density = 64u;
-CONSTANT uint of_focus_concentration = 90u;
+CONSTANT uint of_descend_aim = 90u;
 CONSTANT uint of_light_sample = 65u;
 CONSTANT uint of_light_emit = 66u;
 CONSTANT uint of_photon_spacing = 67u;
@@ -143,12 +144,19 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
     } else if (function == of_emitter_density) {
         r.y[0] =
             emitter_density(number_at(a, 0), number_at(a, 1), number_at(a, 2), number_at(a, 3));
-    } else if (function == of_focus_concentration) {
-        Focus focus;
-        focus.center = vec3(real(0.0));
-        focus.radius = vec3_at(a, 0);
-        focus.share = vec3_at(a, 3);
-        r.y[0] = focus_concentration(focus, number_at(a, 6), number_at(a, 7), real(0.0));
+    } else if (function == of_descend_aim) {
+        AimNode node;
+        node.axis = 2u;
+        node.child = 0u;
+        node.cut = float32(number_at(a, 4));
+        node.share = float32(number_at(a, 5));
+        AimedNumbers aimed =
+            begin_aim(vec4(number_at(a, 0), number_at(a, 1), number_at(a, 2), number_at(a, 3)));
+        descend_aim(node, aimed);
+        vec4 u = end_aim(aimed);
+        r.y[0] = u.x;
+        r.y[1] = u.z;
+        r.y[2] = aimed.concentration;
     } else if (function == of_light_sample) {
         LightSample l;
         bool lit = light_sample(light_at(a, 5, small_at(a, 19), small_at(a, 20)), all_light_kinds,
@@ -175,10 +183,6 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         Sphere bounds;
         bounds.center = vec3(real(0.0));
         bounds.radius = number_at(a, 6);
-        Focus focus;
-        focus.center = vec3(real(0.25), real(-0.125), real(0.5)) * bounds.radius;
-        focus.radius = vec3(real(0.0625), real(0.125), real(0.25)) * bounds.radius;
-        focus.share = vec3(real(0.25));
         Targets targets;
         targets.spheres[0] = vec4(real(0.5), real(0.25), real(-0.25), real(0.0625)) * bounds.radius;
         targets.spheres[1] = vec4(real(-0.5), real(0.0), real(0.5), real(0.25)) * bounds.radius;
@@ -190,7 +194,7 @@ FN bool evaluate_light(uint function, IN(Arguments) a, INOUT(Values) r) {
         EmittedPhoton p;
         bool emitted =
             light_emit_aimed(light_at(a, 8, small_at(a, 22), small_at(a, 23)), all_light_kinds,
-                             bounds, focus, targets, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
+                             bounds, targets, vec4(a.x[0], a.x[1], a.x[2], a.x[3]),
                              vec4(a.x[4], a.x[5], real(0.0), real(0.0)), number_at(a, 7), p);
         r.y[0] = emitted ? real(1.0) : real(0.0);
         put3(r, 1, small_at(a, 22) != light_triangle ? p.origin : vec3(real(0.0)));

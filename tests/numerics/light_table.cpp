@@ -141,19 +141,15 @@ std::vector<Function> spots_and_power() {
              d.put(d.magnitude(-20, 0));
          },
          4, "1", ulp, 8},
-        {"focus_concentration", of_focus_concentration,
-         "radii and distances 2^-20 … 2^20, shares 2^-20 … 0.3",
+        {"descend_aim", of_descend_aim, "corners of [0, 1)^4, cuts and shares 1/32 … 31/32",
          [](Draw& d) {
-             for (int i = 0; i < 3; ++i) {
-                 d.put(d.magnitude(-20, 20));
+             for (int i = 0; i < 4; ++i) {
+                 d.put(d.unit());
              }
-             for (int i = 0; i < 3; ++i) {
-                 d.put(0.3f * d.magnitude(-20, 0));
-             }
-             d.put(d.magnitude(-20, 20));
-             d.put(d.magnitude(-20, 20));
+             d.put(static_cast<float>(1 + d.bits() % 31) / 32);
+             d.put(static_cast<float>(1 + d.bits() % 31) / 32);
          },
-         8, "1", ulp, 8},
+         6, "111", conditioned, 8},
     };
 }
 
@@ -192,7 +188,7 @@ std::vector<Function> light_samples_and_photons() {
          },
          22, "d333", conditioned, 4},
         {"light_emit_aimed", of_light_emit_aimed,
-         "as light_emit, three spheres of 1/16 … 1/4 of the scene; the photon's place",
+         "as light_emit, spheres of 1/16 … 1/4 of the scene; the photon's place",
          [](Draw& d) {
              const float kind = any_kind(d);
              for (int i = 0; i < 6; ++i) {

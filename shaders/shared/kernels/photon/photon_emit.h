@@ -1,5 +1,19 @@
 #include "shared/kernels/scene.h"
 
+// Warps the random numbers of a photon of this light by the light's tree.
+FN AimedNumbers aim(LightRecord light, vec4 u) {
+    AimedNumbers a = begin_aim(u);
+    uint index = aim_root(light);
+    for (uint level = 0u; level < most_aim_levels; ++level) {
+        AimNode node = aim_nodes[index];
+        if (node.axis == aim_leaf) {
+            break;
+        }
+        index = node.child + (descend_aim(node, a) ? 1u : 0u);
+    }
+    return a;
+}
+
 FN void main() {
     uint slot = THREAD_INDEX;
     if (slot >= batch.count) {
@@ -18,11 +32,7 @@ FN void main() {
     Sphere bounds;
     bounds.center = scene_center();
     bounds.radius = scene[0].radius;
-    Focus focus;
     SceneRecord s = scene[0];
-    focus.center = vec3(s.focus_x, s.focus_y, s.focus_z);
-    focus.radius = vec3(s.focus_radius_0, s.focus_radius_1, s.focus_radius_2);
-    focus.share = vec3(s.focus_share_0, s.focus_share_1, s.focus_share_2);
     Targets targets;
     targets.spheres[0] = vec4(s.target_0);
     targets.spheres[1] = vec4(s.target_1);
@@ -33,8 +43,15 @@ FN void main() {
     targets.view = vec4(s.view);
     targets.view_share = s.view_share;
     EmittedPhoton p;
-    bool emitted = light_emit_aimed(light, light_kinds, bounds, focus, targets, u,
-                                    vec4(v.z, v.w, v.x, v.y), w.y, p);
+    bool emitted;
+    vec4 rest = vec4(v.z, v.w, v.x, v.y);
+    if (is_aimed_from_outside(light, light_kinds)) {
+        AimedNumbers aimed = aim(light, u);
+        emitted = light_emit_from_disc(light, light_kinds, bounds, aimed.concentration,
+                                       end_aim(aimed), rest, p);
+    } else {
+        emitted = light_emit_aimed(light, light_kinds, bounds, targets, u, rest, w.y, p);
+    }
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
