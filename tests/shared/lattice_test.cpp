@@ -75,6 +75,8 @@ TEST(Lattice, PathsShareOnePointOfManyDimensions) {
             glm::greaterThan(glm::abs(difference - glm::round(difference)), vec4(1e-6f)));
     };
     std::vector<vec4> moves_of_photons, moves_of_eyes;
+    moves_of_photons.reserve(120);
+    moves_of_eyes.reserve(60);
     for (std::uint32_t d = 0; d < 60; ++d) {
         for (const std::uint32_t dimension : {d, dimension_of_choices + d}) {
             moves_of_photons.push_back(photon(any_point, dimension) - photon(0, dimension));
