@@ -40,7 +40,8 @@ void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const Ey
                                   .paths = w.paths,
                                   .layers = w.layers,
                                   .active_slots = w.active,
-                                  .batch = batch},
+                                  .batch = batch,
+                                  .constants = {.lattice = w.lattice}},
              slots);
     upload_word(device, w.counts, 0, slots);
 }
@@ -72,6 +73,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                                           .followed_paths = plan.needs(Feature::followed_paths),
                                           .direct_light = plan.needs(Feature::direct_light),
                                           .glossy_estimates = plan.needs(Feature::glossy_estimates),
+                                          .lattice = w.lattice,
                                           .scene = scene.constants(),
                                           .material_features = plan.material_features()}},
         w.counts);
@@ -279,6 +281,7 @@ Buffer camera_of(Device& device, const EyeBatch& batch, const Camera& camera,
 EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
                                 const CameraRecord& camera) {
     EyeWorkspace w;
+    w.lattice = settings.deterministic;
     w.film = make_film(device, settings.width, settings.height);
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
                        w.film.pixels() * settings.samples);

@@ -12,6 +12,7 @@ namespace argand {
 /// Device memory for eye paths that are traced together, and their film.
 struct EyeWorkspace {
     std::uint64_t slots = 0;
+    bool lattice = false; ///< the numbers of paths are points of a lattice
     Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows,
         occluded;
     Buffer counts;

@@ -161,6 +161,13 @@ Option follow_roughness_option() {
     return option;
 }
 
+Option deterministic_option() {
+    return member_option(
+        "deterministic",
+        "Decide all paths by the points of a lattice, without scrambling and without a seed",
+        [](RenderSettings & s) -> auto& { return s.deterministic; });
+}
+
 Option aperture_option() {
     // Its product with 1 / focus, and the square of that, are finite.
     return member_option(
@@ -205,8 +212,8 @@ std::vector<Option> progressive_options() {
 }
 
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {
-    std::vector<Option> options{samples_option(), bounces_option(), follow_roughness_option(),
-                                aperture_option(), focus_option()};
+    std::vector<Option> options{samples_option(),  bounces_option(), follow_roughness_option(),
+                                aperture_option(), focus_option(),   deterministic_option()};
     for (const std::vector<Option>& more : {photon_map_options(), progressive_options(), own}) {
         options.insert(options.end(), more.begin(), more.end());
     }

@@ -85,6 +85,8 @@ struct RenderSettings {
     QuerySearch query = QuerySearch::automatic;
     FrontierSettings frontier; ///< of queries that are answered together
     Sampling photon_sampling = Sampling::sobol;
+    /// All paths take the points of a lattice instead, which no seed decides.
+    bool deterministic = false;
     bool final_gather = false; ///< the photon map is queried one bounce later, except for caustics
     bool everything = false;   ///< also code, buffers and passes that the scene does not require
     FootprintSettings footprints;

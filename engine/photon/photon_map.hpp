@@ -5,6 +5,7 @@
 #include "shared/differential.h"
 #include "shared/footprint_records.h"
 #include "shared/photon_records.h"
+#include "shared/sampling.h"
 #include "world/device_scene.hpp"
 
 #include <array>
@@ -50,7 +51,7 @@ struct PhotonWorkspace {
     std::uint64_t slots = 0;                  ///< photons traced together
     std::uint64_t capacity = 0;               ///< photons stored
     bool footprints = false;                  ///< whether photons carry differentials
-    bool quasi_random = true;                 ///< Sobol' points instead of random numbers
+    std::uint32_t numbers = numbers_sobol;    ///< numbers_* of shared/sampling.h
     std::uint32_t reemission = REEMIT_COSINE; ///< REEMIT_* of shared/differential.h
     Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order,
         heads;

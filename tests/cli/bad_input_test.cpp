@@ -114,6 +114,9 @@ TEST_F(BadInput, ProgressiveWidthsThatAreNone) {
         expect_failure(scene + option, usage, "add that");
         expect_failure(scene + "--method path " + option, usage, "no effect with --method path");
     }
+    for (const char* option : {"--seed 0", "--seed 3", "--photon-sampling sobol"}) {
+        expect_failure(scene + "--deterministic " + option, usage, "nothing random");
+    }
     expect_failure(scene + "--progressive --radius 0.1", usage, "--r1");
     expect_failure(scene + "--method progressive --radius 0.1", usage, "--radius");
     expect_failure(scene + "--method footprints --progressive --fixed-smoothing", usage,

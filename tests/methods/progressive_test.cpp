@@ -446,6 +446,21 @@ TEST_P(ProgressiveError, SlowFallsAsTheLawSays) {
     EXPECT_LT(found.back().squared_bias, 0.6 * found.front().squared_bias);
 }
 
+// A seed only moves the points of a lattice, so that eight seeds tell its noise.
+TEST_P(ProgressiveError, SlowFallsAtLeastAsFastWithALattice) {
+    RenderSettings settings = settings_of("progressive", 12, 1);
+    settings.photons = 400;
+    settings.disc = {.uniform_kernel = true, .ball = true};
+    settings.progressive.first_radius = GetParam().radius;
+    settings.progressive.passes = 256;
+    settings.deterministic = true;
+    const std::vector<ErrorAfter> found = errors(load_asset(GetParam().scene), settings);
+    ASSERT_EQ(found.size(), 5u);
+    EXPECT_LT(slope_of_noise(found), -0.43);
+    EXPECT_GT(found.front().squared_bias, 0);
+    EXPECT_LT(found.back().squared_bias, 0.6 * found.front().squared_bias);
+}
+
 // From the second pass on k is 8 and passes grow: n rises as the square of the passes i. Each pass
 // has the same noise, so variance falls as 1/i. Bias goes on falling with n.
 TEST_F(ProgressiveErrors, SlowFallWithPassesThatGrow) {

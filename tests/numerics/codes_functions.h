@@ -134,11 +134,12 @@ FN Values evaluate_codes(uint function, IN(Arguments) a) {
         packed |= small_at(a, 4) != 0u ? area_sample_bit : 0u;
         r.y[0] = must_be(photon_is_caustic(packed) ? real(1.0) : real(0.0), number_at(a, 3));
     } else if (function == of_eye_random4) {
-        vec4 u = eye_random4(word_at(a, 0), word_at(a, 2), word_at(a, 4), small_at(a, 6));
+        vec4 u = eye_random4(word_at(a, 0), word_at(a, 2), word_at(a, 4), small_at(a, 6),
+                             small_at(a, 7) != 0u);
         put3(r, 0, vec3(u.x, u.y, u.z));
         r.y[3] = u.w;
     } else if (function == of_photon_random4) {
-        vec4 u = photon_random4(word_at(a, 0), word_at(a, 2), small_at(a, 4), small_at(a, 5) != 0u);
+        vec4 u = photon_random4(word_at(a, 0), word_at(a, 2), small_at(a, 4), small_at(a, 5));
         put3(r, 0, vec3(u.x, u.y, u.z));
         r.y[3] = u.w;
     } else if (function == of_shuffled_slot) {

@@ -116,20 +116,21 @@ std::vector<Function> codes_table() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          3, "d", ulp, 0},
-        {"eye_random4", of_eye_random4, "any words, dimensions 0 … 7",
+        {"eye_random4", of_eye_random4, "any words, dimensions 0 … 7, of a lattice or not",
          [](Draw& d) {
              for (int i = 0; i < 3; ++i) {
                  d.put_word(any_word(d));
              }
              d.put(static_cast<float>(d.bits() % 8));
+             d.put(static_cast<float>(d.bits() % 2));
          },
          0, "dddd", ulp, 0},
-        {"photon_random4", of_photon_random4, "any words, dimensions 0 … 7, quasi-random or not",
+        {"photon_random4", of_photon_random4, "any words, dimensions 0 … 7, all numbers_*",
          [](Draw& d) {
              d.put_word(any_word(d));
              d.put_word(any_word(d));
              d.put(static_cast<float>(d.bits() % 8));
-             d.put(static_cast<float>(d.bits() % 2));
+             d.put(static_cast<float>(d.bits() % 3));
          },
          0, "dddd", ulp, 0},
         {"shuffled_slot, slot_of_shuffled", of_shuffled_slot, "any words",

@@ -110,6 +110,20 @@ void check_query(const RenderOptions& options, const CLI::App& command) {
     }
 }
 
+/// Throws UsageError on options that choose other numbers than those of a lattice.
+void check_deterministic(const RenderOptions& options, const CLI::App& command) {
+    if (!options.settings.deterministic) {
+        return;
+    }
+    for (const char* option : {"--seed", "--seed-per-frame", "--photon-sampling"}) {
+        if (is_given(command, option)) {
+            throw UsageError(fmt::format("reading {}: with --deterministic there is nothing random "
+                                         "to choose; leave one of the two out",
+                                         option));
+        }
+    }
+}
+
 void check_lens(const RenderOptions& options) {
     if (options.settings.focus && !(options.settings.aperture > 0)) {
         throw UsageError("reading --focus: it has no effect without --aperture; add that");
@@ -119,6 +133,7 @@ void check_lens(const RenderOptions& options) {
 void check(const RenderOptions& options, const CLI::App& command) {
     check_lens(options);
     check_query(options, command);
+    check_deterministic(options, command);
     check_methods({options.settings.method}, options.methods);
     check_checkpoints(options, command);
     if (is_autotuned(options, command)) {

@@ -13,4 +13,7 @@ layout(set = 0, binding = 3) writeonly buffer Layers { LayersRecord layers[]; };
 layout(set = 0, binding = 4) writeonly buffer Active { uint active_slots[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
+// Whether numbers are points of a lattice.
+layout(constant_id = 0) const bool lattice = false;
+
 #include "shared/kernels/methods/camera_rays.h"

@@ -34,5 +34,7 @@ layout(constant_id = 2) const bool followed_paths = true;
 layout(constant_id = 3) const bool direct_light = true;
 // Whether queries may be on surfaces that are not Lambertian; else `query_bsdfs` is not written.
 layout(constant_id = 4) const bool glossy_estimates = true;
+// Whether numbers are points of a lattice.
+layout(constant_id = 5) const bool lattice = false;
 
 #include "shared/kernels/methods/eye_vertex.h"

@@ -19,6 +19,6 @@ layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.
 layout(constant_id = 0) const bool footprints = false;
-layout(constant_id = 1) const bool quasi_random = true;
+layout(constant_id = 1) const uint numbers = numbers_sobol; // numbers_*
 
 #include "shared/kernels/photon/photon_emit.h"

@@ -25,7 +25,7 @@ layout(push_constant) uniform Push { PhotonBatch batch; };
 // Whether photons carry differentials.
 layout(constant_id = 0) const bool footprints = false;
 layout(constant_id = 1) const uint reemission = REEMIT_COSINE;
-layout(constant_id = 2) const bool quasi_random = true;
+layout(constant_id = 2) const uint numbers = numbers_sobol; // numbers_*
 // Whether paths are followed through some lobe of the scene (shared/follow.h); else there are no
 // caustics.
 layout(constant_id = 3) const bool followed_paths = true;

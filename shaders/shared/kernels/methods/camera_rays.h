@@ -8,7 +8,7 @@ FN void main() {
     }
     uint pixel = batch.first_pixel + interleave(slot / batch.samples, batch.pixels);
     uint sample_index = batch.first_sample + slot % batch.samples;
-    vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u);
+    vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u, lattice);
     uint row = pixel / batch.width;
     vec3 origin, direction;
     camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, vec2(u.z, u.w), origin,

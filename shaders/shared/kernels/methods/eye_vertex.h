@@ -174,7 +174,8 @@ struct SeenLight {
 FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     PathRecord path = v.path;
     Surface surface = v.surface;
-    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 1u);
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 1u,
+                         lattice);
     l.choice = choose_light(vec2(u.x, u.w), false);
     LightRecord light = lights[l.choice.index];
     l.wi = vec3(real(0.0));
@@ -298,7 +299,8 @@ FN void leave_query(IN(Vertex) v) {
 // scattered.
 FN void continue_path(INOUT(Vertex) v) {
     PathRecord path = v.path;
-    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 2u);
+    vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 2u,
+                         lattice);
     bool takes_estimated = u.w < v.estimated_probability;
     BsdfSample s;
     uint lobes = takes_estimated ? v.onward : v.followed;

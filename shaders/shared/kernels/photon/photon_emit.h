@@ -20,13 +20,13 @@ FN void main() {
         return;
     }
     uint photon = batch.first + slot;
-    vec4 a = photon_random4(batch.seed, photon, 0u, quasi_random);
-    vec4 v = photon_random4(batch.seed, photon, 1u, quasi_random);
+    vec4 a = photon_random4(batch.seed, photon, 0u, numbers);
+    vec4 v = photon_random4(batch.seed, photon, 1u, numbers);
     // The directions of emission and of the first scattering use one set of jointly well
     // distributed numbers: if the light is small, they determine where the photon is stored.
     vec4 u = vec4(a.x, a.y, v.x, v.y);
     // Numbers that need no good distribution.
-    vec4 w = photon_random4(batch.seed, photon, dimension_of_choices, false);
+    vec4 w = photon_random4(batch.seed, photon, dimension_of_choices, numbers);
     ChosenLight chosen = choose_light(vec2(v.w, w.x), true);
     LightRecord light = lights[chosen.index];
     Sphere bounds;

@@ -171,9 +171,9 @@ FN void store_photon(uint store, Arrival a, bool caustic) {
 // The random numbers of a photon's scattering. Those of the first one lie in one set of four with
 // those of the direction of emission, see photon_emit.h.
 FN vec4 scattering_random(uint slot, uint depth) {
-    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth, quasi_random);
+    vec4 u = photon_random4(batch.seed, batch.first + slot, 2u + depth, numbers);
     if (depth == 0u) {
-        vec4 with_emission = photon_random4(batch.seed, batch.first + slot, 0u, quasi_random);
+        vec4 with_emission = photon_random4(batch.seed, batch.first + slot, 0u, numbers);
         u.y = with_emission.z;
         u.z = with_emission.w;
     }
@@ -235,7 +235,7 @@ FN void main() {
     if (aims_at_view) {
         view = view_from(a);
         choice =
-            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, false).x;
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).x;
     }
     bool is_elsewhere = view.height > real(0.0);
     Departure out_of = depart(a, m, followed, estimated, view, u, choice);
