@@ -54,6 +54,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
     dispatch_indirect(
         device,
         kernels::eye_vertex{.scene = scene.bindings(),
+                            .texture = scene.texture_bindings(),
                             .hits = w.hits,
                             .active_slots = w.active,
                             .counts = w.counts,
@@ -73,7 +74,8 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                                           .direct_light = plan.needs(Feature::direct_light),
                                           .glossy_estimates = plan.needs(Feature::glossy_estimates),
                                           .scene = scene.constants(),
-                                          .material_features = plan.material_features()}},
+                                          .material_features = plan.material_features(),
+                                          .texture = scene.texture_constants()}},
         w.counts);
 }
 

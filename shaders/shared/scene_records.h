@@ -20,7 +20,8 @@ struct SceneRecord {
     float32 follow_roughness;
     float32 emitter_probability; // probability that a shadow ray is sent to an emissive triangle
     uint emitter_count;          // emissive triangles, which follow one another among the lights
-    uint pad0, pad1;
+    uint attributes;             // texture coordinates and colours of a vertex
+    uint color_attribute;        // which of them is the colour
     // Concentric spheres at which photons from the sky and from directional lights are aimed, and
     // the share of these photons for each (Focus).
     float32 focus_x, focus_y, focus_z, pad2;
