@@ -55,6 +55,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
     dispatch_indirect(
         device,
         kernels::eye_vertex{.scene = scene.bindings(),
+                            .texture = scene.texture_bindings(),
                             .hits = w.hits,
                             .active_slots = w.active,
                             .counts = w.counts,
@@ -75,7 +76,8 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                                           .glossy_estimates = plan.needs(Feature::glossy_estimates),
                                           .lattice = w.lattice,
                                           .scene = scene.constants(),
-                                          .material_features = plan.material_features()}},
+                                          .material_features = plan.material_features(),
+                                          .texture = scene.texture_constants()}},
         w.counts);
 }
 

@@ -1,6 +1,6 @@
 #include "methods/render_options.hpp"
 
-#include "scene/material_record.hpp"
+#include "scene/texture_range.hpp"
 #include "shared/follow.h"
 #include "shared/photon_records.h"
 
@@ -24,7 +24,9 @@ bool follows_other_lobes(const Variation& variation) {
     const auto choice = [&](float roughness) {
         std::vector<std::uint32_t> lobes;
         for (const Material& material : variation.scene.materials) {
-            lobes.push_back(followed_lobes(material_record(material), roughness));
+            for (const Material& variant : at_extreme_texels(variation.scene, material)) {
+                lobes.push_back(followed_lobes(material_record(variant), roughness));
+            }
         }
         return lobes;
     };

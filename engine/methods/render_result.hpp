@@ -38,7 +38,8 @@ struct RenderStatistics {
     std::optional<FootprintScale> footprint_scale; ///< none: photons are points
     std::uint64_t non_finite = 0; ///< samples left out because they were not finite
     FluxSums flux;
-    bool interrupted = false; ///< pixels hold the samples that were finished, maybe none
+    std::uint32_t texture_halvings = 0; ///< of the largest textures, which the device cannot hold
+    bool interrupted = false;           ///< pixels hold the samples that were finished, maybe none
     /// What a method counts beside all this, by a name that is a key of JSON.
     std::map<std::string, double> own;
 };

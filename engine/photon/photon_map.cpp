@@ -98,6 +98,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         dispatch(device,
                  kernels::photon_scatter{
                      .scene = scene.bindings(),
+                     .texture = scene.texture_bindings(),
                      .hits = w.hits,
                      .active_slots = w.active,
                      .counters = w.counters,
@@ -115,7 +116,8 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                    .followed_paths = plan.needs(Feature::followed_paths),
                                    .aims_at_view = scene.record.view_share > 0,
                                    .scene = scene.constants(),
-                                   .material_features = plan.material_features()}},
+                                   .material_features = plan.material_features(),
+                                   .texture = scene.texture_constants()}},
                  active);
         compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
                 active);

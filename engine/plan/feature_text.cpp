@@ -32,6 +32,14 @@ FeatureText text_of(Feature feature) {
     case Feature::smooth_normals:
         return {"smooth_normals", "interpolated normals",
                 fmt::format("{} bytes per vertex; every hit reads three vertices", lane)};
+    case Feature::textures:
+        return {"textures", "textures",
+                fmt::format("{} bytes per texel, {} per vertex; every hit reads three vertices and "
+                            "four texels of each texture",
+                            word, 2 * word)};
+    case Feature::vertex_colors:
+        return {"vertex_colors", "colours of vertices",
+                fmt::format("{} bytes per vertex; every hit reads three vertices", 2 * word)};
     case Feature::point_light:
         return {"point_light", "point lights", ""};
     case Feature::spot_light:

@@ -2,6 +2,7 @@
 
 #include "scene/material_record.hpp"
 #include "scene/moving_factors.hpp"
+#include "scene/texture_range.hpp"
 #include "shared/follow.h"
 #include "shared/light_record.h"
 
@@ -95,10 +96,13 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
         const Material& material = scene.materials[index];
         const std::string by = named("material", material.name, index);
         const auto add = [&](const Material& at_a_time) {
-            const bool has_estimated =
-                add_material(requirements, at_a_time, by, request.follow_roughness);
-            estimated = estimated || has_estimated;
+            for (const Material& variant : at_extreme_texels(scene, at_a_time)) {
+                const bool has_estimated =
+                    add_material(requirements, variant, by, request.follow_roughness);
+                estimated = estimated || has_estimated;
+            }
         };
+        requirements.add(Feature::textures, by, material.texture_bits != 0);
         const MovingMaterial* moving =
             request.at_any_time ? moving_material(scene.motion, index) : nullptr;
         if (moving) {
@@ -107,6 +111,7 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
             add(material);
         }
     }
+    requirements.add(Feature::vertex_colors, "the vertices", !scene.colors.empty());
     if (use.smoothed) {
         requirements.add(Feature::smooth_normals,
                          "surface of " +

@@ -21,6 +21,8 @@ enum class Feature : std::uint8_t {
     refraction,     ///< at the interface of a solid
     alpha,          ///< some surface lets light pass
     smooth_normals, ///< interpolated from the vertices' normals
+    textures,
+    vertex_colors,
     // Lights.
     point_light,
     spot_light,

@@ -33,6 +33,12 @@ float coverage_of(const MaterialFactors& factors) {
     return alpha;
 }
 
+/// The least product of the alpha of texels and vertices with which a masked surface is present.
+float alpha_threshold(const MaterialFactors& factors) {
+    const float alpha = clamped(factors.base_color.a, 1);
+    return alpha > 0 ? clamped(factors.alpha_cutoff, largest_float) / alpha : 1.0f;
+}
+
 } // namespace
 
 void set_factors(const MaterialFactors& factors, Material& material) {
@@ -44,6 +50,9 @@ void set_factors(const MaterialFactors& factors, Material& material) {
     material.metallic = clamped(factors.metallic, 1);
     material.roughness = clamped(factors.roughness, 1);
     material.coverage = coverage_of(factors);
+    material.alpha_mode = factors.alpha_mode;
+    material.alpha_threshold =
+        factors.alpha_mode == AlphaMode::mask ? alpha_threshold(factors) : 0.0f;
     const glm::dvec3 emissive(glm::max(factors.emissive, glm::dvec3(0)));
     material.emission = clamped(emissive * std::max(factors.emissive_strength, 0.0), largest_float);
     material.emission *= material.coverage;

@@ -22,6 +22,8 @@ std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
     add(scene.normals);
     add(scene.triangles);
     add(scene.triangle_material);
+    add(scene.uvs);
+    add(scene.colors);
     return hash;
 }
 
@@ -29,6 +31,13 @@ std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
     std::uint64_t hash = fingerprint(scene);
     for (const Material& material : scene.materials) {
         hash = with(hash, material_record(material));
+    }
+    for (const Texture& texture : scene.textures) {
+        const TextureImage& image = *scene.images[texture.image];
+        hash = fingerprint(std::as_bytes(std::span(image.texels)), hash);
+        hash = with(with(with(hash, image.width), texture.uv_set), texture.transform);
+        hash = with(with(hash, texture.wrap_u), texture.wrap_v);
+        hash = with(with(hash, texture.nearest), texture.srgb);
     }
     for (const Light& light : scene.lights) {
         hash = with(with(with(hash, light.kind), light.position), light.direction);

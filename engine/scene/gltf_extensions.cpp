@@ -6,10 +6,10 @@
 namespace argand {
 
 bool supports_extension(std::string_view name) {
-    constexpr std::array<std::string_view, 8> supported{
+    constexpr std::array<std::string_view, 9> supported{
         "KHR_animation_pointer", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
         "KHR_materials_ior",     "KHR_materials_specular", "KHR_materials_transmission",
-        "KHR_materials_volume",  "KHR_mesh_quantization"};
+        "KHR_materials_volume",  "KHR_mesh_quantization",  "KHR_texture_transform"};
     return std::find(supported.begin(), supported.end(), name) != supported.end();
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/read_file.hpp"
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_uri.hpp"
 #include <cstring>
 #include <deque>
 #include <span>
@@ -115,33 +116,12 @@ Bytes make_glb(const Container& container) {
     return glb;
 }
 
-/// Decodes percent-encoding (RFC 3986, section 2.1). A '%' without two hexadecimal digits after it
-/// stays. ('+' is a plus sign in a path.)
-std::string percent_decoded(const std::string& uri) {
-    const auto digit = [](char c) {
-        return c >= '0' && c <= '9'   ? c - '0'
-               : c >= 'a' && c <= 'f' ? c - 'a' + 10
-               : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                      : -1;
-    };
-    std::string decoded;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 &&
-            digit(uri[i + 2]) >= 0) {
-            decoded += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-            i += 2;
-        } else {
-            decoded += uri[i];
-        }
-    }
-    return decoded;
-}
-
 /// External files of the buffers, in the order in which tinygltf reads them. Anything that it
 /// requests after them is an image.
 struct ExternalFiles {
     struct Buffer {
-        std::string uri;
+        std::filesystem::path path;
+        std::string uri;  ///< for messages
         std::size_t size; ///< bytes required; the file may be longer
     };
     std::filesystem::path directory;
@@ -172,12 +152,8 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
         if (uri.empty() || tinygltf::IsDataURI(uri)) {
             continue;
         }
-        const std::size_t colon = uri.find(':');
-        if (colon != std::string::npos && colon < uri.find_first_of("/?#")) {
-            fail("buffer {} is at '{}', which is neither a file nor base64 data", i,
-                 one_line(uri, 60));
-        }
-        files.pending.push_back({uri, buffer["byteLength"].get<std::size_t>()});
+        files.pending.push_back({path_of_uri(files.directory, uri, fmt::format("buffer {}", i)),
+                                 one_line(uri), buffer["byteLength"].get<std::size_t>()});
     }
     return files;
 }
@@ -193,10 +169,9 @@ bool read_external(Bytes* out, std::string*, const std::string&, void* user) {
     const ExternalFiles::Buffer buffer = files.pending.front();
     files.pending.pop_front();
     try {
-        *out = read_file(files.directory / percent_decoded(buffer.uri));
+        *out = read_file(buffer.path);
         if (out->size() < buffer.size) {
-            fail("'{}' has {} bytes where {} are required", one_line(buffer.uri), out->size(),
-                 buffer.size);
+            fail("'{}' has {} bytes where {} are required", buffer.uri, out->size(), buffer.size);
         }
         out->resize(buffer.size);
         return true;
@@ -277,6 +252,7 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
 GltfSource read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& notes) {
     GltfSource source;
     source.file = one_line(path.string());
+    source.directory = path.parent_path();
     try {
         parse(path, source, notes);
     } catch (const Error& problem) {

@@ -1,9 +1,12 @@
 #include "scene/gltf_material.hpp"
 
 #include "scene/factors.hpp"
+#include "scene/gltf_texture.hpp"
 #include "scene/gltf_value.hpp"
+#include "shared/texture_record.h"
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace argand {
@@ -40,14 +43,21 @@ struct FactorReader {
 
 constexpr double unlimited = std::numeric_limits<float>::max();
 
-/// Whether the material or one of its extensions refers to a texture.
-bool uses_texture(const json& value) {
+/// Collects the textures that the material and its extensions refer to, by their keys.
+void list_textures(const json& value, std::set<std::string>& keys) {
     for (const auto& [key, member] : value.items()) {
-        if (member.is_object() && (key.ends_with("Texture") || uses_texture(member))) {
-            return true;
+        if (member.is_object() && key.ends_with("Texture")) {
+            keys.insert(key);
+        } else if (member.is_object()) {
+            list_textures(member, keys);
         }
     }
-    return false;
+}
+
+/// Textures that are read, or that rendering does not need.
+bool is_read(const std::string& texture) {
+    return texture == "baseColorTexture" || texture == "metallicRoughnessTexture" ||
+           texture == "occlusionTexture" || texture == "emissiveTexture"; // has a note of its own
 }
 
 void read_alpha(const FactorReader& read, const tinygltf::Material& from,
@@ -170,10 +180,47 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     material.phong = Phong{glm::vec3(specular), static_cast<float>(exponent)};
 }
 
+/// Adds the textures of a material.
+void read_textures(TextureReader& textures, const FactorReader& read, const json* object,
+                   Material& material) {
+    material.first_texture = static_cast<std::uint32_t>(read.scene.textures.size());
+    const json* pbr = find_member(object, "pbrMetallicRoughness");
+    if (textures.add(pbr, "baseColorTexture", true, read.what)) {
+        material.texture_bits |= material_base_color_texture;
+    }
+    // A Phong lobe has neither metal nor roughness.
+    if (!material.phong && textures.add(pbr, "metallicRoughnessTexture", false, read.what)) {
+        material.texture_bits |= material_metal_texture;
+    }
+    if (material.texture_bits == 0) {
+        material.first_texture = 0;
+    }
+    std::set<std::string> keys;
+    if (object) {
+        list_textures(*object, keys);
+    }
+    std::erase_if(keys, is_read);
+    for (const std::string& key : keys) {
+        add_note(read.scene,
+                 fmt::format("{} is not read yet: the factors of the materials are used",
+                             one_line(key, 60)));
+    }
+}
+
+/// Alpha of texels counts where some of them have less than 1.
+void find_varying_alpha(Scene& scene) {
+    for (Material& material : scene.materials) {
+        const bool colored = (material.texture_bits & material_base_color_texture) != 0;
+        material.alpha_varies =
+            colored && material.alpha_mode != AlphaMode::opaque &&
+            scene.images[scene.textures[material.first_texture].image]->low.a < 255;
+    }
+}
+
 } // namespace
 
 void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Scene& scene) {
-    bool textured = false;
+    TextureReader textures(source, scene);
     for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
         const tinygltf::Material& from = source.model.materials[i];
         const json* object = find_element(source, "materials", i);
@@ -189,15 +236,14 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         material.double_sided = from.doubleSided;
         set_factors(factors, material);
         read_phong(read, object, material);
+        read_textures(textures, read, object, material);
         scene.materials.push_back(material);
         if (keys[i].moves()) {
             scene.motion.materials.push_back({i, factors, std::move(keys[i])});
         }
-        textured = textured || (object && uses_texture(*object));
     }
-    if (textured) {
-        add_note(scene, "textures are not read yet: the factors of the materials are used");
-    }
+    textures.decode_images();
+    find_varying_alpha(scene);
 }
 
 } // namespace argand

@@ -4,6 +4,7 @@
 #include "scene/gltf_morph.hpp"
 #include "scene/gltf_skin.hpp"
 #include "scene/gltf_surface.hpp"
+#include "scene/gltf_vertex.hpp"
 #include "scene/moving_factors.hpp"
 #include "scene/placement.hpp"
 #include "scene/pose.hpp"
@@ -19,14 +20,6 @@ constexpr std::uint32_t none = 0xffffffffu;
 
 bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return glm::cross(b - a, c - a) != glm::dvec3(0);
-}
-
-void note_ignored_features(const tinygltf::Primitive& primitive, Scene& scene) {
-    for (const auto& [name, accessor] : primitive.attributes) {
-        if (name.starts_with("COLOR_")) {
-            add_note(scene, "vertex colours are not supported yet and are ignored");
-        }
-    }
 }
 
 std::uint32_t material_of(const GltfSource& source, const tinygltf::Primitive& primitive,
@@ -104,7 +97,7 @@ public:
             }
             glm::uvec3 triangle(0);
             for (int k = 0; k < 3; ++k) {
-                triangle[k] = add_vertex(staged_[corners[k]]);
+                triangle[k] = add_vertex(surface, staged_[corners[k]], material, name);
             }
             scene_.triangles.push_back(triangle);
             scene_.triangle_material.push_back(material);
@@ -131,7 +124,7 @@ public:
                     mesh.normals.push_back(vertex.normal);
                     vertices.push_back(vertex.in_file);
                 }
-                triangle[k] = add_vertex(vertex);
+                triangle[k] = add_vertex(surface, vertex, material, mesh.name);
             }
             scene_.triangles.push_back(triangle);
             scene_.triangle_material.push_back(material);
@@ -231,9 +224,11 @@ private:
         staged_.clear();
     }
 
-    std::uint32_t add_vertex(StagedVertex& vertex) const {
+    std::uint32_t add_vertex(const Surface& surface, StagedVertex& vertex, std::uint32_t material,
+                             const std::string& name) const {
         if (vertex.in_scene == none) {
             vertex.in_scene = static_cast<std::uint32_t>(scene_.positions.size());
+            add_texture_attributes(source_, surface, vertex.in_file, material, name, scene_);
             scene_.positions.push_back(vertex.position);
             scene_.normals.push_back(vertex.normal);
         }
@@ -282,12 +277,12 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
             if (!open_surface(source, primitive, name, surface, scene)) {
                 continue;
             }
-            note_ignored_features(primitive, scene);
             const std::uint32_t material = material_of(source, primitive, name, scene);
             if (!may_be_visible(scene, material)) {
                 adder.count_invisible();
                 continue;
             }
+            open_texture_attributes(source, primitive, name, material, surface, scene);
             if (shown.skin < 0 && !node.moves && !is_morphed(motion)) {
                 adder.add(surface, transform, material, name);
                 continue;

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "scene/scene.hpp"
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tiny_gltf.h>
@@ -14,6 +15,7 @@ struct GltfSource {
     tinygltf::Model model;
     nlohmann::json root; ///< the raw JSON: for extensions, whose integers tinygltf would wrap
     std::string file;    ///< file name for messages
+    std::filesystem::path directory; ///< of the file: URIs are relative to it
 
     /// Throws Error: "cannot load 'FILE': ...".
     template <class... Args>

@@ -1,5 +1,9 @@
 #include "scene/gltf_surface.hpp"
 
+#include "shared/texture_record.h"
+
+#include <bit>
+
 namespace argand {
 
 bool is_attribute_type(const GltfAccessor& accessor) {
@@ -84,6 +88,46 @@ bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive
                      name, surface.corner_count));
     }
     return triangle_count(surface.mode, surface.corner_count) > 0;
+}
+
+void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive& primitive,
+                             const std::string& name, std::uint32_t material, Surface& surface,
+                             Scene& scene) {
+    const auto open = [&](const std::string& key, const char* kind) {
+        const GltfAccessor accessor = open_accessor(source, attribute(primitive, key.c_str()),
+                                                    fmt::format("the {} of {}", kind, name));
+        if (accessor.count != surface.positions.count) {
+            source.fail("{} has {} positions but {} {}", name, surface.positions.count,
+                        accessor.count, kind);
+        }
+        return accessor;
+    };
+    const Material& of = scene.materials[material];
+    const int textures = std::popcount(of.texture_bits & ~material_texture_mask);
+    for (int i = 0; i < textures; ++i) {
+        const std::uint32_t set = scene.textures[of.first_texture + std::uint32_t(i)].uv_set;
+        const std::string key = fmt::format("TEXCOORD_{}", set);
+        if (attribute(primitive, key.c_str()) < 0) {
+            source.fail("{} has no {}, which a texture of {} needs", name, key,
+                        label("material", static_cast<int>(material), of.name));
+        }
+        const GltfAccessor accessor = open(key, "texture coordinates");
+        if (accessor.components != 2) {
+            source.fail("the texture coordinates of {} are not pairs", name);
+        }
+        surface.uvs.emplace_back(set, accessor);
+    }
+    surface.has_colors = attribute(primitive, "COLOR_0") >= 0;
+    if (surface.has_colors) {
+        surface.colors = open("COLOR_0", "colours");
+        if (surface.colors.components != 3 && surface.colors.components != 4) {
+            source.fail("the colours of {} have {} components; they must have 3 or 4", name,
+                        surface.colors.components);
+        }
+    }
+    if (attribute(primitive, "COLOR_1") >= 0) {
+        add_note(scene, "only the first set of vertex colours is used");
+    }
 }
 
 } // namespace argand

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "scene/gltf_accessor.hpp"
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace argand {
 
@@ -10,6 +13,9 @@ struct Surface {
     GltfAccessor positions;
     GltfAccessor normals;
     GltfAccessor indices;
+    std::vector<std::pair<std::uint32_t, GltfAccessor>> uvs; ///< sets that the material needs
+    GltfAccessor colors;
+    bool has_colors = false;
     bool has_normals = false;
     bool has_indices = false;
     int mode = TINYGLTF_MODE_TRIANGLES;
@@ -28,8 +34,13 @@ int attribute(const tinygltf::Primitive& primitive, const char* name);
 /// Whether an accessor holds three-component vectors of a type that glTF allows for vertices.
 bool is_attribute_type(const GltfAccessor& accessor);
 
-/// Opens the primitive's accessors. Returns false if it has no surface (points, lines, no
-/// positions, no corners).
+/// Opens what the primitive has for the textures of a material, and its colours.
+void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive& primitive,
+                             const std::string& name, std::uint32_t material, Surface& surface,
+                             Scene& scene);
+
+/// Opens the primitive's accessors, but for those of textures. Returns false if it has no surface
+/// (points, lines, no positions, no corners).
 bool open_surface(const GltfSource& source, const tinygltf::Primitive& primitive,
                   const std::string& name, Surface& surface, Scene& scene);
 

@@ -1,5 +1,7 @@
 #include "scene/material_record.hpp"
 
+#include "shared/texture_record.h"
+
 namespace argand {
 
 MaterialRecord material_record(const Material& m) {
@@ -22,7 +24,13 @@ MaterialRecord material_record(const Material& m) {
                           m.coverage,
                           -1,
                           0,
-                          0};
+                          m.texture_bits | m.first_texture};
+    if (m.alpha_varies && m.alpha_mode == AlphaMode::blend) {
+        record.textures |= material_alpha_blend;
+    } else if (m.alpha_varies && m.alpha_mode == AlphaMode::mask && m.coverage > 0) {
+        record.textures |= material_alpha_mask;
+        record.coverage = m.alpha_threshold;
+    }
     if (m.phong) {
         const glm::vec3& specular = m.phong->specular;
         record.metallic = 0;

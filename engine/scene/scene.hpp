@@ -3,11 +3,13 @@
 #include "scene/camera.hpp"
 #include "scene/light.hpp"
 #include "scene/motion.hpp"
+#include "scene/texture.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +37,13 @@ struct Material {
     float thickness = 0;    ///< KHR_materials_volume; 0: thin wall, else a refracting solid
     bool double_sided = false;
     std::optional<Phong> phong; ///< if present, replaces metal, dielectric and transmission
+    /// Which textures it has: material_*_texture of shared/texture_record.h. Their texels multiply
+    /// the factors. They follow one another in Scene::textures, in the order of these bits.
+    std::uint32_t texture_bits = 0;
+    std::uint32_t first_texture = 0;
+    bool alpha_varies = false; ///< with the texels or the vertices, and the mode is not opaque
+    AlphaMode alpha_mode = AlphaMode::opaque; ///< how the alpha of texels and vertices acts
+    float alpha_threshold = 0; ///< mask: the surface is absent where their product is less
 };
 
 /// An animation of the file.
@@ -55,9 +64,14 @@ struct Scene {
     std::string name;                  ///< file name without directory
     std::vector<glm::vec3> positions;  ///< vertices, world space
     std::vector<glm::vec3> normals;    ///< one per vertex, unit; (0,0,0): use the geometric normal
+    std::uint32_t uv_sets = 0;         ///< texture coordinates of each vertex
+    std::vector<glm::vec2> uvs;        ///< uv_sets per vertex, finite
+    std::vector<glm::u16vec4> colors;  ///< one per vertex, 65535 is 1; empty: all are white
     std::vector<glm::uvec3> triangles; ///< vertex indices, counter-clockwise seen from the front
     std::vector<std::uint32_t> triangle_material; ///< one per triangle, index into materials
     std::vector<Material> materials;              ///< at least one
+    std::vector<Texture> textures;                ///< a material's follow one another
+    std::vector<std::shared_ptr<const TextureImage>> images; ///< used by textures
     std::vector<Light> lights;
     std::optional<glm::vec3> sky; ///< uniform radiance from all directions [cd/m²]
     std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none

@@ -2,11 +2,13 @@
 
 #include "scene/gltf_extensions.hpp"
 #include "scene/light_power.hpp"
+#include "shared/texture_record.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace argand {
 namespace {
@@ -40,6 +42,21 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"double_sided", material.double_sided}};
 }
 
+json textures_json(const Scene& scene, const Material& material) {
+    constexpr std::pair<std::uint32_t, const char*> kinds[] = {
+        {material_base_color_texture, "base_color"},
+        {material_metal_texture, "metallic_roughness"}};
+    json list = json::array();
+    std::size_t next = material.first_texture;
+    for (const auto& [bit, name] : kinds) {
+        if ((material.texture_bits & bit) != 0) {
+            const TextureImage& image = *scene.images[scene.textures[next++].image];
+            list.push_back({{"kind", name}, {"width", image.width}, {"height", image.height}});
+        }
+    }
+    return list;
+}
+
 json materials_json(const Scene& scene) {
     std::vector<std::size_t> triangles(scene.materials.size(), 0);
     std::vector<double> areas(scene.materials.size(), 0);
@@ -50,6 +67,7 @@ json materials_json(const Scene& scene) {
     json list = json::array();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         list.push_back(material_json(scene.materials[i], triangles[i], areas[i]));
+        list.back()["textures"] = textures_json(scene, scene.materials[i]);
     }
     return list;
 }
@@ -154,6 +172,11 @@ std::string material_line(const json& material) {
     if (material["emission"] != json::array({0.0f, 0.0f, 0.0f})) {
         line += fmt::format(", emits {} cd/m2{}", short_text(material["emission"]),
                             material["double_sided"].get<bool>() ? " from both sides" : "");
+    }
+    for (const json& texture : material["textures"]) {
+        line += fmt::format(", {} of {} x {} texels", texture["kind"].get<std::string>(),
+                            texture["width"].get<std::uint32_t>(),
+                            texture["height"].get<std::uint32_t>());
     }
     return line + fmt::format(" ({} triangles, area {:.4g})",
                               material["triangles"].get<std::size_t>(),

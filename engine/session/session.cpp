@@ -154,6 +154,7 @@ std::vector<Layer> Session::layers() {
 
 RenderResult Session::result() {
     method_->report(statistics_);
+    statistics_.texture_halvings = context_->on_device.texture_halvings;
     std::vector<Layer> image = layers();
     return {.layers = std::move(image), .statistics = statistics_};
 }

@@ -30,7 +30,7 @@ bool is_aim_tree(std::span<const AimNode> nodes);
 /// sphere that contains the scene.
 struct LightAim {
     std::uint32_t row = 0; ///< of the light table
-    glm::vec3 middle{0};     ///< of the discs
+    glm::vec3 middle{0};   ///< of the discs
     std::vector<AimNode> tree;
 };
 

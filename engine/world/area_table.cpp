@@ -12,7 +12,7 @@
 #include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"
 #include "parallel/scan.hpp"
-#include "scene/material_record.hpp"
+#include "scene/texture_range.hpp"
 #include "shared/area_records.h"
 #include "shared/follow.h"
 
@@ -42,7 +42,10 @@ std::vector<std::uint32_t> which_store(const Scene& scene, float follow_roughnes
     std::vector<std::uint32_t> stores;
     stores.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
-        stores.push_back(estimated_lobes(material_record(material), follow_roughness) != 0 ? 1 : 0);
+        const auto lobes = [&](const MaterialRecord& record) {
+            return estimated_lobes(record, follow_roughness);
+        };
+        stores.push_back(lobes_anywhere(scene, material, lobes) != 0 ? 1 : 0);
     }
     return stores;
 }

@@ -1,7 +1,7 @@
 #include "world/caster_table.hpp"
 
 #include "kernels/caster_boxes.hpp"
-#include "scene/material_record.hpp"
+#include "scene/texture_range.hpp"
 #include "shared/caster_records.h"
 #include "shared/follow.h"
 #include "shared/geometry_records.h"
@@ -78,7 +78,10 @@ std::vector<bool> are_followed(const Scene& scene, float follow_roughness) {
     std::vector<bool> followed;
     followed.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
-        followed.push_back(followed_lobes(material_record(material), follow_roughness) != 0);
+        const auto lobes = [&](const MaterialRecord& record) {
+            return followed_lobes(record, follow_roughness);
+        };
+        followed.push_back(lobes_anywhere(scene, material, lobes) != 0);
     }
     return followed;
 }

@@ -1,5 +1,7 @@
 #include "world/device_scene.hpp"
 
+#include "world/texture_table.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,6 +28,8 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
     record.light_count = lights.light_count;
     record.first_emitter = lights.first_triangle;
     record.emitter_count = lights.triangle_count;
+    record.attributes = attributes_of_vertex(scene);
+    record.color_attribute = scene.uv_sets;
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
     return record;
 }
@@ -46,6 +50,15 @@ kernels::SceneConstants DeviceScene::constants() const {
     return {.smooth_normals = plan.needs(Feature::smooth_normals),
             .several_lights = plan.needs(Feature::several_lights),
             .light_kinds = plan.light_kinds()};
+}
+
+kernels::TextureBindings DeviceScene::texture_bindings() const {
+    return {.attributes = attributes, .textures = textures, .texels = texels};
+}
+
+kernels::TextureConstants DeviceScene::texture_constants() const {
+    return {.textured = plan.needs(Feature::textures),
+            .vertex_colors = plan.needs(Feature::vertex_colors)};
 }
 
 Buffer unneeded(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }

@@ -2,6 +2,7 @@
 
 #include "accel/triangle_bvh.hpp"
 #include "kernels/scene_bindings.hpp"
+#include "kernels/texture_bindings.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "shared/camera.h"
@@ -27,6 +28,10 @@ struct DeviceScene {
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
     Buffer aim_nodes;     ///< AimNode of all `aims`, after one that is not used; or not needed
+    Buffer attributes;    ///< uvec2: what vertices have for textures, see upload_attributes()
+    Buffer textures;      ///< TextureRecord
+    Buffer texels;        ///< see TextureTable
+    std::uint32_t texture_halvings = 0; ///< see FittingImages
     TriangleBvh bvh;
     SceneRecord record;     ///< the host's copy of `scene`
     LightTable light_table; ///< what the host knows of `lights`, and their emitters
@@ -44,6 +49,9 @@ struct DeviceScene {
     kernels::SceneBindings bindings() const;
     /// Specialization constants for the member `scene` of its constants.
     kernels::SceneConstants constants() const;
+    /// The same for the member `texture`, of kernels that evaluate materials.
+    kernels::TextureBindings texture_bindings() const;
+    kernels::TextureConstants texture_constants() const;
 };
 
 /// Memory to bind where a kernel does not read its buffer.

@@ -232,7 +232,23 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
         result.emissive = emissive_;
     }
     prepare_scene(device_, scene, box(scene), shines, result);
+    add_textures(scene, result);
     return result;
+}
+
+void World::add_textures(const Scene& scene, DeviceScene& on_device) {
+    const bool textured = on_device.plan.needs(Feature::textures) && !scene.textures.empty();
+    const bool colored = on_device.plan.needs(Feature::vertex_colors) && !scene.colors.empty();
+    if (textured && !textures_.texels) {
+        textures_ = make_texture_table(device_, scene);
+    }
+    if ((textured || colored) && !attributes_) {
+        attributes_ = upload_attributes(device_, scene);
+    }
+    on_device.attributes = textured || colored ? attributes_ : unneeded(device_);
+    on_device.textures = textured ? textures_.records : unneeded(device_);
+    on_device.texture_halvings = textured ? textures_.halvings : 0;
+    on_device.texels = textured ? textures_.texels : unneeded(device_);
 }
 
 void World::add_casters(const Scene& scene, DeviceScene& on_device) {

@@ -4,6 +4,7 @@
 #include "shared/material_record.h"
 #include "world/device_scene.hpp"
 #include "world/moving_meshes.hpp"
+#include "world/texture_table.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -64,6 +65,7 @@ public:
 private:
     void build_tree(const Scene& scene);
     DeviceScene without_areas(const Scene& scene, const Plan& plan);
+    void add_textures(const Scene& scene, DeviceScene& on_device);
     void add_casters(const Scene& scene, DeviceScene& on_device);
     void add_areas(const Scene& scene, DeviceScene& on_device);
     bool follow_meshes(const Scene& scene, WorldUpdate& update);
@@ -75,7 +77,9 @@ private:
     Device& device_;
     SurfaceUse surfaces_;
     Buffer positions_, triangles_, materials_;
-    Buffer normals_; ///< empty until a plan needs them
+    Buffer normals_;        ///< empty until a plan needs them
+    TextureTable textures_; ///< empty until a plan needs it
+    Buffer attributes_;     ///< the same
     TriangleBvh bvh_;
     std::uint64_t revision_ = 0;
     double cost_of_build_ = 0; ///< see traversal_cost(); 0: not known yet

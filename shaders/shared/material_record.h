@@ -19,7 +19,7 @@ struct MaterialRecord {
     // MATERIAL_* and LOBE_* (bsdf.h) that no material of the scene has. 0 in buffers; kernels set
     // it.
     uint absent;
-    uint pad;
+    uint textures; // material_* of texture_record.h; 0: it has none
 };
 
 ARGAND_SHARED_END

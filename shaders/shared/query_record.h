@@ -13,7 +13,7 @@ struct QueryRecord {
     float32 throughput_r, throughput_g, throughput_b;
     uint flags;                                          // query_*
     float32 reflectance_r, reflectance_g, reflectance_b; // BRDF of a Lambertian surface [1/sr]
-    uint material; // index; queries of different materials share no answer
+    uint material; // key; queries with different keys share no answer
 };
 
 // BSDF parameters at a query on a non-Lambertian surface (ReflectionParameters, bsdf.h), and the

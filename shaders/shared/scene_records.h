@@ -20,7 +20,8 @@ struct SceneRecord {
     float32 follow_roughness;
     float32 emitter_probability; // probability that a shadow ray is sent to an emissive triangle
     uint emitter_count;          // emissive triangles, which follow one another among the lights
-    uint pad0, pad1;
+    uint attributes;             // texture coordinates and colours of a vertex
+    uint color_attribute;        // which of them is the colour
     // Spheres (center and radius) at which photons from all other lights are aimed, their number,
     // and the share of these photons for each (Targets).
     lane4 target_0, target_1, target_2, target_3;

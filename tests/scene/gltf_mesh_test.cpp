@@ -275,7 +275,7 @@ TEST(GltfMesh, GivesPrimitivesWithoutMaterialTheDefaultOne) {
 TEST(GltfMesh, NotesEachIgnoredFeatureOnce) {
     GltfBuilder builder;
     const int positions = builder.add_vectors(right_triangle());
-    const json primitive{{"attributes", {{"POSITION", positions}, {"COLOR_0", positions}}}};
+    const json primitive{{"attributes", {{"POSITION", positions}, {"COLOR_1", positions}}}};
     const int mesh = builder.add_mesh(primitive);
     builder.add_mesh({{"attributes", {{"POSITION", positions}}}, {"mode", line_strip}});
     for (const int shown : {mesh, mesh, mesh + 1, mesh + 1}) {

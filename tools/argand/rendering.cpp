@@ -264,6 +264,11 @@ std::vector<std::string> notes_on(const Rendered& rendered, MethodTable methods,
     if (rendered.tuned) {
         notes.push_back(describe_outcome(*rendered.tuned));
     }
+    if (const std::uint32_t times = rendered.result.statistics.texture_halvings; times > 0) {
+        notes.push_back(fmt::format("textures exceed what the device can hold: the largest are "
+                                    "reduced to 1/{} of their sides",
+                                    std::uint64_t{1} << times));
+    }
     if (settings.budget && seconds > clearly_more * *settings.budget) {
         notes.push_back(fmt::format(
             "rendering took {:.3g} s in {} pass{}, not the {:.3g} s of "

@@ -81,7 +81,7 @@ void run_group(const Options& options) {
                     fs::path(path).filename().string());
     Compiled compiled = compile_text(path + ".comp", text, options.include_directories);
     std::fputs(compiled.warnings.c_str(), stderr);
-    const Kernel group{name, path, reflect(compiled, options.include_directories), {}, ""};
+    const Kernel group{name, path, reflect(compiled, options.include_directories, true), {}, ""};
 
     compiled.sources.erase(compiled.sources.begin()); // no file holds it
     const std::string header = in(options.out, name + "_bindings.hpp");

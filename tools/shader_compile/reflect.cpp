@@ -185,7 +185,7 @@ void add_record(const Reader& reader, const SPIRType& block, Reflection& result)
     }
 }
 
-void read_buffers(const Reader& reader, Reflection& result) {
+void read_buffers(const Reader& reader, bool is_group, Reflection& result) {
     std::map<std::uint32_t, const Resource*> by_binding;
     std::vector<const Resource*> buffers;
     for (const auto* found :
@@ -217,9 +217,10 @@ void read_buffers(const Reader& reader, Reflection& result) {
                  binding);
         }
     }
+    const std::uint32_t before = is_group && !by_binding.empty() ? by_binding.begin()->first : 0;
     for (const auto& [binding, buffer] : by_binding) {
         const std::string at = error_at(reader.sources, {"buffer", buffer->name});
-        if (binding != result.bindings.size()) {
+        if (binding != before + result.bindings.size()) {
             fail("{}buffer {} has binding {} but none has binding {}; bindings are 0, 1, 2, ... "
                  "without a gap",
                  at, buffer->name, binding, result.bindings.size());
@@ -393,13 +394,14 @@ std::string group_of(const std::string& path) {
     return file.ends_with(ending) ? file.substr(0, file.size() - ending.size()) : "";
 }
 
-Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories) {
+Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories,
+                   bool is_group) {
     try {
         const Compiler spirv(compiled.spirv);
         const Reader reader{spirv, compiled.sources, include_directories};
         Reflection result{};
         refuse_other_resources(reader);
-        read_buffers(reader, result);
+        read_buffers(reader, is_group, result);
         read_push(reader, result);
         read_local_size(reader, result);
         read_constants(reader, result);

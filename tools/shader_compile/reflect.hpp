@@ -65,7 +65,9 @@ std::string group_of(const std::string& path);
 
 /// Reads a kernel's interface from its SPIR-V, which still has names, and its annotations. Throws
 /// Error "file:line: error: ..." for an interface that Argand's devices do not support.
-/// include_directories: the paths of shared headers in C++ are relative to these.
-Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories);
+/// include_directories: the paths of shared headers in C++ are relative to these. is_group: the
+/// file NAME_bindings.glsl is compiled alone, and kernels have other buffers before its own.
+Reflection reflect(const Compiled& compiled, const std::vector<std::string>& include_directories,
+                   bool is_group = false);
 
 } // namespace argand::shader_compile

@@ -3,6 +3,7 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene_bindings.glsl"
 #include "material_features.glsl"
+#include "texture_bindings.glsl"
 #include "shared/follow.h"
 #include "shared/lights.h"
 #include "shared/photon.h"
@@ -10,18 +11,18 @@ layout(local_size_x = 64) in;
 #include "shared/query_bsdf.h"
 #include "shared/sampling.h"
 
-layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
-layout(set = 0, binding = 8) readonly buffer Active { uint active_slots[]; };
-layout(set = 0, binding = 9) readonly buffer Counts { uint counts[]; };
-layout(set = 0, binding = 10) buffer Rays { RayRecord rays[]; };
-layout(set = 0, binding = 11) buffer Paths { PathRecord paths[]; };
-layout(set = 0, binding = 12) buffer Layers { LayersRecord layers[]; };
-layout(set = 0, binding = 13) writeonly buffer ShadowRays { RayRecord shadow_rays[]; };
-layout(set = 0, binding = 14) writeonly buffer Shadows { ShadowRecord shadows[]; };
-layout(set = 0, binding = 15) writeonly buffer Queries { QueryRecord queries[]; };
-layout(set = 0, binding = 16) writeonly buffer Alive { uint alive[]; };
-layout(set = 0, binding = 17) writeonly buffer QueryKinds { uint query_kinds[]; };
-layout(set = 0, binding = 18) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
+layout(set = 0, binding = 10) readonly buffer Hits { HitRecord hits[]; };
+layout(set = 0, binding = 11) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 12) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 13) buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 14) buffer Paths { PathRecord paths[]; };
+layout(set = 0, binding = 15) buffer Layers { LayersRecord layers[]; };
+layout(set = 0, binding = 16) writeonly buffer ShadowRays { RayRecord shadow_rays[]; };
+layout(set = 0, binding = 17) writeonly buffer Shadows { ShadowRecord shadows[]; };
+layout(set = 0, binding = 18) writeonly buffer Queries { QueryRecord queries[]; };
+layout(set = 0, binding = 19) writeonly buffer Alive { uint alive[]; };
+layout(set = 0, binding = 20) writeonly buffer QueryKinds { uint query_kinds[]; };
+layout(set = 0, binding = 21) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: the photon map provides the light that estimated lobes scatter more than once.

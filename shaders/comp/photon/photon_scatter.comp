@@ -3,6 +3,7 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene_bindings.glsl"
 #include "material_features.glsl"
+#include "texture_bindings.glsl"
 #include "shared/cone.h"
 #include "shared/differential_record.h"
 #include "shared/follow.h"
@@ -10,16 +11,16 @@ layout(local_size_x = 64) in;
 #include "shared/photon.h"
 #include "shared/sampling.h"
 
-layout(set = 0, binding = 7) readonly buffer Hits { HitRecord hits[]; };
-layout(set = 0, binding = 8) readonly buffer Active { uint active_slots[]; };
-layout(set = 0, binding = 9) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 10) buffer Rays { RayRecord rays[]; };
-layout(set = 0, binding = 11) buffer Paths { PhotonPathRecord paths[]; };
-layout(set = 0, binding = 12) buffer Ledgers { FluxLedger ledgers[]; };
-layout(set = 0, binding = 13) writeonly buffer Photons { PhotonRecord photons[]; };
-layout(set = 0, binding = 14) writeonly buffer Alive { uint alive[]; };
-layout(set = 0, binding = 15) buffer Differentials { DifferentialRecord differentials[]; };
-layout(set = 0, binding = 16) writeonly buffer Offsets { uvec4 offsets[]; };
+layout(set = 0, binding = 10) readonly buffer Hits { HitRecord hits[]; };
+layout(set = 0, binding = 11) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 12) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 13) buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 14) buffer Paths { PhotonPathRecord paths[]; };
+layout(set = 0, binding = 15) buffer Ledgers { FluxLedger ledgers[]; };
+layout(set = 0, binding = 16) writeonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 17) writeonly buffer Alive { uint alive[]; };
+layout(set = 0, binding = 18) buffer Differentials { DifferentialRecord differentials[]; };
+layout(set = 0, binding = 19) writeonly buffer Offsets { uvec4 offsets[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.

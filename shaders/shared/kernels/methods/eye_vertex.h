@@ -1,8 +1,8 @@
 // One vertex of each active eye path: adds the emission that the path hit, writes a shadow ray and
 // a query of the photon map, and samples the ray on which the path continues.
 #include "shared/kernels/layers.h"
-#include "shared/kernels/material.h"
 #include "shared/kernels/scene.h"
+#include "shared/kernels/textures.h"
 
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
 // and this one.
@@ -241,6 +241,18 @@ FN vec3 lambertian_reflectance(IN(Vertex) v, uint direction, uint shading_normal
     return bsdf_eval(v.material, wo, vec3(real(0.0), real(0.0), real(1.0)), v.estimated);
 }
 
+// Queries whose keys differ share no answer: those of different materials and of different texels.
+FN uint material_key(IN(Vertex) v) {
+    uint index = triangles[v.triangle].w;
+    if (!vertex_colors && !(textured && v.material.textures != 0u)) {
+        return index;
+    }
+    MaterialRecord m = v.material;
+    uvec3 color = float_bits(vec3(m.base_r, m.base_g, m.base_b));
+    uvec3 others = float_bits(vec3(m.metallic, m.roughness, m.coverage));
+    return pcg4d(uvec4(color, index) ^ pcg4d(uvec4(others, 0u))).x;
+}
+
 // Writes a query of the photon map for the estimated lobes.
 FN void leave_query(IN(Vertex) v) {
     uint kind = query_kind_map;
@@ -292,7 +304,7 @@ FN void leave_query(IN(Vertex) v) {
     query_kinds[v.index] = kind;
     queries[v.slot] = QueryRecord(p.x, p.y, p.z, pack_unit(v.surface.geometric_normal), counts_by.x,
                                   counts_by.y, counts_by.z, flags, reflectance.x, reflectance.y,
-                                  reflectance.z, triangles[v.triangle].w);
+                                  reflectance.z, material_key(v));
 }
 
 // Samples the ray on which the path continues, unless Russian roulette ends the path or nothing is
@@ -373,7 +385,7 @@ FN void main() {
     }
     v.triangle = hit.triangle;
     v.surface = load_surface(hit, v.direction);
-    v.material = load_material(triangles[hit.triangle].w);
+    v.material = material_at(triangles[hit.triangle], hit);
     add_surface_emission(v, hit.t);
     if (seeks_emission(v.path) ||
         (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {

@@ -1,5 +1,5 @@
-#include "shared/kernels/material.h"
 #include "shared/kernels/scene.h"
+#include "shared/kernels/textures.h"
 
 // Whether any material of the scene has one of these lobes.
 FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
@@ -207,7 +207,7 @@ FN void main() {
     }
 
     Arrival a = arrive(hit, direction, path);
-    MaterialRecord m = load_material(triangles[hit.triangle].w);
+    MaterialRecord m = material_at(triangles[hit.triangle], hit);
     uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     uint estimated = bsdf_lobes(m) & ~followed;
     PhotonDifferential d;

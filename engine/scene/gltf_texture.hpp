@@ -1,0 +1,32 @@
+#pragma once
+
+#include "scene/gltf_source.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace argand {
+
+/// Reads the textures that materials use, and remembers their images.
+class TextureReader {
+public:
+    TextureReader(const GltfSource& source, Scene& scene) : source_(source), scene_(scene) {}
+
+    /// Adds the texture that `owner` refers to by `key` to the scene's textures. what: names the
+    /// material. Returns false if it refers to none, or with a note to one in a format that is not
+    /// supported. Throws Error if what it refers to does not exist or is not valid.
+    bool add(const nlohmann::json* owner, const char* key, bool srgb, const std::string& what);
+
+    /// Decodes the images of all textures that were added, on all cores. Throws Error if one cannot
+    /// be read.
+    void decode_images();
+
+private:
+    std::uint32_t image_of(std::size_t in_file);
+
+    const GltfSource& source_;
+    Scene& scene_;
+    std::vector<std::size_t> images_; ///< indices in the file, in the order of Scene::images
+};
+
+} // namespace argand

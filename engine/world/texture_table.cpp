@@ -1,0 +1,183 @@
+#include "world/texture_table.hpp"
+
+#include "shared/texture_record.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace argand {
+
+namespace {
+
+/// The linear value of a code of sRGB (IEC 61966-2-1).
+double linear(std::size_t code) {
+    const double encoded = double(code) / 255;
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double encoded(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+std::uint8_t byte_of(double unit) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0, 1.0) * 255));
+}
+
+std::array<double, srgb_codes> linear_values() {
+    std::array<double, srgb_codes> values{};
+    for (std::size_t code = 0; code < values.size(); ++code) {
+        values[code] = linear(code);
+    }
+    return values;
+}
+
+std::uint32_t wrap_flag(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::repeat:
+        return texture_repeat;
+    case Wrap::mirrored_repeat:
+        return texture_mirror;
+    case Wrap::clamp_to_edge:
+        break;
+    }
+    return texture_clamp;
+}
+
+TextureRecord record_of(const Texture& texture, const TextureImage& image, std::uint32_t first) {
+    const glm::mat3x2& m = texture.transform;
+    const std::uint32_t flags =
+        wrap_flag(texture.wrap_u) | wrap_flag(texture.wrap_v) << texture_wrap_v |
+        (texture.nearest ? texture_nearest : 0u) | (texture.srgb ? texture_srgb : 0u);
+    return {.uu = m[0].x,
+            .uv = m[1].x,
+            .u0 = m[2].x,
+            .vu = m[0].y,
+            .vv = m[1].y,
+            .v0 = m[2].y,
+            .width = image.width,
+            .height = image.height,
+            .first = first,
+            .uv_set = texture.uv_set,
+            .flags = flags,
+            .pad = 0};
+}
+
+} // namespace
+
+TextureImage halved(const TextureImage& image, bool srgb) {
+    static const std::array<double, srgb_codes> linear_of = linear_values();
+    TextureImage half{.name = image.name,
+                      .width = std::max(image.width / 2, 1u),
+                      .height = std::max(image.height / 2, 1u),
+                      .low = image.low,
+                      .high = image.high};
+    half.texels.reserve(std::size_t{half.width} * half.height);
+    for (std::uint32_t y = 0; y < half.height; ++y) {
+        for (std::uint32_t x = 0; x < half.width; ++x) {
+            // An odd column or row at the end is left out, as in mip maps.
+            glm::dvec3 sum(0), weighted(0);
+            double alpha = 0;
+            for (std::uint32_t corner = 0; corner < 4; ++corner) {
+                const std::uint32_t column = std::min(2 * x + corner % 2, image.width - 1);
+                const std::uint32_t row = std::min(2 * y + corner / 2, image.height - 1);
+                const auto texel = std::bit_cast<glm::u8vec4>(
+                    image.texels[std::size_t{row} * image.width + column]);
+                const glm::dvec3 color =
+                    srgb ? glm::dvec3(linear_of[texel.r], linear_of[texel.g], linear_of[texel.b])
+                         : glm::dvec3(texel) / 255.0;
+                sum += color;
+                weighted += color * double(texel.a);
+                alpha += double(texel.a);
+            }
+            const glm::dvec3 mean = alpha > 0 ? weighted / alpha : sum / 4.0;
+            glm::u8vec4 texel(0, 0, 0, byte_of(alpha / (4 * 255)));
+            for (int channel = 0; channel < 3; ++channel) {
+                texel[channel] = byte_of(srgb ? encoded(mean[channel]) : mean[channel]);
+            }
+            half.texels.push_back(std::bit_cast<std::uint32_t>(texel));
+        }
+    }
+    return half;
+}
+
+FittingImages fitting_images(const Scene& scene, std::uint64_t most) {
+    FittingImages result{.images = scene.images, .halvings = 0};
+    auto& images = result.images;
+    std::vector<bool> srgb(images.size(), false);
+    for (const Texture& texture : scene.textures) {
+        srgb[texture.image] = srgb[texture.image] || texture.srgb;
+    }
+    const auto total = [&] {
+        std::uint64_t sum = 0;
+        for (const auto& image : images) {
+            sum += image->texels.size();
+        }
+        return sum;
+    };
+    std::vector<std::uint32_t> times(images.size(), 0);
+    while (total() > most) {
+        const auto largest =
+            std::max_element(images.begin(), images.end(), [](const auto& a, const auto& b) {
+                return a->texels.size() < b->texels.size();
+            });
+        const auto index = static_cast<std::size_t>(largest - images.begin());
+        if ((*largest)->texels.size() == 1) {
+            break;
+        }
+        *largest = std::make_shared<const TextureImage>(halved(**largest, srgb[index]));
+        result.halvings = std::max(result.halvings, ++times[index]);
+    }
+    return result;
+}
+
+TextureTable make_texture_table(Device& device, const Scene& scene) {
+    const std::uint64_t most =
+        device.info().limits.storage_range / sizeof(std::uint32_t) - srgb_codes;
+    const auto [images, halvings] = fitting_images(scene, most);
+    TextureTable table;
+    table.halvings = halvings;
+    std::vector<std::uint32_t> texels;
+    texels.reserve(srgb_codes);
+    for (const double value : linear_values()) {
+        texels.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+    }
+    std::vector<std::uint32_t> first;
+    first.reserve(images.size());
+    for (const auto& image : images) {
+        first.push_back(static_cast<std::uint32_t>(texels.size()));
+        texels.insert(texels.end(), image->texels.begin(), image->texels.end());
+    }
+    std::vector<TextureRecord> records;
+    records.reserve(scene.textures.size());
+    for (const Texture& texture : scene.textures) {
+        records.push_back(record_of(texture, *images[texture.image], first[texture.image]));
+    }
+    table.records = upload(device, "textures", records);
+    table.texels = upload(device, "texels", texels);
+    return table;
+}
+
+std::uint32_t attributes_of_vertex(const Scene& scene) {
+    return scene.uv_sets + (scene.colors.empty() ? 0u : 1u);
+}
+
+Buffer upload_attributes(Device& device, const Scene& scene) {
+    std::vector<glm::uvec2> attributes;
+    attributes.reserve(scene.positions.size() * attributes_of_vertex(scene));
+    for (std::size_t vertex = 0; vertex < scene.positions.size(); ++vertex) {
+        for (std::size_t set = 0; set < scene.uv_sets; ++set) {
+            attributes.push_back(glm::floatBitsToUint(scene.uvs[vertex * scene.uv_sets + set]));
+        }
+        if (!scene.colors.empty()) {
+            attributes.push_back(std::bit_cast<glm::uvec2>(scene.colors[vertex]));
+        }
+    }
+    return upload(device, "attributes", attributes);
+}
+
+} // namespace argand

@@ -1,0 +1,44 @@
+#ifndef ARGAND_SHARED_TEXTURE_RECORD_H
+#define ARGAND_SHARED_TEXTURE_RECORD_H
+
+#include "shared/prelude.h"
+
+ARGAND_SHARED_BEGIN
+
+// How a material uses an image. Texture coordinates (u, v) become (uu u + uv v + u0,
+// vu u + vv v + v0), in which [0,1]² is the image, with its first row at the top.
+struct TextureRecord {
+    float32 uu, uv, u0, vu;
+    float32 vv, v0;
+    uint width, height; // at least 1
+    uint first;         // index of the first texel
+    uint uv_set;        // which of the vertices' texture coordinates
+    uint flags;         // texture_*
+    uint pad;
+};
+
+// How coordinates outside [0,1] are treated; the second is shifted by texture_wrap_v.
+CONSTANT uint texture_repeat = 0u;
+CONSTANT uint texture_mirror = 1u;
+CONSTANT uint texture_clamp = 2u;
+CONSTANT uint texture_wrap_mask = 3u;
+CONSTANT uint texture_wrap_v = 2u;
+CONSTANT uint texture_nearest = 16u; // instead of interpolation between four texels
+CONSTANT uint texture_srgb = 32u;    // colours are encoded by sRGB's curve
+
+// Words before the first texel: the linear values of the 256 codes of sRGB, as bits of floats.
+CONSTANT uint srgb_codes = 256u;
+
+// MaterialRecord::textures: the index of the first of the material's textures, which follow one
+// another in the order of these bits, and the bits of those that it has.
+CONSTANT uint material_texture_mask = 0x00ffffffu;
+CONSTANT uint material_base_color_texture = 0x01000000u;
+CONSTANT uint material_metal_texture = 0x02000000u; // roughness in green, metallic in blue
+// Alpha of texels and vertices counts: it scales the coverage, or where it is less than the
+// material's coverage, the surface is absent.
+CONSTANT uint material_alpha_blend = 0x40000000u;
+CONSTANT uint material_alpha_mask = 0x80000000u;
+
+ARGAND_SHARED_END
+
+#endif

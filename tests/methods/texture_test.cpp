@@ -1,0 +1,136 @@
+// Textured surfaces and vertices with colours, rendered by every method.
+#include "rendering.hpp"
+#include "shared/texture_record.h"
+
+#include <bit>
+
+namespace argand::testing {
+namespace {
+
+std::uint32_t texel(int red, int green, int blue, int alpha = 255) {
+    return std::bit_cast<std::uint32_t>(glm::u8vec4(red, green, blue, alpha));
+}
+
+/// Gives a material a texture of these texels, row by row. Call in the order of the material's
+/// bits.
+void add_texture(Scene& scene, std::uint32_t material, std::uint32_t bit, std::uint32_t width,
+                 std::vector<std::uint32_t> texels, bool nearest) {
+    TextureImage image{.name = "image",
+                       .width = width,
+                       .height = static_cast<std::uint32_t>(texels.size()) / width,
+                       .texels = std::move(texels)};
+    for (const std::uint32_t t : image.texels) {
+        image.low = glm::min(image.low, std::bit_cast<glm::u8vec4>(t));
+        image.high = glm::max(image.high, std::bit_cast<glm::u8vec4>(t));
+    }
+    Material& of = scene.materials[material];
+    if (of.texture_bits == 0) {
+        of.first_texture = static_cast<std::uint32_t>(scene.textures.size());
+    }
+    of.texture_bits |= bit;
+    scene.textures.push_back({.image = static_cast<std::uint32_t>(scene.images.size()),
+                              .nearest = nearest,
+                              .srgb = bit == material_base_color_texture});
+    of.alpha_varies = of.alpha_varies || (of.alpha_mode != AlphaMode::opaque && image.low.a < 255);
+    scene.images.push_back(std::make_shared<const TextureImage>(std::move(image)));
+    scene.uv_sets = 1;
+}
+
+/// Gives all vertices as texture coordinates their place in the plane y = 0, so that the image lies
+/// in 0 <= x, z <= size.
+void project(Scene& scene, float size) {
+    for (const glm::vec3& p : scene.positions) {
+        scene.uvs.emplace_back(p.x / size, p.z / size);
+    }
+}
+
+/// sRGB's curve, IEC 61966-2-1.
+double linear(int code) {
+    const double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+class Textured : public EveryMethod {};
+
+TEST_P(Textured, ReflectsTheTexelsColour) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f, 1, 1)));
+    const std::vector<std::uint32_t> texels{texel(255, 0, 10), texel(0, 128, 0), texel(0, 30, 200),
+                                            texel(90, 90, 90)};
+    add_texture(scene, 0, material_base_color_texture, 2, texels, true);
+    project(scene, 2);
+    scene.lights = {directional_light({0, -1, 0}, glm::vec3(float(pi)))};
+    RenderSettings settings = settings_of(GetParam(), 4, 1);
+    settings.photons = 1000;
+    for (int i = 0; i < 4; ++i) {
+        const glm::vec3 to(0.5f + float(i % 2), 0, 0.5f + float(i / 2));
+        const glm::dvec3 l = radiance(scene, settings, to + glm::vec3(0.1f, 3, 0.2f), to, "direct");
+        const auto color = std::bit_cast<glm::u8vec4>(texels[std::size_t(i)]);
+        EXPECT_NEAR(l.r, 0.5 * linear(color.r), 1e-5) << i;
+        EXPECT_NEAR(l.g, linear(color.g), 1e-5) << i;
+        EXPECT_NEAR(l.b, linear(color.b), 1e-5) << i;
+    }
+}
+
+TEST_P(Textured, ReflectsTheVerticesColour) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f, 1, 1)), 1);
+    for (const glm::vec3& p : scene.positions) { // 0 at x = -1, half at x = 1
+        scene.colors.emplace_back(p.x > 0 ? glm::u16vec4(32768, 65535, 0, 65535)
+                                          : glm::u16vec4(0, 65535, 65535, 65535));
+    }
+    scene.lights = {directional_light({0, -1, 0}, glm::vec3(float(pi)))};
+    RenderSettings settings = settings_of(GetParam(), 4, 1);
+    settings.photons = 1000;
+    for (const float x : {-0.9f, 0.0f, 0.5f}) {
+        const glm::vec3 to(x, 0, 0.3f);
+        const glm::dvec3 l = radiance(scene, settings, to + glm::vec3(0, 3, 0.2f), to, "direct");
+        const double share = (double(x) + 1) / 2;
+        EXPECT_NEAR(l.r, 0.5 * share * 32768 / 65535, 1e-4) << x;
+        EXPECT_NEAR(l.g, 1, 1e-4) << x;
+        EXPECT_NEAR(l.b, 1 - share, 1e-4) << x;
+    }
+}
+
+// A checkerboard, metal with varying roughness, and a perforated plate: photons and eye paths must
+// see the same surfaces.
+TEST_P(Textured, SlowLayersAgreeWithThePathTracer) {
+    Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
+    add_texture(
+        scene, 0, material_base_color_texture, 2,
+        {texel(255, 120, 120), texel(60, 60, 120), texel(40, 200, 90), texel(255, 255, 255)},
+        false);
+    add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
+             add_material(scene, emitter(glm::vec3(2))));
+    Material metal = lambertian({0.9f, 0.8f, 0.6f});
+    metal.metallic = 1;
+    metal.specular = 1;
+    metal.roughness = 0.9f;
+    const std::uint32_t plate = add_material(scene, metal);
+    add_texture(scene, plate, material_metal_texture, 2,
+                {texel(0, 255, 255), texel(0, 100, 255), texel(0, 200, 0), texel(0, 255, 128)},
+                true);
+    add_floor(scene, 0.9f, -0.8f, plate);
+    Material holes = lambertian(glm::vec3(0.7f));
+    holes.alpha_mode = AlphaMode::mask;
+    holes.alpha_threshold = 0.5f;
+    const std::uint32_t perforated = add_material(scene, holes);
+    add_texture(scene, perforated, material_base_color_texture, 2,
+                {texel(255, 255, 255), texel(255, 255, 255, 0), texel(255, 255, 255, 0),
+                 texel(200, 200, 100)},
+                true);
+    add_quad(scene, {-0.5f, 0.3f, 0.4f}, {1, 0, 0}, {0, 0, -0.8f}, perforated);
+    project(scene, 0.31f);
+    scene.cameras = {look_at({0.3f, -0.1f, 0.95f}, {0, -0.4f, -1}, 70)};
+    RenderSettings reference = settings_of("path", 16, 4096);
+    reference.seed = 7;
+    const RenderResult& expected = render_once("textures", scene, reference);
+    RenderSettings settings = settings_of(GetParam(), 16, has_map(GetParam()) ? 128 : 4096);
+    settings.photons = 200'000;
+    const RenderResult found = render(scene, settings);
+    expect_same_layers(found, expected, 0.05);
+    EXPECT_GT(mean(layer(expected, "caustic")).g, 0.01 * mean(layer(expected, "direct")).g);
+}
+
+INSTANTIATE_METHODS(Textured);
+
+} // namespace
+} // namespace argand::testing
