@@ -56,10 +56,7 @@ public:
 
     HostKdTree build() {
         if (!kd_tree_fits(leaves_, references_, settings_)) {
-            fail(
-                "building a kd-tree: its memory of {} bytes does not hold one leaf of {} elements, "
-                "which takes {}; allow more (--tree-memory)",
-                settings_.memory, references_, kd_tree_bytes(leaves_, references_));
+            fail_for_one_leaf(settings_, references_);
         }
         std::vector<std::uint32_t> large, small;
         (is_small(nodes_[0]) ? small : large).push_back(0);
@@ -157,8 +154,8 @@ private:
                 }
             }
         };
-        for (std::uint32_t axis = 0; axis < 3; ++axis) {
-            for (const std::uint32_t element : node.elements) {
+        for (const std::uint32_t element : node.elements) {
+            for (std::uint32_t axis = 0; axis < 3; ++axis) {
                 consider({axis, kd_at(boxes_[element].low, axis)});
                 if (!settings_.points) {
                     consider({axis, kd_above(kd_at(boxes_[element].high, axis))});
@@ -227,7 +224,7 @@ private:
         HostKdTree tree;
         tree.stopped = stopped_;
         tree.leaf_count = static_cast<std::uint32_t>(leaves_);
-        tree.words.reserve(kd_parent_words * (leaves_ - 1) + kd_leaf_words * leaves_ + references_);
+        tree.words.reserve(kd_tree_words(leaves_, references_));
         tree.addresses.resize(2 * leaves_ - 1);
         tree.boxes.resize(2 * leaves_ - 1);
         struct Visit {
@@ -292,14 +289,23 @@ KdRules kd_rules(const KdTreeSettings& settings, std::size_t elements) {
             .most_depth = std::min(wanted, kd_most_depth)};
 }
 
+std::uint64_t kd_tree_words(std::uint64_t leaves, std::uint64_t elements) {
+    return kd_parent_words * (leaves - 1) + kd_leaf_words * leaves + elements;
+}
+
 std::uint64_t kd_tree_bytes(std::uint64_t leaves, std::uint64_t elements) {
-    const std::uint64_t words = kd_parent_words * (leaves - 1) + kd_leaf_words * leaves + elements;
-    return 4 * words + (2 * leaves - 1) * (4 + sizeof(BoxRecord));
+    return 4 * kd_tree_words(leaves, elements) + (2 * leaves - 1) * (4 + sizeof(BoxRecord));
 }
 
 bool kd_tree_fits(std::uint64_t leaves, std::uint64_t elements, const KdTreeSettings& settings) {
-    const std::uint64_t words = kd_parent_words * (leaves - 1) + kd_leaf_words * leaves + elements;
-    return words <= kd_most_words && kd_tree_bytes(leaves, elements) <= settings.memory;
+    return kd_tree_words(leaves, elements) <= kd_most_words &&
+           kd_tree_bytes(leaves, elements) <= settings.memory;
+}
+
+void fail_for_one_leaf(const KdTreeSettings& settings, std::uint64_t elements) {
+    fail("building a kd-tree: its memory of {} bytes does not hold one leaf of {} elements, which "
+         "takes {}; allow more (--tree-memory)",
+         settings.memory, elements, kd_tree_bytes(1, elements));
 }
 
 HostKdTree build_kdtree_on_host(std::span<const BoxRecord> boxes, const KdTreeSettings& settings,

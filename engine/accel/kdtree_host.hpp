@@ -24,11 +24,17 @@ struct KdTreeSettings {
 /// The rules of these settings for so many elements.
 KdRules kd_rules(const KdTreeSettings& settings, std::size_t elements);
 
+/// Words of a tree with so many leaves, and so many elements in them.
+std::uint64_t kd_tree_words(std::uint64_t leaves, std::uint64_t elements);
+
 /// Bytes of a tree with so many leaves, and so many elements in them.
 std::uint64_t kd_tree_bytes(std::uint64_t leaves, std::uint64_t elements);
 
 /// Whether a tree so large may be written.
 bool kd_tree_fits(std::uint64_t leaves, std::uint64_t elements, const KdTreeSettings& settings);
+
+/// Throws Error because settings.memory does not hold one leaf of so many elements.
+[[noreturn]] void fail_for_one_leaf(const KdTreeSettings& settings, std::uint64_t elements);
 
 /// A kd-tree in host memory. See shared/kdtree.h for the words, and the indices of nodes.
 struct HostKdTree {

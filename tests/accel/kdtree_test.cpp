@@ -1,14 +1,11 @@
 // The rules of the kd-tree, seen in trees that the host builds.
-#include "accel/kdtrees.hpp"
 #include "base/error.hpp"
+#include "kdtrees.hpp"
 
 #include <cmath>
 
 namespace argand {
 namespace {
-
-using testing::box_between, testing::elements_of, testing::kinds_of_elements,
-    testing::scattered_boxes;
 
 vec3 low_of(const BoxRecord& b) { return {b.low_x, b.low_y, b.low_z}; }
 vec3 high_of(const BoxRecord& b) { return {b.high_x, b.high_y, b.high_z}; }

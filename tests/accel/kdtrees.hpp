@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace argand::testing {
+namespace argand {
 
 inline BoxRecord box_between(const glm::vec3& a, const glm::vec3& b) {
     const glm::vec3 low = glm::min(a, b);
@@ -72,4 +72,4 @@ inline const std::vector<std::string>& kinds_of_elements() {
     return kinds;
 }
 
-} // namespace argand::testing
+} // namespace argand
