@@ -71,18 +71,35 @@ private:
     /// Makes room in a buffer for so many elements, of which it has `kept` already.
     void make_room(Buffer& buffer, std::uint64_t kept, std::uint64_t wanted, std::uint64_t bytes) {
         if (buffer.size() < wanted * bytes) {
-            const Buffer larger = allocate(2 * wanted, bytes);
+            // More than now, as levels grow, if one kernel can address it.
+            const std::uint64_t most = device_.info().limits.storage_range / bytes;
+            const Buffer larger = allocate(std::max(wanted, std::min(2 * wanted, most)), bytes);
             copy_elements(device_, buffer, 0, larger, 0, kept, bytes);
             buffer = larger;
         }
     }
 
+    void make_room_for_nodes(std::uint64_t children) {
+        make_room(nodes_, nodes_end_, nodes_end_ + children, sizeof(KdNode));
+        make_room(cells_, nodes_end_, nodes_end_ + children, sizeof(BoxRecord));
+    }
+
+    /// Whether kernels can address a tree that has grown so much.
+    bool is_addressable(std::uint64_t leaves, std::uint64_t references) const {
+        // Large nodes need a box for each reference, small ones a word for each candidate.
+        const std::uint64_t most = std::max<std::uint64_t>(
+            {4 * kd_tree_words(leaves, references), 2 * leaves * sizeof(BoxRecord),
+             references * std::max<std::uint64_t>(16ull * lanes(), 4ull * kd_candidates(rules_))});
+        return most <= device_.info().limits.storage_range;
+    }
+
     /// Reads the counters of a level. Whether the tree may grow by them.
     bool may_grow() {
         counters_now_ = download<std::uint32_t>(device_, counters_, kd_counters);
+        const std::uint64_t leaves = tree_.leaf_count + std::uint64_t(counters_now_[kd_splits]);
+        const std::uint64_t references = tree_.references + counters_now_[kd_growth];
         return counters_now_[kd_splits] == 0 ||
-               kd_tree_fits(tree_.leaf_count + std::uint64_t(counters_now_[kd_splits]),
-                            tree_.references + counters_now_[kd_growth], settings_);
+               (kd_tree_fits(leaves, references, settings_) && is_addressable(leaves, references));
     }
     void grow() {
         tree_.leaf_count += counters_now_[kd_splits];
@@ -105,6 +122,7 @@ private:
     Buffer counters_;
     std::vector<std::uint32_t> counters_now_;
     Buffer nodes_; ///< KdNode
+    Buffer cells_; ///< BoxRecord per node
     std::uint32_t nodes_end_ = 1;
     std::vector<NodeRange> levels_{{0, 1}}; ///< children come in a later level than their parents
     // References to elements of nodes that are not large any more, and of large leaves, which
@@ -141,6 +159,7 @@ void KdBuild::start(const Buffer& boxes) {
     finished_nodes_ = allocate(count_, 4);
     counters_ = allocate(kd_counters, 4);
     nodes_ = allocate(1 + count_ / 4, sizeof(KdNode));
+    cells_ = allocate(1 + count_ / 4, sizeof(BoxRecord));
     const Buffer box = allocate(1, sizeof(BoxRecord));
     if (count_ > 0) {
         dispatch(device_,
@@ -155,7 +174,9 @@ void KdBuild::start(const Buffer& boxes) {
         segment_boxes(device_, elements_, lanes_, {.of_elements = segments_, .end = count_}, 1,
                       box);
     }
-    dispatch(device_, kernels::kd_root{.boxes = box, .nodes = nodes_, .params = params(0, count_)},
+    dispatch(device_,
+             kernels::kd_root{
+                 .boxes = box, .nodes = nodes_, .cells = cells_, .params = params(0, count_)},
              1);
     references_ = elements_;
     references_end_ = count_;
@@ -179,6 +200,7 @@ void KdBuild::decide(const NodeRange& level, const Buffer& counts, bool stop) {
                                 .finished_counts = finished_counts_,
                                 .counters = counters_,
                                 .starts = starts_,
+                                .cells = cells_,
                                 .params = p},
              level.size());
 }
@@ -203,6 +225,7 @@ void KdBuild::divide_large() {
                                   .tight = tight,
                                   .plans = plans_,
                                   .counts = counts,
+                                  .cells = cells_,
                                   .params = params(level.first, level.end)},
                  n);
         dispatch(device_,
@@ -223,7 +246,7 @@ void KdBuild::divide_large() {
         const std::uint32_t next_end = counters_now_[kd_next];
         const std::uint32_t finished = counters_now_[kd_finished];
         const std::uint32_t children = 2 * counters_now_[kd_splits];
-        make_room(nodes_, nodes_end_, std::uint64_t(nodes_end_) + children, sizeof(KdNode));
+        make_room_for_nodes(children);
         make_room(finished_, finished_end_, std::uint64_t(finished_end_) + finished, 4);
         make_room(finished_nodes_, finished_end_, std::uint64_t(finished_end_) + finished, 4);
         exclusive_scan(device_, split_counts_, split_counts_, n);
@@ -235,6 +258,7 @@ void KdBuild::divide_large() {
                                    .split_sums = split_counts_,
                                    .next_sums = next_counts_,
                                    .finished_sums = finished_counts_,
+                                   .cells = cells_,
                                    .params = params(level.first, level.end)},
                  n);
         const Buffer lefts = allocate(references_end_, 4);
@@ -295,14 +319,16 @@ void KdBuild::divide_small() {
     compact(device_, flags, values, active, {counters_, 0}, nodes_end_);
     std::uint32_t n = download_word(device_, counters_);
     const std::uint32_t candidates = kd_candidates(rules_);
-    const Buffer masks = allocate(std::uint64_t(n) * kd_small * candidates, sizeof(glm::uvec2));
+    const Buffer left_masks = allocate(std::uint64_t(finished_end_) * candidates, 4);
+    const Buffer right_masks = allocate(std::uint64_t(finished_end_) * candidates, 4);
     if (n > 0) {
         dispatch(device_,
                  kernels::kd_masks{.nodes = nodes_,
                                    .active_nodes = active,
                                    .finished = finished_,
                                    .elements = elements_,
-                                   .masks = masks,
+                                   .left_masks = left_masks,
+                                   .right_masks = right_masks,
                                    .params = params(0, n),
                                    .constants = {.lanes = lanes()}},
                  std::uint64_t(n) * kd_small);
@@ -316,10 +342,12 @@ void KdBuild::divide_small() {
                                         .active_nodes = active,
                                         .finished = finished_,
                                         .elements = elements_,
-                                        .masks = masks,
                                         .choices = choices_,
                                         .split_counts = split_counts_,
                                         .counters = counters_,
+                                        .cells = cells_,
+                                        .left_masks = left_masks,
+                                        .right_masks = right_masks,
                                         .params = params(0, n),
                                         .constants = {.lanes = lanes()}},
                  n);
@@ -332,7 +360,7 @@ void KdBuild::divide_small() {
         if (children == 0) {
             return;
         }
-        make_room(nodes_, nodes_end_, std::uint64_t(nodes_end_) + children, sizeof(KdNode));
+        make_room_for_nodes(children);
         exclusive_scan(device_, split_counts_, split_counts_, n);
         const Buffer next = allocate(children, 4);
         dispatch(device_,
@@ -341,6 +369,7 @@ void KdBuild::divide_small() {
                                          .choices = choices_,
                                          .split_sums = split_counts_,
                                          .next_nodes = next,
+                                         .cells = cells_,
                                          .params = params(0, n)},
                  n);
         levels_.push_back({nodes_end_, nodes_end_ + children});
@@ -375,6 +404,7 @@ void KdBuild::write() {
                                .finished = finished_,
                                .words = tree_.words,
                                .addresses = tree_.addresses,
+                               .cells = cells_,
                                .boxes = tree_.boxes,
                                .params = params(0, nodes_end_)},
              nodes_end_);

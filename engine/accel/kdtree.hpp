@@ -15,7 +15,8 @@ struct KdTree {
     bool stopped = false;         ///< settings.memory kept nodes from being split
 };
 
-/// Builds the tree of build_kdtree_on_host() on the device, level by level (Zhou et al. 2008).
+/// Builds the tree of build_kdtree_on_host() on the device, level by level (Zhou et al. 2008). Also
+/// stops where kernels could not address a larger tree.
 /// boxes: BoxRecord per element. Waits for the device once a level. Throws Error if settings.memory
 /// does not hold one leaf.
 KdTree build_kdtree(Device& device, const Buffer& boxes, std::uint32_t count,

@@ -128,7 +128,7 @@ private:
             const KdPlane plane{axis, kd_middle(kd_at(low, axis), kd_at(high, axis))};
             const auto [lefts, rights] = count(node, plane);
             if (kd_is_candidate(space, plane, lefts, rights, rules_) &&
-                kd_plane_cost(space, plane, lefts, rights, rules_) <
+                kd_plane_cost(space, plane, elements, lefts, rights, rules_) <
                     kd_cost_to_beat(space, elements, rules_)) {
                 return plane;
             }
@@ -142,12 +142,12 @@ private:
             return best;
         }
         const KdSpace space = kd_space(node.cell.low, node.cell.high, rules_);
-        real least =
-            kd_cost_to_beat(space, static_cast<std::uint32_t>(node.elements.size()), rules_);
+        const auto elements = static_cast<std::uint32_t>(node.elements.size());
+        real least = kd_cost_to_beat(space, elements, rules_);
         const auto consider = [&](const KdPlane& plane) {
             const auto [lefts, rights] = count(node, plane);
             if (kd_is_candidate(space, plane, lefts, rights, rules_)) {
-                const real cost = kd_plane_cost(space, plane, lefts, rights, rules_);
+                const real cost = kd_plane_cost(space, plane, elements, lefts, rights, rules_);
                 if (cost < least) {
                     least = cost;
                     best = plane;

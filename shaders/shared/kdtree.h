@@ -29,11 +29,19 @@ FN uint kd_parent_word(uint axis, uint right_child) { return axis << 30u | right
 // The most planes above a leaf.
 CONSTANT uint kd_most_depth = 62u;
 
+// A ray's slot in Traversal::suspended: its position in so many words, and three words for each
+// node on its stack.
+CONSTANT uint kd_suspended_words = 7u;
+CONSTANT uint kd_suspended_stride = 7u + 3u * kd_most_depth;
+
 // Nodes of at most so many elements are small: bits of one word stand for the elements.
 CONSTANT uint kd_small = 32u;
 
-// Cost of visiting a node, relative to that of an element.
+// Cost of visiting a node, relative to that of an element; and what a second reference to an
+// element must save. Without the latter n boxes that overlap take n^2 references, and save next to
+// nothing.
 CONSTANT real kd_visit_cost = real(0.5);
+CONSTANT real kd_copy_cost = real(0.1);
 
 struct KdRules {
     uint points;     // not 0: elements are points, parted by the voxel-volume heuristic
@@ -164,11 +172,12 @@ FN real kd_part(IN(KdSpace) space, uint axis, real length, IN(KdRules) rules) {
 FN real kd_cost(IN(KdSpace) space, uint elements, IN(KdRules) rules) {
     return kd_measure(space.sides, rules) * real(elements);
 }
-FN real kd_plane_cost(IN(KdSpace) space, KdPlane plane, uint lefts, uint rights,
+FN real kd_plane_cost(IN(KdSpace) space, KdPlane plane, uint elements, uint lefts, uint rights,
                       IN(KdRules) rules) {
     real below = plane.split - kd_at(space.low, plane.axis);
     real above = kd_at(space.high, plane.axis) - plane.split;
-    return kd_measure(space.sides, rules) * kd_visit_cost +
+    real copies = real(lefts + rights - elements);
+    return kd_measure(space.sides, rules) * (kd_visit_cost + kd_copy_cost * copies) +
            (kd_part(space, plane.axis, below, rules) * real(lefts) +
             kd_part(space, plane.axis, above, rules) * real(rights));
 }

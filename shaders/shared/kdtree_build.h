@@ -11,21 +11,18 @@ ARGAND_SHARED_BEGIN
 CONSTANT uint kd_no_axis = 3u;    // of a leaf
 CONSTANT uint kd_any_middle = 4u; // see KdPlanes
 
-// A node of a tree that is being built. A large node refers to `count` elements; a small one to
-// those elements of its root, the small node from which it descends, whose bits are set.
+// A node of a tree that is being built; its cell is kept apart. A large node refers to `count`
+// elements; a small one to those elements of its root, the small node from which it descends, whose
+// bits are set.
 struct KdNode {
-    float32 low_x, low_y, low_z; // cell
-    uint axis;                   // kd_no_axis: a leaf so far
-    float32 high_x, high_y, high_z;
+    uint axis; // kd_no_axis: a leaf so far
     float32 split;
     uint first; // references, of a small node its root's
-    uint count;
+    uint count; // of elements, and in the end of those in the leaves below
     uint bits;
-    uint root; // place of a small node's candidates
     uint left; // index of the left child; the right one is behind it
     uint depth;
-    uint leaves;     // below it
-    uint references; // in these leaves
+    uint leaves; // below it
 };
 
 // Planes of a large node. kind: an axis, where `split` is that of a plane which cuts off empty
@@ -67,8 +64,20 @@ CONSTANT uint kd_next = 2u;   // references of large children
 CONSTANT uint kd_finished = 3u;
 CONSTANT uint kd_counters = 4u;
 
-FN vec3 kd_low(IN(KdNode) node) { return vec3(node.low_x, node.low_y, node.low_z); }
-FN vec3 kd_high(IN(KdNode) node) { return vec3(node.high_x, node.high_y, node.high_z); }
+FN vec3 kd_low(IN(BoxRecord) cell) { return vec3(cell.low_x, cell.low_y, cell.low_z); }
+FN vec3 kd_high(IN(BoxRecord) cell) { return vec3(cell.high_x, cell.high_y, cell.high_z); }
+FN BoxRecord kd_cell(vec3 low, vec3 high) {
+    BoxRecord cell;
+    cell.low_x = low.x;
+    cell.low_y = low.y;
+    cell.low_z = low.z;
+    cell.pad0 = real(0.0);
+    cell.high_x = high.x;
+    cell.high_y = high.y;
+    cell.high_z = high.z;
+    cell.pad1 = real(0.0);
+    return cell;
+}
 
 FN bool kd_is_done(uint elements, uint depth, IN(KdRules) rules) {
     return elements <= rules.leaf_size || depth >= rules.most_depth;
@@ -93,33 +102,24 @@ FN KdPlane kd_candidate(uint which, vec3 low, vec3 high, IN(KdRules) rules) {
     return plane;
 }
 
-// A child's node, still without elements.
-FN KdNode kd_child(IN(KdNode) node, IN(KdChoice) choice, bool is_left) {
-    vec3 low = kd_low(node);
-    vec3 high = kd_high(node);
-    if (is_left) {
-        high = kd_with(high, choice.axis, choice.split);
-    } else {
-        low = kd_with(low, choice.axis, choice.split);
-    }
-    KdNode child;
-    child.low_x = low.x;
-    child.low_y = low.y;
-    child.low_z = low.z;
-    child.axis = kd_no_axis;
-    child.high_x = high.x;
-    child.high_y = high.y;
-    child.high_z = high.z;
-    child.split = real(0.0);
-    child.first = node.first;
-    child.count = 0u;
-    child.bits = 0u;
-    child.root = node.root;
-    child.left = 0u;
-    child.depth = node.depth + 1u;
-    child.leaves = 1u;
-    child.references = 0u;
-    return child;
+FN BoxRecord kd_part_of(IN(BoxRecord) cell, IN(KdChoice) choice, bool is_left) {
+    vec3 low = kd_low(cell);
+    vec3 high = kd_high(cell);
+    return is_left ? kd_cell(low, kd_with(high, choice.axis, choice.split))
+                   : kd_cell(kd_with(low, choice.axis, choice.split), high);
+}
+
+FN KdNode kd_leaf_node(uint first, uint count, uint bits, uint depth) {
+    KdNode node;
+    node.axis = kd_no_axis;
+    node.split = real(0.0);
+    node.first = first;
+    node.count = count;
+    node.bits = bits;
+    node.left = 0u;
+    node.depth = depth;
+    node.leaves = 1u;
+    return node;
 }
 
 ARGAND_SHARED_END

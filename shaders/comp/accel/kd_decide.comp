@@ -12,6 +12,7 @@ layout(set = 0, binding = 5) writeonly buffer NextCounts { uint next_counts[]; }
 layout(set = 0, binding = 6) writeonly buffer FinishedCounts { uint finished_counts[]; };
 layout(set = 0, binding = 7) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 8) writeonly buffer Starts { uint starts[]; };
+layout(set = 0, binding = 9) readonly buffer Cells { BoxRecord cells[]; };
 layout(push_constant) uniform Push { KdBuildParams params; };
 
 #include "shared/kernels/accel/kd_decide.h"

@@ -14,8 +14,8 @@ FN KdChoice decide(uint k, IN(KdNode) node, IN(KdPlanes) plan) {
     if (plan.kind < kd_no_axis) {
         return choice_of(k, plan.kind, kd_at(split, plan.kind));
     }
-    vec3 low = kd_low(node);
-    vec3 high = kd_high(node);
+    vec3 low = kd_low(cells[params.first + k]);
+    vec3 high = kd_high(cells[params.first + k]);
     KdSpace space = kd_space(low, high, params.rules);
     KdChoice none;
     none.axis = kd_no_axis;
@@ -29,7 +29,7 @@ FN KdChoice decide(uint k, IN(KdNode) node, IN(KdPlanes) plan) {
         plane.axis = axis;
         plane.split = choice.split;
         if (kd_is_candidate(space, plane, choice.left, choice.right, params.rules) &&
-            kd_plane_cost(space, plane, choice.left, choice.right, params.rules) <
+            kd_plane_cost(space, plane, node.count, choice.left, choice.right, params.rules) <
                 kd_cost_to_beat(space, node.count, params.rules)) {
             return choice;
         }

@@ -9,9 +9,6 @@ FN void main() {
         return;
     }
     KdNode node = nodes[active_nodes[root]];
-    if (e == 0u) {
-        nodes[active_nodes[root]].root = root;
-    }
     if (e >= node.count) {
         return;
     }
@@ -34,6 +31,7 @@ FN void main() {
         }
     }
     for (uint c = 0u; c < candidates; ++c) {
-        masks[(root * kd_small + e) * candidates + c] = sides[c];
+        left_masks[(node.first + e) * candidates + c] = sides[c].x;
+        right_masks[(node.first + e) * candidates + c] = sides[c].y;
     }
 }

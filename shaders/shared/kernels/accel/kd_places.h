@@ -21,8 +21,7 @@ FN void main() {
     place.address += kd_parent_words;
     place.parent += 1u;
     places[left] = place;
-    place.address +=
-        kd_parent_words * (leaves - 1u) + kd_leaf_words * leaves + nodes[left].references;
+    place.address += kd_parent_words * (leaves - 1u) + kd_leaf_words * leaves + nodes[left].count;
     place.leaf += leaves;
     place.parent += leaves - 1u;
     places[left + 1u] = place;

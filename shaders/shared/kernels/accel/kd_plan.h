@@ -10,8 +10,8 @@ FN void main() {
     plan.kind = kd_no_axis;
     vec3 split = vec3(real(0.0));
     if (node.count > kd_small && !kd_is_done(node.count, node.depth, params.rules)) {
-        vec3 low = kd_low(node);
-        vec3 high = kd_high(node);
+        vec3 low = kd_low(cells[params.first + k]);
+        vec3 high = kd_high(cells[params.first + k]);
         KdPlane cut =
             kd_cut(low, high, max(vec3(tight[2u * k]), low), min(vec3(tight[2u * k + 1u]), high));
         bool cuts = cut.axis != kd_no_axis;

@@ -3,13 +3,13 @@ FN vec3 high_of(uint element) { return bits_float(uvec3(elements[lanes * element
 
 // The best of the candidates of a small node. Its elements on either side are those of its root
 // that it has, too.
-FN KdChoice best_choice(IN(KdNode) node) {
+FN KdChoice best_choice(IN(KdNode) node, IN(BoxRecord) cell) {
     KdChoice best;
     best.axis = kd_no_axis;
     best.split = real(0.0);
     best.left = 0u;
     best.right = 0u;
-    KdSpace space = kd_space(kd_low(node), kd_high(node), params.rules);
+    KdSpace space = kd_space(kd_low(cell), kd_high(cell), params.rules);
     real least = kd_cost_to_beat(space, node.count, params.rules);
     uint candidates = kd_candidates(params.rules);
     for (uint e = 0u; e < kd_small; ++e) {
@@ -19,17 +19,18 @@ FN KdChoice best_choice(IN(KdNode) node) {
         uint element = finished[node.first + e];
         for (uint c = 0u; c < candidates; ++c) {
             KdPlane plane = kd_candidate(c, low_of(element), high_of(element), params.rules);
-            uvec2 sides = masks[(node.root * kd_small + e) * candidates + c] & node.bits;
-            uint lefts = kd_bit_count(sides.x);
-            uint rights = kd_bit_count(sides.y);
+            uint left = left_masks[(node.first + e) * candidates + c] & node.bits;
+            uint right = right_masks[(node.first + e) * candidates + c] & node.bits;
+            uint lefts = kd_bit_count(left);
+            uint rights = kd_bit_count(right);
             if (kd_is_candidate(space, plane, lefts, rights, params.rules)) {
-                real cost = kd_plane_cost(space, plane, lefts, rights, params.rules);
+                real cost = kd_plane_cost(space, plane, node.count, lefts, rights, params.rules);
                 if (cost < least) {
                     least = cost;
                     best.axis = plane.axis;
                     best.split = plane.split;
-                    best.left = sides.x;
-                    best.right = sides.y;
+                    best.left = left;
+                    best.right = right;
                 }
             }
         }
@@ -50,7 +51,7 @@ FN void main() {
     choice.left = 0u;
     choice.right = 0u;
     if (!kd_is_done(node.count, node.depth, params.rules)) {
-        choice = best_choice(node);
+        choice = best_choice(node, cells[active_nodes[i]]);
     }
     choices[i] = choice;
     bool splits = choice.axis != kd_no_axis;

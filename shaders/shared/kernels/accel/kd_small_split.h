@@ -15,10 +15,10 @@ FN void main() {
     nodes[at].split = choice.split;
     nodes[at].left = params.nodes + place;
     for (uint c = 0u; c < 2u; ++c) {
-        KdNode child = kd_child(node, choice, c == 0u);
-        child.bits = c == 0u ? choice.left : choice.right;
-        child.count = kd_bit_count(child.bits);
-        nodes[params.nodes + place + c] = child;
-        next_nodes[place + c] = params.nodes + place + c;
+        uint bits = c == 0u ? choice.left : choice.right;
+        uint child = params.nodes + place + c;
+        nodes[child] = kd_leaf_node(node.first, kd_bit_count(bits), bits, node.depth + 1u);
+        cells[child] = kd_part_of(cells[at], choice, c == 0u);
+        next_nodes[place + c] = child;
     }
 }

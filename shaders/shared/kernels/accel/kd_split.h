@@ -20,16 +20,12 @@ FN void main() {
     nodes[params.first + k].split = choice.split;
     nodes[params.first + k].left = left;
     for (uint c = 0u; c < 2u; ++c) {
-        KdNode child = kd_child(node, choice, c == 0u);
-        child.count = c == 0u ? choice.left : choice.right;
-        if (child.count > kd_small) {
-            child.first = next;
-            next += child.count;
-        } else {
-            child.first = finished;
-            child.bits = kd_bits_of(child.count);
-            finished += child.count;
-        }
-        nodes[left + c] = child;
+        uint count = c == 0u ? choice.left : choice.right;
+        bool is_large = count > kd_small;
+        nodes[left + c] = kd_leaf_node(is_large ? next : finished, count,
+                                       is_large ? 0u : kd_bits_of(count), node.depth + 1u);
+        cells[left + c] = kd_part_of(cells[params.first + k], choice, c == 0u);
+        next += is_large ? count : 0u;
+        finished += is_large ? 0u : count;
     }
 }

@@ -5,10 +5,9 @@ FN void main() {
         return;
     }
     if (nodes[i].axis == kd_no_axis) {
-        nodes[i].references = nodes[i].count;
         return;
     }
     uint left = nodes[i].left;
     nodes[i].leaves = nodes[left].leaves + nodes[left + 1u].leaves;
-    nodes[i].references = nodes[left].references + nodes[left + 1u].references;
+    nodes[i].count = nodes[left].count + nodes[left + 1u].count;
 }

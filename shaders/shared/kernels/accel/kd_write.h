@@ -10,8 +10,7 @@ FN void main() {
     uint index = is_leaf ? place.leaf : params.leaf_count + place.parent;
     uint at = place.address;
     addresses[index] = at;
-    boxes[2u * index] = vec4(kd_low(node), real(0.0));
-    boxes[2u * index + 1u] = vec4(kd_high(node), real(0.0));
+    boxes[index] = cells[i];
     if (!is_leaf) {
         words[at] = index;
         words[at + 1u] = kd_parent_word(node.axis, places[node.left + 1u].address);
