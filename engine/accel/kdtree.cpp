@@ -427,4 +427,14 @@ KdTree build_kdtree(Device& device, const Buffer& boxes, std::uint32_t count,
     return KdBuild(device, count, settings).build(boxes);
 }
 
+HostKdTree download_kdtree(Device& device, const KdTree& tree) {
+    const std::size_t nodes = 2 * std::size_t(tree.leaf_count) - 1;
+    return {.words = download<std::uint32_t>(device, tree.words,
+                                             kd_tree_words(tree.leaf_count, tree.references)),
+            .addresses = download<std::uint32_t>(device, tree.addresses, nodes),
+            .boxes = download<BoxRecord>(device, tree.boxes, nodes),
+            .leaf_count = tree.leaf_count,
+            .stopped = tree.stopped};
+}
+
 } // namespace argand

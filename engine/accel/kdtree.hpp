@@ -22,4 +22,7 @@ struct KdTree {
 KdTree build_kdtree(Device& device, const Buffer& boxes, std::uint32_t count,
                     const KdTreeSettings& settings);
 
+/// Waits for the device.
+HostKdTree download_kdtree(Device& device, const KdTree& tree);
+
 } // namespace argand
