@@ -40,7 +40,7 @@ CONSTANT uint kd_small = 32u;
 // Cost of visiting a node, relative to that of an element; and what a second reference to an
 // element must save. Without the latter n boxes that overlap take n^2 references, and save next to
 // nothing.
-CONSTANT real kd_visit_cost = real(0.5);
+CONSTANT real kd_visit_cost = real(1.5);
 CONSTANT real kd_copy_cost = real(0.1);
 
 struct KdRules {

@@ -145,9 +145,10 @@ TEST(KdTree, WordsOfTwoPoints) {
 }
 
 TEST(KdTree, APlaneEndsJustAboveAnElement) {
-    // Two boxes far apart on z, each of which is cheaper to test alone.
-    const std::vector<BoxRecord> boxes{box_between({0, 0, 0}, {1, 1, 1}),
-                                       box_between({0, 0, 10}, {1, 1, 11})};
+    // Boxes at two places far apart on z, each of which is cheaper to test alone.
+    const std::vector<BoxRecord> boxes{
+        box_between({0, 0, 0}, {1, 1, 1}), box_between({0, 0, 10}, {1, 1, 11}),
+        box_between({0, 0, 0}, {1, 1, 1}), box_between({0, 0, 10}, {1, 1, 11})};
     const HostKdTree tree = build_kdtree_on_host(boxes, {});
     expect_tree(tree, boxes);
     ASSERT_GE(tree.leaf_count, 2u);
