@@ -108,6 +108,9 @@ private:
 
     void start(const Buffer& boxes);
     void divide_large();
+    void plan_large(const NodeRange& level);
+    void split_large(const NodeRange& level);
+    void move_references(const NodeRange& level);
     void decide(const NodeRange& level, const Buffer& counts, bool stop);
     void divide_small();
     void write();
@@ -205,101 +208,116 @@ void KdBuild::decide(const NodeRange& level, const Buffer& counts, bool stop) {
              level.size());
 }
 
+/// Decides on the large nodes of a level; none of them is split where the tree would become too
+/// large.
+void KdBuild::plan_large(const NodeRange& level) {
+    const std::uint32_t n = level.size();
+    const Buffer tight = allocate(n, sizeof(BoxRecord));
+    const Buffer counts = allocate(n, 6 * 4);
+    plans_ = allocate(n, sizeof(KdPlanes));
+    choices_ = allocate(n, sizeof(KdChoice));
+    starts_ = allocate(n, 4);
+    split_counts_ = allocate(n, 4);
+    next_counts_ = allocate(n, 4);
+    finished_counts_ = allocate(n, 4);
+    segment_boxes(device_, references_, lanes_, {.of_elements = segments_, .end = references_end_},
+                  n, tight);
+    dispatch(device_,
+             kernels::kd_plan{.nodes = nodes_,
+                              .tight = tight,
+                              .plans = plans_,
+                              .counts = counts,
+                              .cells = cells_,
+                              .params = params(level.first, level.end)},
+             n);
+    dispatch(device_,
+             kernels::kd_count{.references = references_,
+                               .segments = segments_,
+                               .plans = plans_,
+                               .counts = counts,
+                               .params = params(0, references_end_),
+                               .constants = {.lanes = lanes()}},
+             (references_end_ + segment_run - 1) / segment_run);
+    decide(level, counts, false);
+    if (!may_grow()) {
+        tree_.stopped = true;
+        decide(level, counts, true);
+        may_grow();
+    }
+    grow();
+}
+
+/// Makes the children of a level's nodes.
+void KdBuild::split_large(const NodeRange& level) {
+    const std::uint64_t finished = std::uint64_t(finished_end_) + counters_now_[kd_finished];
+    make_room_for_nodes(2 * std::uint64_t(counters_now_[kd_splits]));
+    make_room(finished_, finished_end_, finished, 4);
+    make_room(finished_nodes_, finished_end_, finished, 4);
+    exclusive_scan(device_, split_counts_, split_counts_, level.size());
+    exclusive_scan(device_, next_counts_, next_counts_, level.size());
+    exclusive_scan(device_, finished_counts_, finished_counts_, level.size());
+    dispatch(device_,
+             kernels::kd_split{.nodes = nodes_,
+                               .choices = choices_,
+                               .split_sums = split_counts_,
+                               .next_sums = next_counts_,
+                               .finished_sums = finished_counts_,
+                               .cells = cells_,
+                               .params = params(level.first, level.end)},
+             level.size());
+}
+
+/// Moves the references of a level to the children of its nodes.
+void KdBuild::move_references(const NodeRange& level) {
+    const std::uint32_t next_end = counters_now_[kd_next];
+    const Buffer lefts = allocate(references_end_, 4);
+    const Buffer rights = allocate(references_end_, 4);
+    const Buffer left_sums = allocate(references_end_, 4);
+    const Buffer right_sums = allocate(references_end_, 4);
+    const Buffer next_references = allocate(next_end, 16ull * lanes());
+    const Buffer next_segments = allocate(next_end, 4);
+    dispatch(device_,
+             kernels::kd_sides{.references = references_,
+                               .segments = segments_,
+                               .choices = choices_,
+                               .lefts = lefts,
+                               .rights = rights,
+                               .params = params(0, references_end_),
+                               .constants = {.lanes = lanes()}},
+             references_end_);
+    exclusive_scan(device_, lefts, left_sums, references_end_);
+    exclusive_scan(device_, rights, right_sums, references_end_);
+    dispatch(device_,
+             kernels::kd_move{.nodes = nodes_,
+                              .references = references_,
+                              .segments = segments_,
+                              .starts = starts_,
+                              .lefts = lefts,
+                              .rights = rights,
+                              .left_sums = left_sums,
+                              .right_sums = right_sums,
+                              .next_references = next_references,
+                              .next_segments = next_segments,
+                              .finished = finished_,
+                              .finished_nodes = finished_nodes_,
+                              .params = params(level.first, references_end_),
+                              .constants = {.lanes = lanes()}},
+             references_end_);
+    references_ = next_references;
+    segments_ = next_segments;
+    references_end_ = next_end;
+    finished_end_ += counters_now_[kd_finished];
+}
+
 /// Divides large nodes, level by level: one invocation for each reference or node.
 void KdBuild::divide_large() {
     NodeRange level = levels_[0];
     while (references_end_ > 0) {
-        const std::uint32_t n = level.size();
-        const Buffer tight = allocate(n, sizeof(BoxRecord));
-        const Buffer counts = allocate(n, 6 * 4);
-        plans_ = allocate(n, sizeof(KdPlanes));
-        choices_ = allocate(n, sizeof(KdChoice));
-        starts_ = allocate(n, 4);
-        split_counts_ = allocate(n, 4);
-        next_counts_ = allocate(n, 4);
-        finished_counts_ = allocate(n, 4);
-        segment_boxes(device_, references_, lanes_,
-                      {.of_elements = segments_, .end = references_end_}, n, tight);
-        dispatch(device_,
-                 kernels::kd_plan{.nodes = nodes_,
-                                  .tight = tight,
-                                  .plans = plans_,
-                                  .counts = counts,
-                                  .cells = cells_,
-                                  .params = params(level.first, level.end)},
-                 n);
-        dispatch(device_,
-                 kernels::kd_count{.references = references_,
-                                   .segments = segments_,
-                                   .plans = plans_,
-                                   .counts = counts,
-                                   .params = params(0, references_end_),
-                                   .constants = {.lanes = lanes()}},
-                 (references_end_ + segment_run - 1) / segment_run);
-        decide(level, counts, false);
-        if (!may_grow()) {
-            tree_.stopped = true;
-            decide(level, counts, true);
-            may_grow();
-        }
-        grow();
-        const std::uint32_t next_end = counters_now_[kd_next];
-        const std::uint32_t finished = counters_now_[kd_finished];
-        const std::uint32_t children = 2 * counters_now_[kd_splits];
-        make_room_for_nodes(children);
-        make_room(finished_, finished_end_, std::uint64_t(finished_end_) + finished, 4);
-        make_room(finished_nodes_, finished_end_, std::uint64_t(finished_end_) + finished, 4);
-        exclusive_scan(device_, split_counts_, split_counts_, n);
-        exclusive_scan(device_, next_counts_, next_counts_, n);
-        exclusive_scan(device_, finished_counts_, finished_counts_, n);
-        dispatch(device_,
-                 kernels::kd_split{.nodes = nodes_,
-                                   .choices = choices_,
-                                   .split_sums = split_counts_,
-                                   .next_sums = next_counts_,
-                                   .finished_sums = finished_counts_,
-                                   .cells = cells_,
-                                   .params = params(level.first, level.end)},
-                 n);
-        const Buffer lefts = allocate(references_end_, 4);
-        const Buffer rights = allocate(references_end_, 4);
-        const Buffer left_sums = allocate(references_end_, 4);
-        const Buffer right_sums = allocate(references_end_, 4);
-        const Buffer next_references = allocate(next_end, 16ull * lanes());
-        const Buffer next_segments = allocate(next_end, 4);
-        dispatch(device_,
-                 kernels::kd_sides{.references = references_,
-                                   .segments = segments_,
-                                   .choices = choices_,
-                                   .lefts = lefts,
-                                   .rights = rights,
-                                   .params = params(0, references_end_),
-                                   .constants = {.lanes = lanes()}},
-                 references_end_);
-        exclusive_scan(device_, lefts, left_sums, references_end_);
-        exclusive_scan(device_, rights, right_sums, references_end_);
-        dispatch(device_,
-                 kernels::kd_move{.nodes = nodes_,
-                                  .references = references_,
-                                  .segments = segments_,
-                                  .starts = starts_,
-                                  .lefts = lefts,
-                                  .rights = rights,
-                                  .left_sums = left_sums,
-                                  .right_sums = right_sums,
-                                  .next_references = next_references,
-                                  .next_segments = next_segments,
-                                  .finished = finished_,
-                                  .finished_nodes = finished_nodes_,
-                                  .params = params(level.first, references_end_),
-                                  .constants = {.lanes = lanes()}},
-                 references_end_);
-        references_ = next_references;
-        segments_ = next_segments;
-        references_end_ = next_end;
-        finished_end_ += finished;
-        level = {nodes_end_, nodes_end_ + children};
-        if (children > 0) {
+        plan_large(level);
+        split_large(level);
+        move_references(level);
+        level = {nodes_end_, nodes_end_ + 2 * counters_now_[kd_splits]};
+        if (level.size() > 0) {
             nodes_end_ = level.end;
             levels_.push_back(level);
         }
