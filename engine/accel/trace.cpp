@@ -1,11 +1,14 @@
 #include "accel/triangle_bvh.hpp"
 
+#include "kernels/kd_any.hpp"
+#include "kernels/kd_closest.hpp"
 #include "kernels/trace_any.hpp"
 #include "kernels/trace_any_texels.hpp"
 #include "kernels/trace_closest.hpp"
 #include "kernels/trace_closest_texels.hpp"
 #include "parallel/parts.hpp"
 #include "shared/accel_records.h"
+#include "shared/kdtree.h"
 
 #include <algorithm>
 
@@ -25,6 +28,16 @@ struct Work {
 using RunKernel = void (*)(const Work& work, const TraceParams& params, bool resume,
                            std::uint64_t threads);
 
+template <class Kernel>
+void dispatch_rays(const Work& work, const Kernel& kernel, const TraceParams& params, bool resume,
+                   std::uint64_t threads) {
+    if (!resume && params.count.on_device != 0) {
+        dispatch_indirect(work.device, kernel, work.batch.count.buffer, work.batch.count.index);
+    } else {
+        dispatch(work.device, kernel, threads);
+    }
+}
+
 /// Dispatches one of the kernels that trace rays. Its output is the only member behind the buffers
 /// that all of them share: `hits` or `occluded`.
 template <class Kernel>
@@ -39,29 +52,58 @@ void run(const Work& work, const TraceParams& params, bool resume, std::uint64_t
                         work.batch.results,
                         params,
                         {.resume = resume}};
-    if (!resume && params.count.on_device != 0) {
-        dispatch_indirect(work.device, kernel, work.batch.count.buffer, work.batch.count.index);
-    } else {
-        dispatch(work.device, kernel, threads);
-    }
+    dispatch_rays(work, kernel, params, resume, threads);
 }
 
+/// The same with a kernel that traces rays through a kd-tree.
+template <class Kernel>
+void run_kdtree(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
+    const Kernel kernel{{.words = work.bvh.kdtree.words,
+                         .boxes = work.bvh.kdtree.boxes,
+                         .triangles = work.bvh.triangles,
+                         .rays = work.batch.rays,
+                         .active_rays = work.batch.active,
+                         .counts = counts_or(work.batch.count, work.batch.active),
+                         .suspended = work.traversal.suspended,
+                         .unfinished = work.traversal.unfinished},
+                        work.batch.results,
+                        params,
+                        {.resume = resume}};
+    dispatch_rays(work, kernel, params, resume, threads);
+}
+
+bool has_kdtree(const TriangleBvh& bvh) { return static_cast<bool>(bvh.kdtree.words); }
+
 TraceParams make_params(const Work& work) {
-    return {.count = count_record(work.batch.count),
-            .first = 0,
-            .root = work.bvh.triangle_count == 0   ? lbvh_end
-                    : work.bvh.triangle_count == 1 ? 1u
-                                                   : 0u,
-            .step_limit = work.traversal.step_limit,
-            .slot_count = work.traversal.slots,
-            .last = 0};
+    const auto& [device, bvh, traversal, batch] = work;
+    TraceParams params{.count = count_record(batch.count),
+                       .first = 0,
+                       .root = bvh.triangle_count == 0   ? lbvh_end
+                               : bvh.triangle_count == 1 ? 1u
+                                                         : 0u,
+                       .step_limit = traversal.step_limit,
+                       .slot_count = traversal.slots,
+                       .last = 0};
+    if (has_kdtree(bvh)) {
+        params.root = bvh.triangle_count == 0 ? lbvh_end : 0u;
+        const std::uint64_t room = traversal.suspended.size() / sizeof(std::uint32_t);
+        params.slot_count = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+            traversal.slots, (room - suspended_head) / kd_suspended_stride));
+    }
+    return params;
+}
+
+/// Boxes and triangles that a ray visits at most: no node twice.
+std::uint64_t most_steps(const TriangleBvh& bvh) {
+    return has_kdtree(bvh) ? 2 * std::uint64_t(bvh.kdtree.leaf_count) + bvh.kdtree.references
+                           : 2ull * bvh.triangle_count;
 }
 
 /// Records the dispatch of all rays, and one that resumes the suspended ones.
 void record(const Work& work, RunKernel run_kernel) {
     TraceParams params = make_params(work);
-    // A ray visits no node twice, so it cannot use up its steps in a small tree.
-    const bool may_suspend = 2ull * work.bvh.triangle_count > params.step_limit;
+    // A ray cannot use up its steps in a small tree.
+    const bool may_suspend = most_steps(work.bvh) > params.step_limit;
     if (may_suspend) {
         work.device.fill(
             BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
@@ -115,22 +157,26 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
         std::min<std::uint64_t>(max_slots, (range - suspended_head) / suspended_stride);
     traversal.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max_rays, 1, most));
     traversal.unfinished = device.allocate("unfinished rays", sizeof(std::uint32_t));
-    traversal.suspended = device.allocate(
-        "suspended rays", (suspended_head + std::uint64_t(traversal.slots) * suspended_stride) *
-                              sizeof(std::uint32_t));
+    // Room for one ray on its way through a kd-tree, at least.
+    const std::uint64_t words = std::max<std::uint64_t>(
+        std::uint64_t(traversal.slots) * suspended_stride, kd_suspended_stride);
+    traversal.suspended =
+        device.allocate("suspended rays", (suspended_head + words) * sizeof(std::uint32_t));
     return traversal;
 }
 
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                    const RayBatch& batch) {
-    trace({device, bvh, traversal, batch}, read_as_texels(device, bvh.nodes, bvh.triangles)
+    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run_kdtree<kernels::kd_closest>
+                                           : read_as_texels(device, bvh.nodes, bvh.triangles)
                                                ? run<kernels::trace_closest_texels>
                                                : run<kernels::trace_closest>);
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                const RayBatch& batch) {
-    trace({device, bvh, traversal, batch}, read_as_texels(device, bvh.nodes, bvh.triangles)
+    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run_kdtree<kernels::kd_any>
+                                           : read_as_texels(device, bvh.nodes, bvh.triangles)
                                                ? run<kernels::trace_any_texels>
                                                : run<kernels::trace_any>);
 }

@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <glm/glm.hpp>
+#include <numeric>
+#include <vector>
 
 namespace argand {
 
@@ -89,6 +91,33 @@ TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Bu
         prepare_refit(device, bvh, node_count, tree.order);
         refit_triangle_bvh(device, bvh, positions, triangles); // for its cost
     }
+    return bvh;
+}
+
+TriangleBvh build_triangle_kdtree(Device& device, const Buffer& positions, const Buffer& triangles,
+                                  std::uint32_t count, const KdTreeSettings& settings) {
+    const std::uint64_t bound = std::max<std::uint64_t>(count, 1);
+    TriangleBvh bvh{.triangles = device.allocate("kd-tree triangles", bound * sizeof(RayTriangle)),
+                    .triangle_count = count};
+    const Buffer boxes = device.scratch("triangle bvh: boxes", bound * sizeof(BoxRecord));
+    const AccelParams params{count_record(count)};
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    if (count > 0) {
+        dispatch(
+            device,
+            kernels::triangle_boxes{
+                .positions = positions, .triangles = triangles, .boxes = boxes, .params = params},
+            count);
+        dispatch(device,
+                 kernels::ray_triangles{.positions = positions,
+                                        .triangles = triangles,
+                                        .order = upload(device, "kd-tree: order", order),
+                                        .leaf_triangles = bvh.triangles,
+                                        .params = params},
+                 count);
+    }
+    bvh.kdtree = build_kdtree(device, boxes, count, settings);
     return bvh;
 }
 

@@ -1,19 +1,21 @@
 #pragma once
 
+#include "accel/kdtree.hpp"
 #include "device/count.hpp"
 #include "device/device.hpp"
 
 namespace argand {
 
-/// Acceleration structure over triangles, for rays.
+/// Acceleration structure over triangles, for rays: a four-wide tree, or a kd-tree.
 struct TriangleBvh {
-    Buffer nodes;     ///< RayNode per inner node
-    Buffer triangles; ///< RayTriangle, in the order of the leaves
+    Buffer nodes;     ///< RayNode per inner node; none with a kd-tree
+    Buffer triangles; ///< RayTriangle, in the order of the leaves; with a kd-tree in the scene's
     std::uint32_t triangle_count = 0;
     // Only if the triangles move:
     Buffer order;   ///< uint: of each leaf the triangle's index in the scene
     Buffer parents; ///< uint: of each child reference its place among all nodes' children
     Buffer boxes;   ///< of each child reference: vec4 (low, cost), vec4 (high, 0)
+    KdTree kdtree;  ///< with words if rays go through it
 };
 
 /// Builds the structure on the device; records only. positions: vec4 (xyz) per vertex; triangles:
@@ -21,6 +23,11 @@ struct TriangleBvh {
 /// Without triangles rays hit nothing. Throws Error for more than max_ray_nodes triangles.
 TriangleBvh build_triangle_bvh(Device& device, const Buffer& positions, const Buffer& triangles,
                                std::uint32_t count, bool moves = false);
+
+/// Builds a kd-tree over the triangles, through which rays hit the same, to the bit. It cannot be
+/// refitted. Waits for the device. Throws Error if settings.memory does not hold one leaf.
+TriangleBvh build_triangle_kdtree(Device& device, const Buffer& positions, const Buffer& triangles,
+                                  std::uint32_t count, const KdTreeSettings& settings);
 
 /// Fits the structure to the same triangles at other positions, or with their vertices in another
 /// order. Rays then hit the same as with a structure that is built anew; but the farther triangles

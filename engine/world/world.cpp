@@ -73,10 +73,11 @@ std::uint64_t upload_part(Device& device, const Buffer& to, std::size_t first,
 
 } // namespace
 
-World::World(Device& device, const Scene& scene)
-    : device_(device), surfaces_(surface_use(scene)), meshes_(device, scene),
+World::World(Device& device, const Scene& scene, const TracerSettings& tracer)
+    : device_(device), tracer_(tracer), surfaces_(surface_use(scene)), meshes_(device, scene),
       box_at_rest_(box_at_rest(scene)) {
-    const StageScope stage(device, "upload scene");
+    std::optional<StageScope> stage;
+    stage.emplace(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
     uploaded_materials_ = material_records(scene);
@@ -88,14 +89,22 @@ World::World(Device& device, const Scene& scene)
     if (!meshes_.empty()) {
         meshes_.place(positions_, nullptr);
     }
+    if (tracer.kdtree) {
+        stage.reset(); // stages do not nest
+        stage.emplace(device, "build kd-tree");
+    }
     build_tree(scene);
 }
 
 void World::build_tree(const Scene& scene) {
     bvh_ = TriangleBvh(); // frees the old one's memory before the new one takes its own
-    bvh_ = build_triangle_bvh(device_, positions_, triangles_,
-                              static_cast<std::uint32_t>(scene.triangles.size()),
-                              !scene.motion.meshes.empty());
+    const auto count = static_cast<std::uint32_t>(scene.triangles.size());
+    if (tracer_.kdtree) {
+        bvh_ = build_triangle_kdtree(device_, positions_, triangles_, count,
+                                     {.memory = tracer_.tree_memory});
+        return;
+    }
+    bvh_ = build_triangle_bvh(device_, positions_, triangles_, count, !scene.motion.meshes.empty());
     cost_of_build_ = 0; // known when it is asked for
     tree_cost_ = 1;
 }
@@ -174,16 +183,18 @@ WorldUpdate World::update(const Scene& scene) {
     if (!update.refitted) {
         return update;
     }
-    if (!(cost_of_build_ > 0)) {
+    if (!tracer_.kdtree && !(cost_of_build_ > 0)) {
         cost_of_build_ = traversal_cost(device_, bvh_);
     }
-    refit_triangle_bvh(device_, bvh_, positions_, triangles_);
+    if (!tracer_.kdtree) {
+        refit_triangle_bvh(device_, bvh_, positions_, triangles_);
+    }
     for (MovedMesh& moved : update.moved) {
         moved.after = meshes_.boxes(scene)[moved.mesh];
     }
-    const double cost = traversal_cost(device_, bvh_);
-    tree_cost_ = cost_of_build_ > 0 ? cost / cost_of_build_ : 1;
-    if (cost > most_growth * cost_of_build_) {
+    const double cost = tracer_.kdtree ? 0 : traversal_cost(device_, bvh_);
+    tree_cost_ = cost_of_build_ > 0 && !tracer_.kdtree ? cost / cost_of_build_ : 1;
+    if (tracer_.kdtree || cost > most_growth * cost_of_build_) {
         build_tree(scene);
         update.refitted = false;
         update.rebuilt = true;

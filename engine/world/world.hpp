@@ -5,6 +5,7 @@
 #include "world/device_scene.hpp"
 #include "world/moving_meshes.hpp"
 #include "world/texture_table.hpp"
+#include "world/tracer_settings.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -37,15 +38,16 @@ class World {
 public:
     /// Uploads the scene and builds the tree. The device places the vertices of meshes that move,
     /// as update() does, so that a moment has the same bits after other moments. Keeps a reference
-    /// to the device. Records only.
-    World(Device& device, const Scene& scene);
+    /// to the device. Records only, but waits for the device to build a kd-tree. Throws Error if
+    /// tracer.tree_memory does not hold one leaf of it.
+    World(Device& device, const Scene& scene, const TracerSettings& tracer = {});
 
     /// Follows the scene to which move_to() or move_without_vertices() has been applied: uploads
     /// the materials that have changed, places the vertices of the meshes if any has moved, by
     /// their nodes' matrices and weights, and refits the tree, or rebuilds it once its cost is 1.3
-    /// times that after the last build. The scene must be the one of the constructor but for that.
-    /// The host does nothing per triangle, unless triangles turn. Waits for the device if a mesh
-    /// has moved. Throws Error if a position is not finite.
+    /// times that after the last build. A kd-tree is always rebuilt. The scene must be the one of
+    /// the constructor but for that. The host does nothing per triangle, unless triangles turn.
+    /// Waits for the device if a mesh has moved. Throws Error if a position is not finite.
     WorldUpdate update(const Scene& scene);
 
     /// The scene as a render with this plan needs it. It shares this world's buffers: update()
@@ -60,6 +62,7 @@ public:
     std::uint64_t revision() const { return revision_; }
 
     Device& device() const { return device_; }
+    const TriangleBvh& tree() const { return bvh_; }
     const SurfaceUse& surfaces() const { return surfaces_; }
 
 private:
@@ -75,6 +78,7 @@ private:
     void upload_changed_materials(const Scene& scene, WorldUpdate& update);
 
     Device& device_;
+    TracerSettings tracer_;
     SurfaceUse surfaces_;
     Buffer positions_, triangles_, materials_;
     Buffer normals_;        ///< empty until a plan needs them

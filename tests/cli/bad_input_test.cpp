@@ -95,6 +95,15 @@ TEST_F(BadInput, OptionsThatTheMethodDoesNotUse) {
     }
 }
 
+TEST_F(BadInput, KdTreesThatAreNone) {
+    const std::string scene =
+        "render '" + asset("cornell_point.glb") + "' --size 8x8 --spp 1 --photons 100 ";
+    expect_failure(scene + "--tracer octree", usage, "--tracer");
+    expect_failure(scene + "--tree-memory 100000", usage, "without --tracer kdtree");
+    expect_failure(scene + "--tracer kdtree --tree-memory 0", usage, "--tree-memory");
+    expect_failure(scene + "--tracer kdtree --tree-memory 100", failure, "does not hold one leaf");
+}
+
 TEST_F(BadInput, ProgressiveWidthsThatAreNone) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
     for (const char* option : {"--passes 0", "--passes 1.5", "--passes -1", "--radius-exponent 0",

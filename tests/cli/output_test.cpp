@@ -32,6 +32,29 @@ TEST_F(Outputs, NothingThatIsReadOrWrittenIsReplaced) {
     EXPECT_TRUE(read_text(file("b.exr")) == before);
 }
 
+TEST_F(Outputs, AKdTreeGivesTheSamePictures) {
+    const std::string still =
+        "render '" + asset("cornell_glass.glb") + "' --size 8x8 --spp 1 --photons 500 ";
+    const auto expect_success = [&](const std::string& arguments) {
+        const Outcome run = argand(arguments, on_host);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return run.error;
+    };
+    expect_success(still + "-q -o a.exr");
+    expect_success(still + "-q -o b.exr --tracer kdtree --json b.json");
+    EXPECT_TRUE(read_text(file("a.exr")) == read_text(file("b.exr")));
+    EXPECT_THAT(read_text(file("b.json")), ::testing::HasSubstr("build kd-tree"));
+    EXPECT_THAT(expect_success(still + "-o c.exr --tracer kdtree --tree-memory 30000"),
+                ::testing::HasSubstr("as more would exceed --tree-memory 30000"));
+    EXPECT_TRUE(read_text(file("a.exr")) == read_text(file("c.exr")));
+    // Triangles that move.
+    const std::string film = "render '" + asset("dynamic_water.glb") +
+                             "' --size 8x8 --spp 1 --photons 500 --frames 0:2 -q ";
+    expect_success(film + "-o a%d.exr");
+    expect_success(film + "-o b%d.exr --tracer kdtree");
+    EXPECT_TRUE(read_text(file("a1.exr")) == read_text(file("b1.exr")));
+}
+
 TEST_F(Outputs, AFullStandardOutputIsNamed) {
     if (!std::filesystem::exists("/dev/full")) {
         GTEST_SKIP() << "there is no /dev/full here, the only output that is always full";

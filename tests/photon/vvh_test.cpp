@@ -1,6 +1,7 @@
 // Trees by the voxel volume heuristic, and that estimates by them agree with those by the linear
 // build.
 #include "photon/map_queries.hpp"
+#include "photon/photon_kdtree.hpp"
 #include "photon/vvh.hpp"
 #include "shared/footprint.h"
 #include "shared/photon.h"
@@ -55,12 +56,26 @@ bool holds(const LbvhNode& node, const BoxRecord& box) {
            node.high_x >= box.high_x && node.high_y >= box.high_y && node.high_z >= box.high_z;
 }
 
-TEST(VolumeTree, LeavesPartTheBoxesAndBoxesHoldTheirs) {
+/// The tree by centres of boxes that the host builds.
+VolumeTree kdtree_of(const std::vector<BoxRecord>& boxes, std::uint32_t leaf_size) {
+    std::vector<BoxRecord> centres = boxes;
+    for (BoxRecord& b : centres) {
+        b.low_x = b.high_x = 0.5f * (b.low_x + b.high_x);
+        b.low_y = b.high_y = 0.5f * (b.low_y + b.high_y);
+        b.low_z = b.high_z = 0.5f * (b.low_z + b.high_z);
+    }
+    const HostKdTree tree = build_kdtree_on_host(centres, {.points = true, .leaf_size = leaf_size});
+    return volume_tree_of(tree, boxes, leaf_size);
+}
+
+using BuildTree = VolumeTree (*)(const std::vector<BoxRecord>& boxes, std::uint32_t leaf_size);
+
+void expect_leaves_part_the_boxes(BuildTree build) {
     for (const std::size_t count : {0u, 1u, 2u, 3u, 100u, 5000u}) {
         for (const std::uint32_t leaf_size : {1u, 4u, 512u}) {
             SCOPED_TRACE(::testing::Message() << count << " in leaves of " << leaf_size);
             const std::vector<BoxRecord> boxes = random_boxes(count, 1);
-            const VolumeTree tree = build_volume_tree(boxes, leaf_size);
+            const VolumeTree tree = build(boxes, leaf_size);
             std::vector<std::uint32_t> sorted = tree.order;
             std::sort(sorted.begin(), sorted.end());
             ASSERT_EQ(sorted.size(), count);
@@ -86,6 +101,14 @@ TEST(VolumeTree, LeavesPartTheBoxesAndBoxesHoldTheirs) {
         }
     }
 }
+
+TEST(VolumeTree, LeavesPartTheBoxesAndBoxesHoldTheirs) {
+    expect_leaves_part_the_boxes([](const std::vector<BoxRecord>& boxes, std::uint32_t leaf_size) {
+        return build_volume_tree(boxes, leaf_size);
+    });
+}
+
+TEST(VolumeTree, OfAKdTreePartsTheBoxes) { expect_leaves_part_the_boxes(kdtree_of); }
 
 TEST(VolumeTree, FusedLeavesAreThoseOfATreeBuiltWithThem) {
     const std::vector<BoxRecord> boxes = random_boxes(3000, 2);
@@ -214,15 +237,19 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
         return sums;
     };
     const std::vector<Gathered> expected = gather(linear);
-    const VolumeTree tree = build_volume_tree(boxes, 1);
-    const PhotonMap sorted = reordered(device, linear, tree.order);
-    for (const std::uint32_t leaf_size : {1u, 32u, most_photons_a_leaf}) {
-        SCOPED_TRACE(leaf_size);
-        const std::vector<Gathered> found = gather(with_tree(device, sorted, tree, leaf_size));
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            ASSERT_GT(expected[i].indirect.r, 0);
-            ASSERT_NEAR(found[i].indirect.r, expected[i].indirect.r, 1e-4 * expected[i].indirect.r);
-            ASSERT_NEAR(found[i].caustic.g, expected[i].caustic.g, 1e-4 * expected[i].caustic.g);
+    for (const VolumeTree& tree :
+         {build_volume_tree(boxes, 1), build_photon_kdtree(device, boxes, 0.05f, 1)}) {
+        const PhotonMap sorted = reordered(device, linear, tree.order);
+        for (const std::uint32_t leaf_size : {1u, 32u, most_photons_a_leaf}) {
+            SCOPED_TRACE(leaf_size);
+            const std::vector<Gathered> found = gather(with_tree(device, sorted, tree, leaf_size));
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                ASSERT_GT(expected[i].indirect.r, 0);
+                ASSERT_NEAR(found[i].indirect.r, expected[i].indirect.r,
+                            1e-4 * expected[i].indirect.r);
+                ASSERT_NEAR(found[i].caustic.g, expected[i].caustic.g,
+                            1e-4 * expected[i].caustic.g);
+            }
         }
     }
 }

@@ -124,6 +124,14 @@ void check_deterministic(const RenderOptions& options, const CLI::App& command) 
     }
 }
 
+/// Throws UsageError on options of a kd-tree, if there is none.
+void check_tracer(const RenderOptions& options, const CLI::App& command) {
+    if (!options.tracer.kdtree && is_given(command, "--tree-memory")) {
+        throw UsageError(
+            "reading --tree-memory: it has no effect without --tracer kdtree; add that");
+    }
+}
+
 void check_lens(const RenderOptions& options) {
     if (options.settings.focus && !(options.settings.aperture > 0)) {
         throw UsageError("reading --focus: it has no effect without --aperture; add that");
@@ -134,6 +142,7 @@ void check(const RenderOptions& options, const CLI::App& command) {
     check_lens(options);
     check_query(options, command);
     check_deterministic(options, command);
+    check_tracer(options, command);
     check_methods({options.settings.method}, options.methods);
     check_checkpoints(options, command);
     if (is_autotuned(options, command)) {
@@ -239,6 +248,19 @@ void add_render_command(CLI::App& app, MethodTable methods) {
     command->add_flag("--everything", settings.everything,
                       "Also compile and run code that the scene does not require: the picture is "
                       "the same; measures the cost");
+    command
+        ->add_option_function<std::string>(
+            "--tracer",
+            [options](const std::string& tracer) { options->tracer.kdtree = tracer == "kdtree"; },
+            "Tree through which rays go: lbvh (bounding boxes) or kdtree (default: lbvh); the "
+            "picture is the same")
+        ->check(CLI::IsMember({"lbvh", "kdtree"}));
+    command
+        ->add_option("--tree-memory", options->tracer.tree_memory,
+                     "With --tracer kdtree: bytes of the tree; nodes that would need more are not "
+                     "split")
+        ->capture_default_str()
+        ->check(integer_between(1, 1'000'000'000'000));
     command->add_option("--frames", options->frames,
                         "Render frames A to B - 1 of the scene's animations, written A:B; frame k "
                         "is at k / --fps seconds. The -o of pictures needs a place for k, such as "

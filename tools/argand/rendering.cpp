@@ -189,7 +189,7 @@ RenderResult render_image(RenderJob& job, const OnProgress& on_progress, Watched
 Rendered render_on(RenderJob& job, const std::string& work) {
     const RenderOptions& options = job.options;
     if (!job.world) {
-        job.world = std::make_unique<World>(*job.device, job.scene);
+        job.world = std::make_unique<World>(*job.device, job.scene, options.tracer);
     }
     World& world = *job.world;
     std::optional<Progress> progress;
@@ -353,6 +353,12 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
         rendered = render_on(job, work);
     }
     job.times.render = seconds_since(start);
+    const KdTree& kdtree = job.world->tree().kdtree;
+    if (kdtree.stopped) {
+        rendered.notes.push_back(fmt::format("the kd-tree has only {} leaves, as more would exceed "
+                                             "--tree-memory {}; rays are slower",
+                                             kdtree.leaf_count, options.tracer.tree_memory));
+    }
     for (std::string& note : notes_on(rendered, options.methods, job.times.render)) {
         rendered.notes.push_back(std::move(note));
     }
@@ -381,6 +387,13 @@ nlohmann::ordered_json report_on(const RenderJob& job, const Rendered& rendered,
                        .times = job.times});
     for (const std::string& note : rendered.notes) {
         report["notes"].push_back(note);
+    }
+    if (job.options.tracer.kdtree) {
+        const KdTree& tree = job.world->tree().kdtree;
+        report["kdtree"] = {{"leaves", tree.leaf_count},
+                            {"references", tree.references},
+                            {"bytes", kd_tree_bytes(tree.leaf_count, tree.references)},
+                            {"stopped", tree.stopped}};
     }
     if (rendered.tuned) {
         report["aim"] = autotune_report(*rendered.tuned, job.options.methods);

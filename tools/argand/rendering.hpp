@@ -33,6 +33,7 @@ struct RenderOptions : SceneOptions {
     std::string keep = "all";       ///< of a frame's memory for the next one: "all" or "none"
     std::string checkpoint, resume; ///< files; empty: none
     double every = 300;             ///< seconds between checkpoints
+    TracerSettings tracer;
     RenderSettings settings;
 
     const MethodInfo& method() const { return methods.at(settings.method); }

@@ -138,6 +138,11 @@ std::vector<BenchRow> bench_rays(Device& device) {
     const double refit_seconds = median_device_seconds(
         device, nothing, [&] { refit_triangle_bvh(device, moving, positions, triangles); });
     rows.push_back(make_row("bvh refit", count, refit_seconds, "triangles/s"));
+    TriangleBvh kdtree;
+    const double kdtree_seconds = median_device_seconds(device, nothing, [&] {
+        kdtree = build_triangle_kdtree(device, positions, triangles, count, {});
+    });
+    rows.push_back(make_row("kd-tree build", count, kdtree_seconds, "triangles/s"));
 
     std::vector<std::uint32_t> all_rays(std::uint64_t(edge) * edge);
     std::iota(all_rays.begin(), all_rays.end(), 0u);
@@ -150,6 +155,10 @@ std::vector<BenchRow> bench_rays(Device& device) {
     const Bounces bounces = bounce(scene, primary, hits);
     rows.push_back(bench.any("shadow rays", bounces.shadow));
     rows.push_back(bench.closest("diffuse rays", bounces.diffuse, hits));
+    bench.bvh = kdtree;
+    rows.push_back(bench.closest("primary rays, kd-tree", primary, hits));
+    rows.push_back(bench.any("shadow rays, kd-tree", bounces.shadow));
+    rows.push_back(bench.closest("diffuse rays, kd-tree", bounces.diffuse, hits));
     return rows;
 }
 

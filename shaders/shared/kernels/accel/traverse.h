@@ -1,38 +1,9 @@
 // Traverses a TriangleBvh's tree with a stack, nearest boxes first, one ray per invocation.
 // Included by trace_closest.h and trace_any.h, which declare load_result and store_result and
 // define ANY_HIT as 0 or 1. NODES(i) and TRIANGLES(i) read the tree.
+#include "shared/kernels/accel/ray.h"
+#include "shared/kernels/accel/suspended_slot.h"
 #include "shared/kernels/count.h"
-
-struct Ray {
-    vec3 origin;
-    RayShear shear;
-    vec3 inverse;     // of the direction; finite
-    vec3 near_origin; // origin, moved to enlarge boxes: for sides that face it,
-    vec3 far_origin;  // and for all others
-    bvec3 backwards;
-};
-
-// The shear of intersect_triangle moves vertices by up to 6 roundings of the reach. So it may hit a
-// triangle whose box the ray misses by that much, and miss the neighbour. Boxes are therefore
-// enlarged by slightly more, which also covers the rounding of the grids' planes, at most twice as
-// far away as the scene's sides. This decides about rays in the plane of a box's side, too.
-FN Ray make_ray(vec3 origin, vec3 direction, vec3 low, vec3 high) {
-    Ray ray;
-    ray.origin = origin;
-    ray.shear = ray_shear(direction);
-    vec3 size = abs(direction);
-    real least =
-        max_component(size) * real(1e-18); // smaller components do not matter in single precision
-    vec3 safe = mix(direction, vec3(least), lessThan(size, vec3(least)));
-    ray.inverse = real(1.0) / safe;
-    ray.backwards = lessThan(ray.inverse, vec3(real(0.0)));
-    vec3 margin =
-        abs(origin) * error_bound(4) + vec3(box_reach(origin, low, high) * error_bound(24));
-    margin = mix(margin, -margin, ray.backwards);
-    ray.near_origin = origin + margin;
-    ray.far_origin = origin - margin;
-    return ray;
-}
 
 CONSTANT uint missed = 0xffffffffu;
 
@@ -101,15 +72,8 @@ FN Walk suspended_walk(uint slot) {
 // Counts an unfinished ray and saves its position, without its stack. slot: the ray's slot, or 0.
 // Returns the slot, or 0 if there is none.
 FN uint suspend(Walk walk, uint slot) {
-    if (!resume && params.last == 0u) {
-        uint mine = atomicAdd(suspended[0], 1u);
-        slot = mine < params.slot_count ? suspended_head + mine * suspended_stride : 0u;
-    }
-    slot = params.last != 0u ? 0u : slot;
-    if (slot == 0u) {
-        atomicAdd(unfinished[0], 1u);
-    } else {
-        atomicAdd(suspended[1], 1u);
+    slot = slot_to_suspend(slot, suspended_stride);
+    if (slot != 0u) {
         suspended[slot] = walk.ray;
         suspended[slot + 1u] = walk.node;
         suspended[slot + 2u] = walk.siblings;
@@ -136,23 +100,6 @@ FN uint child_at(uvec4 children, uint which) {
 FN uint waiting_children(uint node, uvec4 met) {
     return (node << 7u) | ((met.y & 3u) << 2u) | ((met.z & 3u) << 4u) | ((met.w & 3u) << 6u) |
            (met.w != missed ? 3u : (met.z != missed ? 2u : 1u));
-}
-
-FN bool meet_triangle(Ray ray, uint place, INOUT(HitRecord) hit) {
-    vec4 a = TRIANGLES(place);
-    vec3 b = vec3(TRIANGLES(place + 1u));
-    vec3 c = vec3(TRIANGLES(place + 2u));
-    real t, u, v;
-    bool met = intersect_triangle(ray.shear, ray.origin, vec3(a), b, c, real(0.0), hit.t, t, u, v);
-    if (met) {
-        // Of triangles at the same distance the first in the scene counts, independent of the order
-        // of traversal.
-        uint triangle = float_bits(a.w);
-        if (t < hit.t || triangle < hit.triangle) {
-            hit = HitRecord(triangle, t, u, v);
-        }
-    }
-    return met;
 }
 
 // Continues with the nearest of the children that wait beside the node; without one the ray is
