@@ -20,6 +20,7 @@ struct Abilities {
     bool photon_map = false;  ///< it estimates radiance from photons
     bool footprints = false;  ///< its photons carry ray differentials
     bool progressive = false; ///< its widths fall from pass to pass, without an option for that
+    bool keeps_photons = false; ///< images depend on those before them in the same session
 };
 
 /// How the error of an image of n passes falls:

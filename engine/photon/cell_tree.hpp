@@ -22,12 +22,15 @@ struct CellTree {
 /// The cell that a point lies in.
 std::uint32_t cell_of(const CellTree& tree, const glm::vec3& point);
 
-/// Divides the leaves of `planes` (CellNode, as in CellTree; empty: one leaf, which is all of
-/// space) on until they hold at most `leaf_size` of the points, each `weight` times: in the middle
-/// of the points' longest extent, so that the empty space around them costs nothing (Shi 2012,
-/// §3.3, divides no further than triangles do). least: cells there are at least, 1 or 2. The tree
-/// has at most most_cell_levels levels.
-CellTree divide_cells(std::span<const CellNode> planes, std::vector<glm::vec3> points,
-                      double weight, double leaf_size, std::uint32_t least);
+/// The planes of a kd-tree (accel/kdtree_host.hpp), without its elements.
+std::vector<CellNode> planes_of(std::span<const std::uint32_t> kd_tree_words);
+
+/// Divides space until cells hold at most `leaf_size` of the points, each of which counts as often
+/// as its fourth component says: first by `planes` (CellNode, as in CellTree; none: nothing is
+/// divided by them), then in the middle of the longest extent of the points in a cell, so that no
+/// cell is a long list (Shi 2012, §3.3, divides as far as triangles are divided, and no further).
+/// least: cells there are at least, 1 or 2. The tree has at most most_cell_levels levels.
+CellTree divide_cells(std::span<const CellNode> planes, std::vector<glm::vec4> points,
+                      double leaf_size, std::uint32_t least);
 
 } // namespace argand

@@ -16,7 +16,6 @@
 #include "parallel/radix_sort.hpp"
 #include "parallel/reduce.hpp"
 #include "parallel/scan.hpp"
-#include "shared/geometry_records.h"
 #include "shared/morton.h"
 #include "shared/photon.h"
 
@@ -164,7 +163,8 @@ void set_cells(Device& device, PhotonQueue& q, CellTree tree, bool parts_caustic
 }
 
 /// Places of records that are not empty.
-void add_points(Device& device, const QueueRecords& records, std::vector<glm::vec3>& points) {
+void add_points(Device& device, const QueueRecords& records, double photon_weight,
+                std::vector<glm::vec4>& points) {
     if (records.slots == 0) {
         return;
     }
@@ -173,7 +173,8 @@ void add_points(Device& device, const QueueRecords& records, std::vector<glm::ve
     points.reserve(points.size() + records.records);
     for (const PhotonRecord& p : all) {
         if (p.normal != no_photon) {
-            points.emplace_back(p.x, p.y, p.z);
+            const bool area = (p.normal & area_sample_bit) != 0;
+            points.emplace_back(p.x, p.y, p.z, area ? 1.0f : static_cast<float>(photon_weight));
         }
     }
 }
@@ -193,12 +194,12 @@ PhotonQueue make_photon_queue(std::uint32_t window, std::uint32_t leaf_size) {
 }
 
 void divide_queue(Device& device, PhotonQueue& q, std::span<const CellNode> planes,
-                  const QueueRecords& records, double weight, bool parts_caustics) {
+                  const QueueRecords& records, double photon_weight, bool parts_caustics) {
     const StageScope stage(device, "divide queue");
-    std::vector<glm::vec3> points;
-    add_points(device, records, points);
+    std::vector<glm::vec4> points;
+    add_points(device, records, photon_weight, points);
     set_cells(device, q,
-              divide_cells(planes, std::move(points), weight, q.leaf_size, parts_caustics ? 2 : 1),
+              divide_cells(planes, std::move(points), q.leaf_size, parts_caustics ? 2 : 1),
               parts_caustics);
     q.crowded_when_divided = 0;
 }
@@ -208,12 +209,12 @@ void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode>
     const Buffer stored = q.stored;
     {
         const StageScope stage(device, "divide queue");
-        std::vector<glm::vec3> points;
+        std::vector<glm::vec4> points;
         for (const QueueBlock& block : blocks) {
-            add_points(device, records_of(block, stored), points);
+            add_points(device, records_of(block, stored), 1, points);
         }
         set_cells(device, q,
-                  divide_cells(planes, std::move(points), 1, q.leaf_size, q.caustic > 0 ? 2 : 1),
+                  divide_cells(planes, std::move(points), q.leaf_size, q.caustic > 0 ? 2 : 1),
                   q.caustic > 0);
     }
     q.stored = Buffer(); // blocks are sorted from the old memory into new memory

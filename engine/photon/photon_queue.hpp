@@ -2,6 +2,7 @@
 
 #include "photon/cell_tree.hpp"
 #include "photon/photon_map.hpp"
+#include "shared/geometry_records.h"
 
 #include <cstdint>
 #include <span>
@@ -35,8 +36,7 @@ struct PhotonQueue {
     Buffer last_sorted; ///< of the last map
 };
 
-/// An empty queue. parts_caustics: whether there may be caustic photons, which lie in leaves of
-/// their own.
+/// An empty queue.
 PhotonQueue make_photon_queue(std::uint32_t window, std::uint32_t leaf_size);
 
 /// Records to add to a queue, some of which may be empty slots.
@@ -46,13 +46,14 @@ struct QueueRecords {
     std::uint64_t records = 0; ///< that are not empty
 };
 
-/// Divides space into cells for these records, of which `weight` times as many will be in the
-/// queue, and sorts what is in the queue already into them. planes: see divide_cells(). Waits for
-/// the device.
+/// Empties the queue, and divides space into cells for these records, of whose photons there will
+/// be `photon_weight` times as many. planes: see divide_cells(). parts_caustics: whether there may
+/// be caustic photons, which lie in leaves of their own. Waits for the device.
 void divide_queue(Device& device, PhotonQueue& queue, std::span<const CellNode> planes,
-                  const QueueRecords& records, double weight, bool parts_caustics);
+                  const QueueRecords& records, double photon_weight, bool parts_caustics);
 
-/// The same for the records in the queue.
+/// Divides space anew for the records in the queue, and sorts them into the new cells. Not if
+/// surfaces have moved since the oldest block was traced: see empty_near(). Waits for the device.
 void divide_queue_anew(Device& device, PhotonQueue& queue, std::span<const CellNode> planes);
 
 /// Whether search would gain from new cells: a quarter of the records lies in crowded ones, and

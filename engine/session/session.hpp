@@ -34,7 +34,7 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// Begins an image of the scene as it is now, and as World::update() has been told. Its bits do
-    /// not depend on the images before it. seed: replaces that of the settings. Call it before the
+    /// not depend on the images before it, unless the method keeps photons. seed: replaces that of the settings. Call it before the
     /// first pass. Throws Error if the device cannot do it.
     void begin_frame(std::uint32_t seed);
 
