@@ -20,8 +20,6 @@ namespace argand {
 
 namespace {
 
-// Units of the fixed-point flux sums in the mean flux of a photon.
-constexpr double units_per_photon = 1 << 18;
 // Photons of a pass over the most of a first pass.
 constexpr std::uint64_t most_growth = 8;
 

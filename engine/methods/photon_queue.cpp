@@ -8,6 +8,7 @@
 #include "methods/light_change.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_targets.hpp"
+#include "methods/persist_queue.hpp"
 #include "methods/queue_options.hpp"
 #include "methods/render_options.hpp"
 #include "methods/traced_photons.hpp"
@@ -16,6 +17,7 @@
 #include "shared/photon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,8 +26,6 @@ namespace argand {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Units of the fixed-point flux sums in the mean flux of a photon.
-constexpr double units_per_photon = 1 << 18;
 // Light that changes by more from one frame to the next has all its photons traced anew.
 constexpr double most_change = 0.5;
 // Moved boxes reach so many radii of estimation farther.
@@ -78,6 +78,10 @@ public:
 private:
     std::uint64_t photons() const;
     std::uint64_t photons_of(std::uint32_t block) const;
+    std::uint32_t leaf_size() const {
+        constexpr std::uint32_t automatic = 16; // as that of photon_map.cpp
+        return c_.settings.leaf_size > 0 ? c_.settings.leaf_size : automatic;
+    }
     std::uint32_t samples_per_pass() const {
         return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
     }
@@ -209,8 +213,7 @@ std::vector<CellNode> QueueMethod::planes() const {
 /// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
 void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> queries,
                          Budget* budget) {
-    queue_ = make_photon_queue(options_.window, c_.settings.leaf_size > 0 ? c_.settings.leaf_size
-                                                                          : 16);
+    queue_ = make_photon_queue(options_.window, leaf_size());
     ages_.assign(options_.window, {});
     areas_moved_ = true;
     still_ = 0;
@@ -413,7 +416,35 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
     return finished;
 }
 
-void QueueMethod::persist(Archive& archive) { (void)archive; }
+void QueueMethod::persist(Archive& archive) {
+    archive.value(image_.blocks);
+    archive.value(image_.emitted);
+    archive.value(image_.stored);
+    archive.value(image_.passes);
+    archive.value(image_.flux_unit);
+    archive.value(image_.in_view);
+    archive.flag(image_.traced);
+    archive.values(ages_);
+    archive.value(moment_);
+    archive.value(next_);
+    archive.value(emptied_);
+    archive.value(still_);
+    persist_bandwidth(archive, learnt_);
+    archive.value(view_reach_);
+    archive.value(sampled_);
+    archive.flag(areas_moved_);
+    if (ages_.size() != options_.window || next_ >= options_.window || moment_ == 0) {
+        fail("loading a saved state: it is not one of a photons queue of {} blocks",
+             options_.window);
+    }
+    if (archive.loads()) {
+        make_room();
+        queue_ = make_photon_queue(options_.window, leaf_size());
+        seen_ = {c_.on_device.light_table, c_.on_device.meshes, c_.on_device.last_material_change};
+    }
+    persist_queue(archive, c_.device, queue_);
+    persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
+}
 
 void QueueMethod::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.emitted;

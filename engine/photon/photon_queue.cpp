@@ -62,35 +62,15 @@ void make_block_room(Device& device, PhotonQueue& q, std::uint32_t block, std::u
     if (q.stored && records <= wanted) {
         return;
     }
-    const std::vector<QueueBlock> before = q.blocks;
-    const std::uint64_t most = max_stored_photons(device);
     wanted = std::max<std::uint64_t>(records + (areas ? 0 : records / headroom_divisor), 1);
-    if (room(q) > most) {
+    if (room(q) > max_stored_photons(device)) {
         wanted = records;
     }
-    if (room(q) > most || q.block_room > queue_record_mask) {
-        fail("keeping photons from frame to frame: {} blocks of {} records each and {} area "
-             "samples are more than '{}' can address; use fewer photons or a smaller window",
-             q.window, q.block_room, q.area_room, device.info().name);
-    }
-    const Buffer old = q.stored;
-    const auto allocate = [&](const char* name, std::uint64_t bytes) {
-        return device.allocate(name, room(q) * bytes);
-    };
-    q.stored = allocate("queue: photons", sizeof(PhotonRecord));
+    const std::vector<QueueBlock> before = q.blocks;
     for (std::uint32_t b = 0; b < q.blocks.size(); ++b) {
         q.blocks[b].first = first_of(q, b);
-        copy_elements(device, old, before[b].first, q.stored, q.blocks[b].first, before[b].records,
-                      sizeof(PhotonRecord));
     }
-    const Buffer entries = q.of_entry;
-    const Buffer cells = q.cell_of_entry;
-    q.of_entry = allocate("queue: entries", 4);
-    q.cell_of_entry = allocate("queue: cells of entries", 4);
-    copy_elements(device, entries, 0, q.of_entry, 0, q.entries, 4);
-    copy_elements(device, cells, 0, q.cell_of_entry, 0, q.entries, 4);
-    q.next_of_entry = allocate("queue: next entries", 4);
-    q.next_cell_of_entry = allocate("queue: next cells of entries", 4);
+    allocate_queue(device, q, before);
 }
 
 /// Records in the order of their cells.
@@ -135,33 +115,6 @@ Buffer rank_kept(Device& device, const PhotonQueue& q) {
     return ranks;
 }
 
-void set_cells(Device& device, PhotonQueue& q, CellTree tree, bool parts_caustics) {
-    q.tree = std::move(tree);
-    q.caustic = parts_caustics ? q.tree.cells : 0;
-    q.cells = q.tree.cells * (parts_caustics ? 2 : 1);
-    std::vector<std::uint32_t> distances;
-    distances.reserve(q.cells);
-    for (std::uint32_t kind = 0; kind < q.cells / q.tree.cells; ++kind) {
-        for (const std::uint32_t level : q.tree.levels) {
-            distances.push_back(kind_distance - 1 - level);
-        }
-        distances.push_back(kind_distance); // of caustic photons from all others
-    }
-    distances.back() = no_neighbour;
-    q.nodes = upload(device, "queue: tree of cells", q.tree.nodes);
-    q.distances = upload(device, "queue: distances of cells", distances);
-    const auto per_cell = [&](const char* name, std::uint64_t each, std::uint32_t value) {
-        Buffer buffer = device.allocate(name, (q.cells + 1ull) * each * 4);
-        device.fill(buffer, value);
-        return buffer;
-    };
-    q.boxes = per_cell("queue: boxes of cells", 6, 0xffffffffu);
-    q.emptied = per_cell("queue: emptied cells", 1, 0);
-    q.starts = per_cell("queue: starts of cells", 1, 0);
-    q.next_starts = per_cell("queue: next starts of cells", 1, 0);
-    q.entries = 0;
-}
-
 /// Places of records that are not empty.
 void add_points(Device& device, const QueueRecords& records, double photon_weight,
                 std::vector<glm::vec4>& points) {
@@ -193,14 +146,67 @@ PhotonQueue make_photon_queue(std::uint32_t window, std::uint32_t leaf_size) {
     return q;
 }
 
+void set_queue_cells(Device& device, PhotonQueue& q, CellTree tree, bool parts_caustics) {
+    q.tree = std::move(tree);
+    q.caustic = parts_caustics ? q.tree.cells : 0;
+    q.cells = q.tree.cells * (parts_caustics ? 2 : 1);
+    std::vector<std::uint32_t> distances;
+    distances.reserve(q.cells);
+    for (std::uint32_t kind = 0; kind < q.cells / q.tree.cells; ++kind) {
+        for (const std::uint32_t level : q.tree.levels) {
+            distances.push_back(kind_distance - 1 - level);
+        }
+        distances.push_back(kind_distance); // of caustic photons from all others
+    }
+    distances.back() = no_neighbour;
+    q.nodes = upload(device, "queue: tree of cells", q.tree.nodes);
+    q.distances = upload(device, "queue: distances of cells", distances);
+    const auto per_cell = [&](const char* name, std::uint64_t each, std::uint32_t value) {
+        Buffer buffer = device.allocate(name, (q.cells + 1ull) * each * 4);
+        device.fill(buffer, value);
+        return buffer;
+    };
+    q.boxes = per_cell("queue: boxes of cells", 6, 0xffffffffu);
+    q.emptied = per_cell("queue: emptied cells", 1, 0);
+    q.starts = per_cell("queue: starts of cells", 1, 0);
+    q.next_starts = per_cell("queue: next starts of cells", 1, 0);
+    q.entries = 0;
+}
+
+void allocate_queue(Device& device, PhotonQueue& q, const std::vector<QueueBlock>& before) {
+    if (room(q) > max_stored_photons(device) || q.block_room > queue_record_mask) {
+        fail("keeping photons from frame to frame: {} blocks of {} records each and {} area "
+             "samples are more than '{}' can address; use fewer photons or a smaller window",
+             q.window, q.block_room, q.area_room, device.info().name);
+    }
+    const auto grown = [&](const char* name, const Buffer& old, std::uint64_t elements) {
+        Buffer buffer = device.allocate(name, room(q) * 4);
+        copy_elements(device, old, 0, buffer, 0, elements, 4);
+        return buffer;
+    };
+    const Buffer old = q.stored;
+    q.stored = device.allocate("queue: photons", room(q) * sizeof(PhotonRecord));
+    for (std::size_t b = 0; b < q.blocks.size(); ++b) {
+        copy_elements(device, old, before[b].first, q.stored, q.blocks[b].first,
+                      before[b].records, sizeof(PhotonRecord));
+    }
+    q.of_entry = grown("queue: entries", q.of_entry, q.entries);
+    q.cell_of_entry = grown("queue: cells of entries", q.cell_of_entry, q.entries);
+    q.next_of_entry = grown("queue: next entries", Buffer(), 0);
+    q.next_cell_of_entry = grown("queue: next cells of entries", Buffer(), 0);
+}
+
 void divide_queue(Device& device, PhotonQueue& q, std::span<const CellNode> planes,
                   const QueueRecords& records, double photon_weight, bool parts_caustics) {
     const StageScope stage(device, "divide queue");
     std::vector<glm::vec4> points;
     add_points(device, records, photon_weight, points);
-    set_cells(device, q,
+    set_queue_cells(device, q,
               divide_cells(planes, std::move(points), q.leaf_size, parts_caustics ? 2 : 1),
               parts_caustics);
+    for (QueueBlock& block : q.blocks) {
+        block = {};
+    }
     q.crowded_when_divided = 0;
 }
 
@@ -213,7 +219,7 @@ void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode>
         for (const QueueBlock& block : blocks) {
             add_points(device, records_of(block, stored), 1, points);
         }
-        set_cells(device, q,
+        set_queue_cells(device, q,
                   divide_cells(planes, std::move(points), q.leaf_size, q.caustic > 0 ? 2 : 1),
                   q.caustic > 0);
     }

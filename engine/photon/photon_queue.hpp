@@ -74,4 +74,11 @@ void empty_near(Device& device, PhotonQueue& queue, const std::vector<BoxRecord>
 /// blocks. Waits for the device.
 PhotonMap map_of_queue(Device& device, PhotonQueue& queue, const SampledPart& corrected);
 
+/// Sets the cells of an empty queue. Records only.
+void set_queue_cells(Device& device, PhotonQueue& queue, CellTree tree, bool parts_caustics);
+
+/// Makes memory of the queue's room, and keeps what is in the queue. before: the blocks where they
+/// lie in the old memory. Throws Error if the device cannot address so much.
+void allocate_queue(Device& device, PhotonQueue& queue, const std::vector<QueueBlock>& before);
+
 } // namespace argand
