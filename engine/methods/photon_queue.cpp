@@ -131,7 +131,9 @@ std::uint64_t QueueMethod::photons_of(std::uint32_t block) const {
 }
 
 void QueueMethod::make_room() {
-    const std::uint64_t room = std::max<std::uint64_t>(photons_of(options_.window - 1), 1);
+    // Rays that find covered areas go through the same slots: few would take many dispatches.
+    constexpr std::uint64_t least_room = 1 << 14;
+    const std::uint64_t room = std::max(photons_of(options_.window - 1), least_room);
     if (room_ == room) {
         return;
     }
