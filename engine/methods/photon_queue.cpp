@@ -6,6 +6,7 @@
 #include "methods/bandwidth.hpp"
 #include "methods/fixed_radius.hpp"
 #include "methods/light_change.hpp"
+#include "methods/nearest_photons.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_targets.hpp"
 #include "methods/persist_queue.hpp"
@@ -59,8 +60,9 @@ struct QueueImage {
 class QueueMethod : public Method {
 public:
     explicit QueueMethod(RenderContext& context)
-        : c_(context), options_(queue_options_of(context.settings)),
-          strategy_(make_fixed_radius()) {}
+        : c_(context), options_(options_of(context.settings)),
+          strategy_(options_.estimator == QueueEstimator::nearest ? make_nearest()
+                                                                  : make_fixed_radius()) {}
 
     void begin_frame(Budget& budget) override;
     std::uint64_t passes() const override {
@@ -76,6 +78,7 @@ public:
     void report(RenderStatistics& statistics) const override;
 
 private:
+    static QueueOptions options_of(const RenderSettings& settings);
     std::uint64_t photons() const;
     std::uint64_t photons_of(std::uint32_t block) const;
     std::uint32_t leaf_size() const {
@@ -86,6 +89,7 @@ private:
         return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
     }
     void make_room();
+    void count_all_blocks();
     StoredPhotons trace(const PassNumbers& numbers, std::uint32_t block);
     void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
     void refill(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
@@ -119,10 +123,19 @@ private:
     QueueImage image_;
 };
 
+/// The moments of a shutter's passes do not follow one another: nothing is kept from pass to pass.
+QueueOptions QueueMethod::options_of(const RenderSettings& settings) {
+    QueueOptions options = queue_options_of(settings);
+    if (settings.least_passes > 1) {
+        options.window = 1;
+    }
+    return options;
+}
+
 /// Photons in the queue once it is full.
 std::uint64_t QueueMethod::photons() const {
     // Without bounces no photon is ever looked up.
-    return c_.settings.bounces > 0 ? c_.settings.photons : 0;
+    return c_.settings.bounces > 0 ? (c_.settings.photons + passes() - 1) / passes() : 0;
 }
 
 std::uint64_t QueueMethod::photons_of(std::uint32_t block) const {
@@ -140,6 +153,16 @@ void QueueMethod::make_room() {
     photons_ = make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     room_ = room;
+}
+
+/// An estimate finds the photons of all blocks, but k was learnt for those of one.
+void QueueMethod::count_all_blocks() {
+    if (!c_.settings.neighbours) {
+        learnt_.neighbours *= options_.window;
+    }
+    if (!c_.settings.caustic_neighbours) {
+        learnt_.caustic_neighbours *= options_.window;
+    }
 }
 
 /// Traces a block. The blocks of the window follow one another in one sequence, which goes on with
@@ -229,9 +252,10 @@ void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> 
                                     .stored = stored,
                                     .photons = sorted,
                                     .queries = queries,
-                                    .passes = static_cast<double>(options_.window),
+                                    .passes = static_cast<double>(options_.window * passes()),
                                     .evenness = evenness_in_view(c_, photons_, stored)},
                                    c_.settings);
+        count_all_blocks();
         view_reach_ = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
         return in_view_per_emitted(c_, photons_, stored, queries);
     };

@@ -1,6 +1,7 @@
 #include "methods/queue_options.hpp"
 
 #include "methods/fixed_radius.hpp"
+#include "methods/nearest_photons.hpp"
 #include "methods/render_options.hpp"
 
 #include <algorithm>
@@ -50,6 +51,13 @@ Option fill_option() {
         {"all", "gradual"});
 }
 
+Option estimator_option() {
+    return choice_option("estimator",
+                         "Photons that each estimate takes: those within one radius, as photons "
+                         "does, or the k nearest, as knn does",
+                         {"radius", "knn"});
+}
+
 Option rebuild_option() {
     return choice_option("rebuild",
                          "For comparison: build a tree over all photons of the queue in each frame",
@@ -75,18 +83,24 @@ QueueOptions queue_options_of(const RenderSettings& settings) {
     options.rebuild = rebuild_option().get(settings) == "lbvh";
     options.cells =
         cells_option().get(settings) == "photons" ? QueueCells::photons : QueueCells::triangles;
+    options.estimator =
+        estimator_option().get(settings) == "knn" ? QueueEstimator::nearest : QueueEstimator::radius;
     return options;
 }
 
 std::vector<Option> all_queue_options() {
     std::vector<Option> options = all_photon_map_options(
-        {window_option(), half_life_option(), fill_option(), rebuild_option(), cells_option()});
+        {window_option(), half_life_option(), fill_option(), estimator_option(), rebuild_option(),
+         cells_option()});
     // Widths do not fall from frame to frame.
     constexpr std::array<std::string_view, 4> of_passes{"progressive", "passes", "r1",
                                                         "radius-exponent"};
     std::erase_if(options, [&](const Option& option) {
         return std::find(of_passes.begin(), of_passes.end(), option.name) != of_passes.end();
     });
+    for (const Option& option : nearest_options()) {
+        options.push_back(option);
+    }
     for (const Option& option : fixed_radius_options()) {
         if (option.name == "kernel" || option.name == "support") {
             options.push_back(option);

@@ -12,6 +12,9 @@ namespace argand {
 /// (Shi 2012, §3.3), or where photons lie alone.
 enum class QueueCells : std::uint8_t { triangles, photons };
 
+/// How densities are estimated from the photons of a queue.
+enum class QueueEstimator : std::uint8_t { radius, nearest };
+
 /// Options of the method `photon-queue` (docs/methods/photon-queue.md).
 struct QueueOptions {
     std::uint32_t window = 10;       ///< frames in which all photons are replaced
@@ -20,6 +23,7 @@ struct QueueOptions {
     bool fills = true;    ///< an empty queue is filled at once; else by a block in each frame
     bool rebuild = false; ///< a tree over the photons is built for each frame
     QueueCells cells = QueueCells::triangles;
+    QueueEstimator estimator = QueueEstimator::radius;
 };
 
 QueueOptions queue_options_of(const RenderSettings& settings);

@@ -77,6 +77,18 @@ TEST_F(PhotonQueueFrames, FullQueueIsTheMapOfAllItsPhotons) {
     }
 }
 
+TEST_F(PhotonQueueFrames, FindsTheNearestPhotonsOfAllBlocks) {
+    RenderSettings settings = queue_settings(4);
+    settings.own["estimator"] = "knn";
+    settings.radius = 0.5;
+    settings.neighbours = 60;
+    RenderSettings rebuilt = settings;
+    rebuilt.method = "knn";
+    const RenderResult found = render(lit_room(), settings);
+    expect_equal_to_rounding(found, render(lit_room(), rebuilt));
+    EXPECT_EQ(found.statistics.neighbours, 60u);
+}
+
 TEST_F(PhotonQueueFrames, SlowFirstFramesAreAsBrightAsTheOthers) {
     const Scene scene = lit_room();
     World world(device(), scene);
@@ -171,15 +183,22 @@ TEST_F(PhotonQueueFrames, SurfacesThatMoveLeaveNoPhotonsBehind) {
                     mean(layer(render(scene, settings), "indirect")).y, 1e-3);
 }
 
-TEST_F(PhotonQueueFrames, MorePassesOfAnImageConverge) {
+TEST_F(PhotonQueueFrames, FurtherPassesOfAnImageAddABlockEach) {
     const Scene scene = lit_room();
-    RenderSettings settings = queue_settings(4);
-    settings.least_passes = 9;
-    settings.samples = 18;
-    const RenderResult result = render(scene, settings);
-    EXPECT_EQ(result.statistics.passes, 9u);
-    // The whole queue, and a block for each further pass.
-    EXPECT_EQ(result.statistics.photons_emitted, 8'000u + 8 * 2'000u);
+    World world(device(), scene);
+    const RenderSettings settings = queue_settings(4);
+    Session session(world, scene, settings);
+    session.begin_frame(0);
+    for (int i = 0; i < 9; ++i) {
+        EXPECT_TRUE(session.step({}, proceed_with_frame));
+    }
+    EXPECT_EQ(session.result().statistics.photons_emitted, 8'000u + 8 * 2'000u);
+    // The next frame begins the sequence of photons anew.
+    EXPECT_TRUE(session.step({}, proceed_with_frame));
+    for (int i = 0; i < 4; ++i) {
+        frame(session);
+    }
+    expect_equal_to_rounding(frame(session), render(scene, settings));
 }
 
 TEST_F(PhotonQueueFrames, FramesWithoutPhotonsAreRight) {
@@ -207,19 +226,24 @@ TEST_F(PhotonQueueFrames, FramesWithoutPhotonsAreRight) {
 TEST_F(PhotonQueueFrames, GoesOnFromASavedStateWithTheSameBits) {
     Scene scene = lit_room();
     World world(device(), scene);
-    RenderSettings settings = queue_settings(4);
-    settings.least_passes = 6;
-    settings.samples = 6;
+    const RenderSettings settings = queue_settings(4);
     Session session(world, scene, settings);
+    frame(session);
+    scene.lights[0].position.x += 0.1f;
     session.begin_frame(0);
-    EXPECT_TRUE(session.step(session.next_pass().value(), proceed_with_frame));
-    EXPECT_TRUE(session.step(session.next_pass().value(), proceed_with_frame));
+    EXPECT_TRUE(session.step({}, proceed_with_frame));
     const std::vector<std::uint8_t> state = session.save();
-    const RenderResult expected = finish(session, proceed_with_frame);
+    const auto go_on_from_here = [](Session& from) {
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_TRUE(from.step({}, proceed_with_frame));
+        }
+        return from.result();
+    };
+    const RenderResult expected = go_on_from_here(session);
     Session other(world, scene, settings);
     other.resume(state, 0);
-    EXPECT_TRUE(same_bits(finish(other, proceed_with_frame), expected));
-    std::vector<std::uint8_t> cut(state.begin(), state.end() - 100);
+    EXPECT_TRUE(same_bits(go_on_from_here(other), expected));
+    const std::vector<std::uint8_t> cut(state.begin(), state.end() - 100);
     EXPECT_THROW(other.resume(cut, 0), Error);
 }
 
