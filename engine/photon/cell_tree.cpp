@@ -28,8 +28,8 @@ void add_planes(std::span<const std::uint32_t> words, std::uint32_t address,
     const std::uint32_t parent = words[address + 1];
     planes[node].split = bits_float(words[address + 2]);
     add_planes(words, kd_left_child(address), planes);
-    planes[node].link = (kd_axis(parent) << cell_axis_shift) |
-                        static_cast<std::uint32_t>(planes.size());
+    planes[node].link =
+        (kd_axis(parent) << cell_axis_shift) | static_cast<std::uint32_t>(planes.size());
     add_planes(words, kd_right_child(parent), planes);
 }
 
@@ -96,7 +96,8 @@ struct Divider {
             begin);
         tree.nodes[node].split = split.at;
         divide(first, middle, left, level + 1);
-        tree.levels.push_back(level); // between the last cell on the left and the first on the right
+        tree.levels.push_back(
+            level); // between the last cell on the left and the first on the right
         tree.nodes[node].link = (static_cast<std::uint32_t>(split.axis) << cell_axis_shift) |
                                 static_cast<std::uint32_t>(tree.nodes.size());
         divide(middle, end, right, level + 1);

@@ -370,8 +370,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
 }
 
 std::uint32_t append_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
-                                  const StoredPhotons& stored,
-                                  const PhotonMapSettings& settings) {
+                                  const StoredPhotons& stored, const PhotonMapSettings& settings) {
     make_room(device, w, stored.slots, stored.slots + settings.area_samples);
     return add_area_samples(device, scene, w, stored, settings);
 }

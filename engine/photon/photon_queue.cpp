@@ -93,10 +93,10 @@ SortedRecords sort_into_cells(Device& device, const PhotonQueue& q, const QueueR
              records.slots);
     radix_sort_pairs(device, sorted.cells, sorted.order, records.slots,
                      static_cast<std::uint32_t>(std::bit_width(q.cells)));
-    dispatch(device,
-             kernels::queue_starts{
-                 .cells = sorted.cells, .starts = sorted.starts, .params = params},
-             q.cells + 1ull);
+    dispatch(
+        device,
+        kernels::queue_starts{.cells = sorted.cells, .starts = sorted.starts, .params = params},
+        q.cells + 1ull);
     return sorted;
 }
 
@@ -121,8 +121,7 @@ void add_points(Device& device, const QueueRecords& records, double photon_weigh
     if (records.slots == 0) {
         return;
     }
-    const auto all =
-        download<PhotonRecord>(device, records.photons, records.slots, records.first);
+    const auto all = download<PhotonRecord>(device, records.photons, records.slots, records.first);
     points.reserve(points.size() + records.records);
     for (const PhotonRecord& p : all) {
         if (p.normal != no_photon) {
@@ -187,8 +186,8 @@ void allocate_queue(Device& device, PhotonQueue& q, const std::vector<QueueBlock
     const Buffer old = q.stored;
     q.stored = device.allocate("queue: photons", room(q) * sizeof(PhotonRecord));
     for (std::size_t b = 0; b < q.blocks.size(); ++b) {
-        copy_elements(device, old, before[b].first, q.stored, q.blocks[b].first,
-                      before[b].records, sizeof(PhotonRecord));
+        copy_elements(device, old, before[b].first, q.stored, q.blocks[b].first, before[b].records,
+                      sizeof(PhotonRecord));
     }
     q.of_entry = grown("queue: entries", q.of_entry, q.entries);
     q.cell_of_entry = grown("queue: cells of entries", q.cell_of_entry, q.entries);
@@ -202,8 +201,8 @@ void divide_queue(Device& device, PhotonQueue& q, std::span<const CellNode> plan
     std::vector<glm::vec4> points;
     add_points(device, records, photon_weight, points);
     set_queue_cells(device, q,
-              divide_cells(planes, std::move(points), q.leaf_size, parts_caustics ? 2 : 1),
-              parts_caustics);
+                    divide_cells(planes, std::move(points), q.leaf_size, parts_caustics ? 2 : 1),
+                    parts_caustics);
     for (QueueBlock& block : q.blocks) {
         block = {};
     }
@@ -220,8 +219,8 @@ void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode>
             add_points(device, records_of(block, stored), 1, points);
         }
         set_queue_cells(device, q,
-                  divide_cells(planes, std::move(points), q.leaf_size, q.caustic > 0 ? 2 : 1),
-                  q.caustic > 0);
+                        divide_cells(planes, std::move(points), q.leaf_size, q.caustic > 0 ? 2 : 1),
+                        q.caustic > 0);
     }
     q.stored = Buffer(); // blocks are sorted from the old memory into new memory
     for (QueueBlock& block : q.blocks) {
@@ -343,7 +342,8 @@ PhotonMap map_of_queue(Device& device, PhotonQueue& q, const SampledPart& correc
                                    .params = params_of(q, q.cells)},
              q.cells);
     exclusive_scan(device, chains, chains, q.cells);
-    map.photons = unshared(device, q.last_sorted, "photons, sorted", room(q) * sizeof(PhotonRecord));
+    map.photons =
+        unshared(device, q.last_sorted, "photons, sorted", room(q) * sizeof(PhotonRecord));
     dispatch(device,
              kernels::queue_map{.entries = q.of_entry,
                                 .cells = q.cell_of_entry,

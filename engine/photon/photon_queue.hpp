@@ -15,13 +15,13 @@ namespace argand {
 /// Records stay where their block was stored; their indices lie apart, in the order of the cells,
 /// old ones before new ones.
 struct PhotonQueue {
-    std::uint32_t window = 1;    ///< blocks of photons; the area samples are the one behind them
+    std::uint32_t window = 1; ///< blocks of photons; the area samples are the one behind them
     std::uint32_t leaf_size = 16;
-    CellTree tree;               ///< without nodes before the first block
-    std::uint32_t cells = 0;     ///< twice those of the tree if caustic photons lie apart
-    std::uint32_t caustic = 0;   ///< the first cell of caustic photons; 0: none
-    std::uint64_t entries = 0;   ///< records that are in the queue
-    std::uint64_t crowded = 0;   ///< records in cells that hold more than twice leaf_size
+    CellTree tree;             ///< without nodes before the first block
+    std::uint32_t cells = 0;   ///< twice those of the tree if caustic photons lie apart
+    std::uint32_t caustic = 0; ///< the first cell of caustic photons; 0: none
+    std::uint64_t entries = 0; ///< records that are in the queue
+    std::uint64_t crowded = 0; ///< records in cells that hold more than twice leaf_size
     std::uint64_t crowded_when_divided = 0;
     std::vector<QueueBlock> blocks; ///< window + 1
     std::uint64_t block_room = 0, area_room = 0;
@@ -33,7 +33,7 @@ struct PhotonQueue {
     Buffer stored;    ///< PhotonRecord, by block
     Buffer of_entry, cell_of_entry, starts;                ///< see queue_move.h
     Buffer next_of_entry, next_cell_of_entry, next_starts; ///< memory for the next ones
-    Buffer last_sorted; ///< of the last map
+    Buffer last_sorted;                                    ///< of the last map
 };
 
 /// An empty queue.

@@ -24,14 +24,10 @@ protected:
 
     PhotonRecord photon_at(glm::vec3 p, bool caustic = false) {
         std::uniform_real_distribution<float> flux(0.1f, 1);
-        return {p.x,
-                p.y,
-                p.z,
-                pack_photon_normal({0, 1, 0}, caustic),
-                flux(random_),
-                flux(random_),
-                flux(random_),
-                pack_unit(glm::normalize(glm::vec3(0.5f, 1, 0)))};
+        return {p.x,           p.y,
+                p.z,           pack_photon_normal({0, 1, 0}, caustic),
+                flux(random_), flux(random_),
+                flux(random_), pack_unit(glm::normalize(glm::vec3(0.5f, 1, 0)))};
     }
 
     std::vector<PhotonRecord> random_photons(std::size_t count, bool caustics = false) {
@@ -343,11 +339,8 @@ TEST_F(PhotonQueues, SlowAThousandFramesTakeNoMoreMemoryThanTen) {
 
 TEST(CellTree, HasThePlanesItIsGivenWhereThereAreManyPoints) {
     // x < 0 and, on its right, y < 0.5.
-    const std::vector<CellNode> planes{{2, 0},
-                                       {3u << 30, 0},
-                                       {(1u << 30) | 4, 0.5f},
-                                       {3u << 30, 0},
-                                       {3u << 30, 0}};
+    const std::vector<CellNode> planes{
+        {2, 0}, {3u << 30, 0}, {(1u << 30) | 4, 0.5f}, {3u << 30, 0}, {3u << 30, 0}};
     std::vector<glm::vec4> points;
     for (int i = 0; i < 40; ++i) {
         points.emplace_back(i < 20 ? -1 : 1, i % 2 == 0 ? 0 : 1, 0, 0.5f);

@@ -11,8 +11,8 @@ FN void main() {
     vec3 high = high_corner(cell) + vec3(params.reach);
     for (uint i = 0u; i < params.count; ++i) {
         BoxRecord m = moved[i];
-        vec3 gap = max(low - vec3(m.high_x, m.high_y, m.high_z),
-                       vec3(m.low_x, m.low_y, m.low_z) - high);
+        vec3 gap =
+            max(low - vec3(m.high_x, m.high_y, m.high_z), vec3(m.low_x, m.low_y, m.low_z) - high);
         if (max_component(gap) <= real(0.0)) {
             emptied[cell] = params.moment;
             return;

@@ -20,8 +20,7 @@ FN void main() {
         low = low_corner(cell);
         high = high_corner(cell);
     }
-    leaf_boxes[cell] =
-        BoxRecord(low.x, low.y, low.z, real(0.0), high.x, high.y, high.z, real(0.0));
+    leaf_boxes[cell] = BoxRecord(low.x, low.y, low.z, real(0.0), high.x, high.y, high.z, real(0.0));
     real weight = real(0.0);
     for (uint b = 0u; b < params.blocks; ++b) {
         weight += blocks[b].moment > emptied[cell] ? blocks[b].weight : real(0.0);
