@@ -23,8 +23,8 @@ double change_of(const LightRecord& a, const LightRecord& b, double distance) {
     const glm::dvec3 a_d(a.dx, a.dy, a.dz);
     const glm::dvec3 b_d(b.dx, b.dy, b.dz);
     if (a.kind == light_triangle) {
-        moved = std::max({moved, distance_of(a_d, b_d),
-                          distance_of({a.ex, a.ey, a.ez}, {b.ex, b.ey, b.ez})});
+        moved = std::max(
+            {moved, distance_of(a_d, b_d), distance_of({a.ex, a.ey, a.ez}, {b.ex, b.ey, b.ez})});
     } else {
         turned = distance_of(a_d, b_d) + std::abs(double(a.cos_inner) - b.cos_inner) +
                  std::abs(double(a.cos_outer) - b.cos_outer);

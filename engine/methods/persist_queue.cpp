@@ -80,12 +80,9 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
     }
     persist_elements<std::uint32_t>(archive, device, q.boxes, 6ull * q.cells);
     persist_elements<std::uint32_t>(archive, device, q.emptied, q.cells);
-    const auto starts =
-        persist_elements<std::uint32_t>(archive, device, q.starts, q.cells + 1ull);
-    const auto of_entry =
-        persist_elements<std::uint32_t>(archive, device, q.of_entry, q.entries);
-    const auto cells =
-        persist_elements<std::uint32_t>(archive, device, q.cell_of_entry, q.entries);
+    const auto starts = persist_elements<std::uint32_t>(archive, device, q.starts, q.cells + 1ull);
+    const auto of_entry = persist_elements<std::uint32_t>(archive, device, q.of_entry, q.entries);
+    const auto cells = persist_elements<std::uint32_t>(archive, device, q.cell_of_entry, q.entries);
     persist_elements<PhotonRecord>(archive, device, q.stored,
                                    q.window * q.block_room + q.area_room);
     check(std::is_sorted(starts.begin(), starts.end()) && starts.back() == q.entries &&

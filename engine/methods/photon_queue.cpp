@@ -1,6 +1,5 @@
 #include "photon/photon_queue.hpp"
 
-#include "accel/kdtree_host.hpp"
 #include "base/error.hpp"
 #include "device/copy_elements.hpp"
 #include "methods/bandwidth.hpp"
@@ -8,17 +7,17 @@
 #include "methods/light_change.hpp"
 #include "methods/nearest_photons.hpp"
 #include "methods/persist_buffer.hpp"
-#include "methods/photon_targets.hpp"
 #include "methods/persist_queue.hpp"
+#include "methods/photon_targets.hpp"
 #include "methods/queue_options.hpp"
 #include "methods/render_options.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
 #include "photon/radius.hpp"
+#include "photon/triangle_planes.hpp"
 #include "shared/photon.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -51,7 +50,7 @@ struct QueueImage {
     std::uint64_t blocks = 0, emitted = 0, stored = 0; ///< traced for it
     std::uint64_t passes = 0;
     double flux_unit = 0;
-    double in_view = 0; ///< photons stored in view per photon emitted
+    double in_view = 0;  ///< photons stored in view per photon emitted
     bool traced = false; ///< the photons of the next pass are in the queue already
 };
 
@@ -100,7 +99,7 @@ private:
     void weigh();
     PhotonMap make_map();
     PhotonMap rebuilt(const PhotonMap& map);
-    std::vector<CellNode> planes() const;
+    const std::vector<CellNode>& planes();
 
     RenderContext& c_;
     QueueOptions options_;
@@ -109,6 +108,7 @@ private:
     PhotonWorkspace rebuild_; ///< with --rebuild
     std::uint64_t room_ = 0;  ///< photons of a block for which the workspace was made
 
+    std::optional<std::vector<CellNode>> planes_; ///< none: not known yet
     PhotonQueue queue_;
     std::vector<BlockAge> ages_; ///< of the blocks
     std::uint32_t moment_ = 0;   ///< of the last update, from 1; 0: there is no queue
@@ -146,11 +146,19 @@ std::uint64_t QueueMethod::photons_of(std::uint32_t block) const {
 void QueueMethod::make_room() {
     // Rays that find covered areas go through the same slots: few would take many dispatches.
     constexpr std::uint64_t least_room = 1 << 14;
-    const std::uint64_t room = std::max(photons_of(options_.window - 1), least_room);
+    const std::uint64_t most = max_photons_per_pass(c_.device);
+    const std::uint64_t room =
+        std::max(photons_of(options_.window - 1), std::min(least_room, most));
     if (room_ == room) {
         return;
     }
-    photons_ = make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
+    if (room > most) {
+        fail("rendering '{}': '{}' cannot trace {} photons at once, as many as a frame has; use "
+             "fewer photons or a larger window",
+             c_.scene.name, c_.device.info().name, room);
+    }
+    photons_ =
+        make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
     photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
     room_ = room;
 }
@@ -169,11 +177,11 @@ void QueueMethod::count_all_blocks() {
 /// each pass of an image, and begins anew with each image.
 StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block) {
     const bool light = c_.on_device.record.light_count > 0;
-    const PhotonPass emission{
-        .seed = numbers.seed,
-        .first = photons() * numbers.index + photons() * block / options_.window,
-        .count = light ? photons_of(block) : 0,
-        .bounces = c_.settings.bounces};
+    const PhotonPass emission{.seed = numbers.seed,
+                              .first =
+                                  photons() * numbers.index + photons() * block / options_.window,
+                              .count = light ? photons_of(block) : 0,
+                              .bounces = c_.settings.bounces};
     const std::optional<StoredPhotons> stored = trace_photons(
         c_.device, c_.on_device, photons_, emission, static_cast<float>(image_.flux_unit));
     if (!stored) {
@@ -207,32 +215,27 @@ void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& sto
     }
     const double radius = strategy_->typical_radius(learnt_);
     sample_areas_in_view(c_, view_reach_, radius, 1);
-    const std::uint32_t samples =
-        append_area_samples(c_.device, c_.on_device, photons_, stored,
-                            {.area_samples = area_samples(c_.on_device.areas.area, radius, 1),
-                             .cover_height = disc_half_height * radius,
-                             .seed = area_seed(numbers)});
+    // The others are photons.
+    const std::uint64_t most = max_stored_photons(c_.device) / 4;
+    const std::uint64_t wanted = area_samples(c_.on_device.areas.area, radius, 1);
+    const std::uint32_t samples = append_area_samples(c_.device, c_.on_device, photons_, stored,
+                                                      {.area_samples = std::min(wanted, most),
+                                                       .cover_height = disc_half_height * radius,
+                                                       .seed = area_seed(numbers)});
     sampled_ = c_.on_device.areas.part;
     replace_block(c_.device, queue_, options_.window, queue_always,
                   {photons_.photons, stored.slots, samples, samples});
     areas_moved_ = samples == 0 && stored.photons == 0; // no photon: a later block may have some
 }
 
-/// The planes of the triangles' kd-tree, at rest.
-std::vector<CellNode> QueueMethod::planes() const {
-    if (options_.cells == QueueCells::photons || c_.scene.triangles.empty()) {
-        return {};
+const std::vector<CellNode>& QueueMethod::planes() {
+    if (!planes_) {
+        const double records = static_cast<double>(photons());
+        planes_ = options_.cells == QueueCells::photons
+                      ? std::vector<CellNode>()
+                      : triangle_planes(c_.scene, records / leaf_size());
     }
-    std::vector<BoxRecord> boxes;
-    boxes.reserve(c_.scene.triangles.size());
-    for (const auto& t : c_.scene.triangles) {
-        const std::array<glm::vec3, 3> p{c_.scene.positions[t[0]], c_.scene.positions[t[1]],
-                                         c_.scene.positions[t[2]]};
-        const glm::vec3 low = glm::min(p[0], glm::min(p[1], p[2]));
-        const glm::vec3 high = glm::max(p[0], glm::max(p[1], p[2]));
-        boxes.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, 0});
-    }
-    return planes_of(build_kdtree_on_host(boxes, {}).words);
+    return *planes_;
 }
 
 /// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
@@ -317,13 +320,13 @@ double QueueMethod::age() {
     }
     if (!moved.empty()) {
         emptied_ = moment_;
-        empty_near(c_.device, queue_, moved,
-                   reach_of_moved * strategy_->typical_radius(learnt_), moment_);
+        empty_near(c_.device, queue_, moved, reach_of_moved * strategy_->typical_radius(learnt_),
+                   moment_);
         areas_moved_ = true;
     }
     const double in_disc = photons_in_disc(static_cast<double>(queue_.entries));
-    const double half_life = options_.half_life.value_or(
-        balanced_half_life(change, options_.window, in_disc));
+    const double half_life =
+        options_.half_life.value_or(balanced_half_life(change, options_.window, in_disc));
     for (BlockAge& block : ages_) {
         block.half_lives += 1 / half_life;
     }
@@ -335,8 +338,7 @@ void QueueMethod::update(const PassNumbers& numbers, std::span<const glm::vec4> 
                          Budget* budget) {
     const bool begins = moment_ == 0;
     if (begins) {
-        seen_ = {c_.on_device.light_table, c_.on_device.meshes,
-                 c_.on_device.last_material_change};
+        seen_ = {c_.on_device.light_table, c_.on_device.meshes, c_.on_device.last_material_change};
     }
     const double change = begins ? infinity : age();
     ++moment_;
@@ -344,10 +346,10 @@ void QueueMethod::update(const PassNumbers& numbers, std::span<const glm::vec4> 
     if (emptied_ > 0 && moment_ > emptied_ + options_.window) {
         emptied_ = 0;
     }
-    const bool moved_view = std::isfinite(sampled_.reach) && !begins &&
-                            glm::distance(sampled_.center,
-                                          c_.scene.cameras[c_.settings.camera].position) >
-                                0.1 * sampled_.reach;
+    const bool moved_view =
+        std::isfinite(sampled_.reach) && !begins &&
+        glm::distance(sampled_.center, c_.scene.cameras[c_.settings.camera].position) >
+            0.1 * sampled_.reach;
     areas_moved_ = areas_moved_ || moved_view;
     if (begins || change > most_change || (emptied_ > 0 && is_crowded(queue_))) {
         refill(numbers, queries, budget);
@@ -402,9 +404,9 @@ PhotonMap QueueMethod::rebuilt(const PhotonMap& map) {
     c_.device.fill(rebuild_.counters, 0);
     upload_word(c_.device, rebuild_.counters, counter_stored_slots,
                 static_cast<std::uint32_t>(records));
-    PhotonMap result = build_photon_map(
-        c_.device, c_.on_device, rebuild_, {.slots = records, .photons = records},
-        {.leaf_size = c_.settings.leaf_size, .wide_codes = c_.settings.wide_codes});
+    PhotonMap result =
+        build_photon_map(c_.device, c_.on_device, rebuild_, {.slots = records, .photons = records},
+                         {.leaf_size = c_.settings.leaf_size});
     result.area_samples = map.area_samples;
     result.corrected = map.corrected;
     return result;
@@ -414,8 +416,8 @@ PhotonMap QueueMethod::make_map() {
     weigh();
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
-    const PhotonMap map = map_of_queue(c_.device, queue_,
-                                       {sampled_.center, inner_share * sampled_.reach});
+    const PhotonMap map =
+        map_of_queue(c_.device, queue_, {sampled_.center, inner_share * sampled_.reach});
     return options_.rebuild ? rebuilt(map) : map;
 }
 
@@ -426,17 +428,17 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
     image_.traced = false;
     const PhotonMap map = make_map();
     const double cell = c_.settings.query_cell * strategy_->typical_radius(learnt_);
-    c_.eye.queries.sharing = {.cell = cell,
-                              .caustics_apart = strategy_->parts_caustics(
-                                  learnt_, cell > 0 || c_.settings.final_gather),
-                              .sharp_caustics = has_sharp_caustics(learnt_)};
+    c_.eye.queries.sharing = {
+        .cell = cell,
+        .caustics_apart = strategy_->parts_caustics(learnt_, cell > 0 || c_.settings.final_gather),
+        .sharp_caustics = has_sharp_caustics(learnt_)};
     const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, learnt_);
     const PhotonLookup lookup{.map = map, .estimator = *estimator};
-    const EyePass eye{
-        .seed = pass.numbers.seed,
-        .first_sample = static_cast<std::uint32_t>(pass.numbers.index * samples_per_pass()),
-        .samples = samples_per_pass(),
-        .bounces = c_.settings.bounces};
+    const EyePass eye{.seed = pass.numbers.seed,
+                      .first_sample =
+                          static_cast<std::uint32_t>(pass.numbers.index * samples_per_pass()),
+                      .samples = samples_per_pass(),
+                      .bounces = c_.settings.bounces};
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
     ++image_.passes;
     return finished;

@@ -16,10 +16,10 @@ namespace {
 constexpr double most_window = 128;
 
 Option window_option() {
-    Option option =
-        own_option("window", "Frames in which all photons of the queue are replaced: each traces "
-                             "--photons divided by this number",
-                   OptionKind::integer, "10");
+    Option option = own_option("window",
+                               "Frames in which all photons of the queue are replaced: each traces "
+                               "--photons divided by this number",
+                               OptionKind::integer, "10");
     option.low = 1;
     option.high = most_window;
     return option;
@@ -83,20 +83,20 @@ QueueOptions queue_options_of(const RenderSettings& settings) {
     options.rebuild = rebuild_option().get(settings) == "lbvh";
     options.cells =
         cells_option().get(settings) == "photons" ? QueueCells::photons : QueueCells::triangles;
-    options.estimator =
-        estimator_option().get(settings) == "knn" ? QueueEstimator::nearest : QueueEstimator::radius;
+    options.estimator = estimator_option().get(settings) == "knn" ? QueueEstimator::nearest
+                                                                  : QueueEstimator::radius;
     return options;
 }
 
 std::vector<Option> all_queue_options() {
-    std::vector<Option> options = all_photon_map_options(
-        {window_option(), half_life_option(), fill_option(), estimator_option(), rebuild_option(),
-         cells_option()});
-    // Widths do not fall from frame to frame.
-    constexpr std::array<std::string_view, 4> of_passes{"progressive", "passes", "r1",
-                                                        "radius-exponent"};
+    std::vector<Option> options =
+        all_photon_map_options({window_option(), half_life_option(), fill_option(),
+                                estimator_option(), rebuild_option(), cells_option()});
+    // Widths do not fall from frame to frame, and no photon is sorted by a code.
+    constexpr std::array<std::string_view, 5> without{"progressive", "passes", "r1",
+                                                      "radius-exponent", "wide-codes"};
     std::erase_if(options, [&](const Option& option) {
-        return std::find(of_passes.begin(), of_passes.end(), option.name) != of_passes.end();
+        return std::find(without.begin(), without.end(), option.name) != without.end();
     });
     for (const Option& option : nearest_options()) {
         options.push_back(option);

@@ -175,7 +175,7 @@ void set_queue_cells(Device& device, PhotonQueue& q, CellTree tree, bool parts_c
 void allocate_queue(Device& device, PhotonQueue& q, const std::vector<QueueBlock>& before) {
     if (room(q) > max_stored_photons(device) || q.block_room > queue_record_mask) {
         fail("keeping photons from frame to frame: {} blocks of {} records each and {} area "
-             "samples are more than '{}' can address; use fewer photons or a smaller window",
+             "samples are more than '{}' can address; use fewer photons",
              q.window, q.block_room, q.area_room, device.info().name);
     }
     const auto grown = [&](const char* name, const Buffer& old, std::uint64_t elements) {
