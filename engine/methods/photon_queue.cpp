@@ -38,13 +38,6 @@ struct BlockAge {
     double half_lives = 0;
 };
 
-/// What the photons of the queue have seen.
-struct SeenScene {
-    LightTable lights;
-    std::vector<MeshPlace> meshes;
-    std::uint64_t last_material_change = 0;
-};
-
 /// What belongs to one image.
 struct QueueImage {
     std::uint64_t blocks = 0, emitted = 0, stored = 0; ///< traced for it
@@ -288,29 +281,9 @@ void QueueMethod::add_next(const PassNumbers& numbers) {
 /// Lets the photons in the queue grow older by what has changed since the last update, and drops
 /// those near surfaces that have moved. Returns how much the light has changed.
 double QueueMethod::age() {
-    const DeviceScene& now = c_.on_device;
-    const double distance = now.record.radius;
-    double change = light_change(seen_.lights, now.light_table, distance);
-    if (seen_.last_material_change != now.last_material_change) {
-        change = infinity;
-    }
     std::vector<BoxRecord> moved;
-    for (std::size_t i = 0; i < now.meshes.size(); ++i) {
-        if (now.meshes[i].last_moved == seen_.meshes[i].last_moved) {
-            continue;
-        }
-        const auto add_box = [&](const Bounds& b) {
-            moved.push_back({b.low.x, b.low.y, b.low.z, 0, b.high.x, b.high.y, b.high.z, 0});
-        };
-        const Bounds& from = seen_.meshes[i].box;
-        const Bounds& to = now.meshes[i].box;
-        add_box(from);
-        add_box(to);
-        const double step =
-            std::max(glm::distance(from.low, to.low), glm::distance(from.high, to.high));
-        change = std::max(change, std::min(step / distance, 0.5 * most_change));
-    }
-    seen_ = {now.light_table, now.meshes, now.last_material_change};
+    const double change = scene_change(seen_, c_.on_device, moved);
+    seen_ = seen_of(c_.on_device);
     if (!(change > 0) && moved.empty()) {
         return 0;
     }
@@ -338,7 +311,7 @@ void QueueMethod::update(const PassNumbers& numbers, std::span<const glm::vec4> 
                          Budget* budget) {
     const bool begins = moment_ == 0;
     if (begins) {
-        seen_ = {c_.on_device.light_table, c_.on_device.meshes, c_.on_device.last_material_change};
+        seen_ = seen_of(c_.on_device);
     }
     const double change = begins ? infinity : age();
     ++moment_;
@@ -468,7 +441,7 @@ void QueueMethod::persist(Archive& archive) {
     if (archive.loads()) {
         make_room();
         queue_ = make_photon_queue(options_.window, leaf_size());
-        seen_ = {c_.on_device.light_table, c_.on_device.meshes, c_.on_device.last_material_change};
+        seen_ = seen_of(c_.on_device);
     }
     persist_queue(archive, c_.device, queue_);
     persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));

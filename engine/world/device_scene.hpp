@@ -17,8 +17,8 @@ namespace argand {
 
 /// Where a mesh that moves is.
 struct MeshPlace {
-    Bounds box;                    ///< of the vertices that its triangles use
-    std::uint64_t last_moved = 0;  ///< World::revision() after it moved last; 0: never
+    Bounds box;                   ///< of the vertices that its triangles use
+    std::uint64_t last_moved = 0; ///< World::revision() after it moved last; 0: never
 };
 
 /// A scene on a device, in the layout that shading kernels read (shaders/comp/scene_bindings.glsl).
@@ -42,7 +42,7 @@ struct DeviceScene {
     /// Other moving ones are of an earlier moment.
     std::shared_ptr<const std::vector<glm::vec3>> moved_positions;
     SampledAreas areas;
-    std::vector<MeshPlace> meshes; ///< that move, as in Motion::meshes
+    std::vector<MeshPlace> meshes;          ///< that move, as in Motion::meshes
     std::uint64_t last_material_change = 0; ///< World::revision() after it; 0: never
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 

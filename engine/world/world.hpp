@@ -75,9 +75,9 @@ private:
     Buffer normals_; ///< empty until a plan needs them
     TriangleBvh bvh_;
     std::uint64_t revision_ = 0;
-    std::uint64_t last_material_change_ = 0;  ///< see DeviceScene
-    std::vector<std::uint64_t> last_moved_;   ///< of each moving mesh, see MeshPlace
-    double cost_of_build_ = 0; ///< see traversal_cost(); 0: not known yet
+    std::uint64_t last_material_change_ = 0; ///< see DeviceScene
+    std::vector<std::uint64_t> last_moved_;  ///< of each moving mesh, see MeshPlace
+    double cost_of_build_ = 0;               ///< see traversal_cost(); 0: not known yet
 
     MovingMeshes meshes_;
     Bounds box_at_rest_;         ///< of what does not move

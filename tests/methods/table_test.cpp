@@ -13,8 +13,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(MethodTable, UsersKnowTheBuiltInMethodsByTheseNames) {
-    EXPECT_THAT(method_names(), ElementsAre("footprints", "photons", "knn", "progressive",
-                                            "photon-queue", "path"));
+    EXPECT_THAT(method_names(),
+                ElementsAre("footprints", "photons", "knn", "progressive", "photon-queue", "path"));
     EXPECT_EQ(RenderSettings().method, "footprints");
 }
 
