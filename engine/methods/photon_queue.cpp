@@ -208,8 +208,9 @@ void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& sto
     }
     const double radius = strategy_->typical_radius(learnt_);
     sample_areas_in_view(c_, view_reach_, radius, 1);
-    // The others are photons.
-    const std::uint64_t most = max_stored_photons(c_.device) / 4;
+    // Half of the room is left to photons, if they need it.
+    const std::uint64_t room = max_stored_photons(c_.device);
+    const std::uint64_t most = room - std::min(room / 2, 2 * options_.window * stored.photons);
     const std::uint64_t wanted = area_samples(c_.on_device.areas.area, radius, 1);
     const std::uint32_t samples = append_area_samples(c_.device, c_.on_device, photons_, stored,
                                                       {.area_samples = std::min(wanted, most),
