@@ -62,6 +62,7 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
     archive.value(entries);
     archive.value(q.crowded);
     archive.value(q.crowded_when_divided);
+    archive.value(q.divided_for);
     if (archive.loads()) {
         const std::uint64_t most = max_stored_photons(device);
         check(is_tree(tree) && (!parts_caustics || tree.cells > 1) &&

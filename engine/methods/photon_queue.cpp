@@ -86,6 +86,7 @@ private:
     void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
     void refill(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
     void add_next(const PassNumbers& numbers);
+    void divide_if_crowded();
     void update(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
     double age();
     void add_areas(const PassNumbers& numbers, const StoredPhotons& stored);
@@ -232,6 +233,12 @@ const std::vector<CellNode>& QueueMethod::planes() {
     return *planes_;
 }
 
+void QueueMethod::divide_if_crowded() {
+    if (is_crowded(queue_) && emptied_ == 0) {
+        divide_queue_anew(c_.device, queue_, planes());
+    }
+}
+
 /// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
 void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> queries,
                          Budget* budget) {
@@ -269,14 +276,13 @@ void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> 
             add(numbers, block, trace(numbers, block));
         }
     }
+    divide_if_crowded();
 }
 
 /// Adds the next block, in the place of the oldest one.
 void QueueMethod::add_next(const PassNumbers& numbers) {
     add(numbers, next_, trace(numbers, next_));
-    if (is_crowded(queue_) && emptied_ == 0) {
-        divide_queue_anew(c_.device, queue_, planes());
-    }
+    divide_if_crowded();
 }
 
 /// Lets the photons in the queue grow older by what has changed since the last update, and drops

@@ -207,6 +207,7 @@ void divide_queue(Device& device, PhotonQueue& q, std::span<const CellNode> plan
         block = {};
     }
     q.crowded_when_divided = 0;
+    q.divided_for = records.records;
 }
 
 void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode> planes) {
@@ -242,10 +243,12 @@ void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode>
         }
     }
     q.crowded_when_divided = 0;
+    q.divided_for = q.entries;
 }
 
 bool is_crowded(const PhotonQueue& q) {
-    return 4 * q.crowded > q.entries && q.crowded > 2 * q.crowded_when_divided;
+    return q.entries > 2 * q.divided_for ||
+           (4 * q.crowded > q.entries && q.crowded > 2 * q.crowded_when_divided);
 }
 
 void replace_block(Device& device, PhotonQueue& q, std::uint32_t block, std::uint32_t moment,

@@ -23,6 +23,7 @@ struct PhotonQueue {
     std::uint64_t entries = 0; ///< records that are in the queue
     std::uint64_t crowded = 0; ///< records in cells that hold more than twice leaf_size
     std::uint64_t crowded_when_divided = 0;
+    std::uint64_t divided_for = 0;  ///< records for which space was divided
     std::vector<QueueBlock> blocks; ///< window + 1
     std::uint64_t block_room = 0, area_room = 0;
 
@@ -56,8 +57,9 @@ void divide_queue(Device& device, PhotonQueue& queue, std::span<const CellNode> 
 /// surfaces have moved since the oldest block was traced: see empty_near(). Waits for the device.
 void divide_queue_anew(Device& device, PhotonQueue& queue, std::span<const CellNode> planes);
 
-/// Whether search would gain from new cells: a quarter of the records lies in crowded ones, and
-/// twice as many as when they were divided last.
+/// Whether search would gain from new cells: they were divided for fewer than half of the records,
+/// and follow the noise of these few, or a quarter of the records lies in crowded ones, and twice
+/// as many as when they were divided last.
 bool is_crowded(const PhotonQueue& queue);
 
 /// Drops a block and adds records in its place, traced at this moment (from 1 on, rising). Waits
