@@ -131,6 +131,15 @@ constexpr std::uint32_t least_narrowed = 8;
 
 } // namespace
 
+void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
+    archive.value(bandwidth.radii);
+    archive.value(bandwidth.neighbours);
+    archive.value(bandwidth.caustic_neighbours);
+    archive.value(bandwidth.smoothing);
+    archive.value(bandwidth.caustic_smoothing);
+    archive.flag(bandwidth.caustics);
+}
+
 double in_disc_of_pass(double photons, double passes, bool caustic) {
     return photons_in_disc(photons * passes, caustic) / passes;
 }

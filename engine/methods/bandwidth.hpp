@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.hpp"
 #include "methods/render_settings.hpp"
 #include "photon/gather.hpp"
 #include "photon/sort_photons.hpp"
@@ -17,6 +18,9 @@ struct Bandwidth {
     double caustic_smoothing = 0;
     bool caustics = false; ///< whether there are caustic photons
 };
+
+/// Saves or loads a bandwidth.
+void persist_bandwidth(Archive& archive, Bandwidth& bandwidth);
 
 /// Whether caustics have a smaller radius than other light.
 inline bool has_sharp_caustics(const Bandwidth& bandwidth) {

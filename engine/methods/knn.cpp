@@ -1,3 +1,4 @@
+#include "methods/nearest_photons.hpp"
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
 #include "photon/nearest.hpp"
@@ -96,15 +97,19 @@ Option caustic_neighbours_option() {
 
 } // namespace
 
+std::unique_ptr<EstimationStrategy> make_nearest() { return std::make_unique<Nearest>(); }
+
+std::vector<Option> nearest_options() { return {neighbours_option(), caustic_neighbours_option()}; }
+
 MethodInfo knn_method() {
     return {.name = "knn",
             .summary = "photon mapping, density over the k nearest photons",
             .paper = "Jensen 1996",
             .abilities = {.photon_map = true},
             .law = photon_mapping_law,
-            .options = all_photon_map_options({neighbours_option(), caustic_neighbours_option()}),
+            .options = all_photon_map_options(nearest_options()),
             .make = [](RenderContext& context) {
-                return make_photon_mapping(context, std::make_unique<Nearest>());
+                return make_photon_mapping(context, make_nearest());
             }};
 }
 

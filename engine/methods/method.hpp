@@ -40,9 +40,9 @@ public:
     virtual ~Method() = default;
 
     /// Does the work that precedes the first pass of an image. The context's scene, settings and
-    /// lights are those of the image, and its film is empty. Of earlier images only memory is kept.
-    /// The time of the first pass begins where this calls budget.start_pass(); work that only the
-    /// first pass has goes into budget.once().
+    /// lights are those of the image, and its film is empty. Of earlier images only memory is kept,
+    /// unless the method has the ability keeps_photons. The time of the first pass begins where
+    /// this calls budget.start_pass(); work that only the first pass has goes into budget.once().
     virtual void begin_frame(Budget& budget) { budget.start_pass(); }
 
     /// Passes over which the samples and photons of the settings are spread. Known after
@@ -52,6 +52,9 @@ public:
     /// Adds one pass to the film. on_part: told the share of this pass. Returns false if on_part
     /// did; the film then holds the samples that were finished.
     virtual bool pass(const Pass& pass, const OnProgress& on_part) = 0;
+
+    /// Whether the next image of the same scene with the same random numbers would be this one.
+    virtual bool is_settled() const { return true; }
 
     /// Passes, at least one, for which one seed has numbers: their indices are below this. Known
     /// after begin_frame().

@@ -17,9 +17,10 @@ struct RenderContext;
 /// What a method can do and needs. The rest of Argand reads these instead of comparing names.
 struct Abilities {
     bool unbiased = false; ///< the mean of its images is the truth, so that it serves as reference
-    bool photon_map = false;  ///< it estimates radiance from photons
-    bool footprints = false;  ///< its photons carry ray differentials
-    bool progressive = false; ///< its widths fall from pass to pass, without an option for that
+    bool photon_map = false;    ///< it estimates radiance from photons
+    bool footprints = false;    ///< its photons carry ray differentials
+    bool progressive = false;   ///< its widths fall from pass to pass, without an option for that
+    bool keeps_photons = false; ///< images depend on those before them in the same session
 };
 
 /// How the error of an image of n passes falls:

@@ -5,13 +5,12 @@
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
-#include "methods/photons_in_view.hpp"
 #include "methods/search_options.hpp"
+#include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
 #include "photon/photon_map.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
-#include "shared/random.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,11 +20,8 @@ namespace argand {
 
 namespace {
 
-// Units of the fixed-point flux sums in the mean flux of a photon.
-constexpr double units_per_photon = 1 << 18;
 // Photons of a pass over the most of a first pass.
 constexpr std::uint64_t most_growth = 8;
-constexpr std::size_t flux_words = 12; // four sums of three channels
 
 /// How photons and samples are spread over passes. All passes count the same, so they are of one
 /// size: the noise of a small last one would be the noise of the image. Each pass has at least one
@@ -50,23 +46,6 @@ PassSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint
     return s;
 }
 
-/// Seed of a pass's area samples, which differs for every seed and pass of an image.
-std::uint32_t area_seed(const PassNumbers& numbers) {
-    return pcg4d({numbers.seed, static_cast<std::uint32_t>(numbers.index), 0xa4ea5u, 0}).x;
-}
-
-FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {
-    FluxSums sums;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        sums.emitted[channel] = words[channel];
-        sums.absorbed[channel] = words[3 + channel];
-        sums.escaped[channel] = words[6 + channel];
-        sums.cut[channel] = words[9 + channel];
-    }
-    sums.unit = unit;
-    return sums;
-}
-
 /// What belongs to one image.
 struct ImageState {
     std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
@@ -88,15 +67,6 @@ struct ImageState {
     std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
     double in_view = 0;             ///< photons stored in view per photon emitted
 };
-
-void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
-    archive.value(bandwidth.radii);
-    archive.value(bandwidth.neighbours);
-    archive.value(bandwidth.caustic_neighbours);
-    archive.value(bandwidth.smoothing);
-    archive.value(bandwidth.caustic_smoothing);
-    archive.flag(bandwidth.caustics);
-}
 
 void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.emitted);
@@ -147,7 +117,7 @@ public:
                                   .queries = queries,
                                   .passes =
                                       progressive_ ? 1 : static_cast<double>(image_.split.passes),
-                                  .evenness = evenness_in_view()};
+                                  .evenness = evenness_in_view(c_, photons_, *first_)};
             RenderSettings settings = c_.settings;
             if (progressive_) {
                 settings.radius = settings.progressive.first_radius;
@@ -157,7 +127,7 @@ public:
             sample_areas_in_view(c_, image_.view_reach, strategy_->typical_radius(learnt), 1);
             return learnt;
         });
-        image_.in_view = in_view_per_emitted(queries);
+        image_.in_view = in_view_per_emitted(c_, photons_, *first_, queries);
     }
 
     std::uint64_t passes() const override {
@@ -185,8 +155,6 @@ private:
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
     double area_share() const;
-    double evenness_in_view();
-    double in_view_per_emitted(std::span<const glm::vec4> queries);
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
 
     RenderContext& c_;
@@ -298,67 +266,6 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
         }
         image_.split = split(c_.settings, image_.emitted, image_.split.photons / 2);
     }
-}
-
-/// Records from all over the slots of a pass, in this many runs: its bounces follow one another
-/// there.
-std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots,
-                                       std::uint64_t runs, std::uint64_t in_run) {
-    if (slots <= runs * in_run) {
-        return download<PhotonRecord>(device, photons, slots);
-    }
-    std::vector<PhotonRecord> found;
-    found.reserve(runs * in_run);
-    for (std::uint64_t i = 0; i < runs; ++i) {
-        const std::vector<PhotonRecord> run =
-            download<PhotonRecord>(device, photons, in_run, (slots - in_run) * i / (runs - 1));
-        found.insert(found.end(), run.begin(), run.end());
-    }
-    return found;
-}
-
-/// Of photons that were aimed at what is in view, many carry little flux and a few much. The noise
-/// of n of them is that of (Σ flux)² / Σ flux² photons of equal flux. Surfaces that face away from
-/// the camera do not count: a sun may shine on the outer side of a room's walls.
-double PhotonMapping::evenness_in_view() {
-    const SceneRecord& scene = c_.on_device.record;
-    if (!(scene.view_share > 0)) {
-        return 1;
-    }
-    constexpr double least = 1.0 / 64;
-    const Camera& camera = c_.scene.cameras[c_.settings.camera];
-    const bool perspective = camera.kind == CameraKind::perspective;
-    double count = 0;
-    double sum = 0;
-    double squares = 0;
-    for (const PhotonRecord& photon :
-         some_photons(c_.device, photons_.photons, first_->slots, 64, 4096)) {
-        if (photon.normal == no_photon) {
-            continue;
-        }
-        const glm::vec3 place(photon.x, photon.y, photon.z);
-        const glm::vec3 normal = unpack_photon_normal(photon.normal);
-        const glm::vec3 to_eye = perspective ? camera.position - place : -camera.forward;
-        const bool in_view = glm::distance(place, glm::vec3(scene.view)) < scene.view.w &&
-                             glm::dot(normal, to_eye) > 0;
-        if (in_view) {
-            const double flux = double(photon.flux_r) + photon.flux_g + photon.flux_b;
-            ++count;
-            sum += flux;
-            squares += flux * flux;
-        }
-    }
-    return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
-}
-
-double PhotonMapping::in_view_per_emitted(std::span<const glm::vec4> queries) {
-    if (first_->emitted == 0) {
-        return 0;
-    }
-    const double share = share_in_view(
-        some_photons(c_.device, photons_.photons, first_->slots, 16, 512), queries,
-        c_.scene.cameras[c_.settings.camera], double(c_.settings.width) / c_.settings.height);
-    return share * static_cast<double>(first_->photons) / static_cast<double>(first_->emitted);
 }
 
 /// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the

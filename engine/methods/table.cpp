@@ -14,6 +14,7 @@
     METHOD(photons)                                                                                \
     METHOD(knn)                                                                                    \
     METHOD(progressive)                                                                            \
+    METHOD(photon_queue)                                                                           \
     METHOD(path)
 
 namespace argand {

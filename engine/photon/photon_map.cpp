@@ -372,13 +372,18 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
     return StoredPhotons{counters[counter_stored_slots], counters[counter_photons], pass.count};
 }
 
+std::uint32_t append_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                                  const StoredPhotons& stored, const PhotonMapSettings& settings) {
+    make_room(device, w, stored.slots, stored.slots + settings.area_samples);
+    return add_area_samples(device, scene, w, stored, settings);
+}
+
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                            const StoredPhotons& stored, const PhotonMapSettings& settings) {
     PhotonMap map;
-    make_room(device, w, stored.slots, stored.slots + settings.area_samples);
+    map.area_samples = append_area_samples(device, scene, w, stored, settings);
     map.photons =
         unshared(device, w.last_sorted, "photons, sorted", w.capacity * sizeof(PhotonRecord));
-    map.area_samples = add_area_samples(device, scene, w, stored, settings);
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
     map.corrected = {scene.areas.part.center, inner_share * scene.areas.part.reach};

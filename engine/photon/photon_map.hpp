@@ -94,6 +94,12 @@ struct PhotonMapSettings {
                                               ///< answered together
 };
 
+/// Appends samples of the surfaces' area to the stored photons of the workspace, which grows for
+/// them, in the place of any that a map has added. Returns their number. Records only.
+std::uint32_t append_area_samples(Device& device, const DeviceScene& scene,
+                                  PhotonWorkspace& workspace, const StoredPhotons& stored,
+                                  const PhotonMapSettings& settings);
+
 /// Builds the map over the stored photons and over samples of the surfaces' area, which tell a
 /// query how much of its disc lies on surfaces. Waits for the device.
 PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,

@@ -53,7 +53,7 @@ Session::Shown Session::now() const {
 }
 
 bool Session::is_current(std::uint32_t seed) const {
-    return complete_ && seed == settings_.seed && *complete_ == now();
+    return complete_ && seed == settings_.seed && *complete_ == now() && method_->is_settled();
 }
 
 void Session::follow() {

@@ -34,8 +34,8 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// Begins an image of the scene as it is now, and as World::update() has been told. Its bits do
-    /// not depend on the images before it. seed: replaces that of the settings. Call it before the
-    /// first pass. Throws Error if the device cannot do it.
+    /// not depend on the images before it, unless the method keeps photons. seed: replaces that of
+    /// the settings. Call it before the first pass. Throws Error if the device cannot do it.
     void begin_frame(std::uint32_t seed);
 
     /// Whether the image is complete and shows the scene as it is now, after World::update(), with

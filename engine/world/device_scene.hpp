@@ -18,6 +18,12 @@
 
 namespace argand {
 
+/// Where a mesh that moves is.
+struct MeshPlace {
+    Bounds box;                   ///< of the vertices that its triangles use
+    std::uint64_t last_moved = 0; ///< World::revision() after it moved last; 0: never
+};
+
 /// A scene on a device, in the layout that shading kernels read (shaders/comp/scene_bindings.glsl).
 struct DeviceScene {
     Buffer scene;         ///< one SceneRecord
@@ -43,6 +49,8 @@ struct DeviceScene {
     std::shared_ptr<const CasterTable> casters;    ///< null without followed paths and a photon map
     std::shared_ptr<const EmissiveParts> emissive; ///< null if no mesh that moves shines
     SampledAreas areas;
+    std::vector<MeshPlace> meshes;          ///< that move, as in Motion::meshes
+    std::uint64_t last_material_change = 0; ///< World::revision() after it; 0: never
     Plan plan; ///< which parts kernels need; buffers that they do not need hold one element
 
     /// Buffers for the member `scene` of a kernel that shades.

@@ -82,6 +82,7 @@ World::World(Device& device, const Scene& scene, const TracerSettings& tracer)
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
     uploaded_materials_ = material_records(scene);
     materials_ = upload(device, "materials", uploaded_materials_);
+    last_moved_.resize(scene.motion.meshes.size());
     mirrored_.reserve(scene.motion.meshes.size());
     for (const MovingMesh& mesh : scene.motion.meshes) {
         mirrored_.push_back(mesh.mirrored);
@@ -117,6 +118,7 @@ void World::upload_turned(const Scene& scene, WorldUpdate& update) {
                 upload_part(device_, triangles_, mesh.first_triangle,
                             triangle_records(scene, mesh.first_triangle, mesh.triangles));
             mirrored_[i] = mesh.mirrored;
+            last_moved_[i] = revision_ + 1;
             ++update.turned_meshes;
         }
     }
@@ -127,6 +129,7 @@ bool World::follow_meshes(const Scene& scene, WorldUpdate& update) {
     PoseRecords pose = meshes_.pose_of(scene);
     for (const std::size_t mesh : meshes_.moved_by(scene, pose)) {
         update.moved.push_back({.mesh = mesh, .before = meshes_.boxes(scene)[mesh]});
+        last_moved_[mesh] = revision_ + 1;
     }
     if (!update.moved.empty()) {
         update.uploaded_bytes += meshes_.upload_pose(std::move(pose));
@@ -179,6 +182,9 @@ WorldUpdate World::update(const Scene& scene) {
     if (update.uploaded_bytes > 0) {
         areas_.reset();
         ++revision_;
+    }
+    if (update.changed_materials > 0) {
+        last_material_change_ = revision_;
     }
     if (!update.refitted) {
         return update;
@@ -234,6 +240,11 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     result.triangles = triangles_;
     result.materials = materials_;
     result.bvh = bvh_;
+    result.last_material_change = last_material_change_;
+    result.meshes.reserve(last_moved_.size());
+    for (std::size_t i = 0; i < last_moved_.size(); ++i) {
+        result.meshes.push_back({meshes_.boxes(scene)[i], last_moved_[i]});
+    }
     const std::vector<std::uint32_t>& shines = shining(scene);
     if (meshes_.have_any(emitting_)) {
         if (!emissive_) {

@@ -86,7 +86,9 @@ private:
     Buffer attributes_;     ///< the same
     TriangleBvh bvh_;
     std::uint64_t revision_ = 0;
-    double cost_of_build_ = 0; ///< see traversal_cost(); 0: not known yet
+    std::uint64_t last_material_change_ = 0; ///< see DeviceScene
+    std::vector<std::uint64_t> last_moved_;  ///< of each moving mesh, see MeshPlace
+    double cost_of_build_ = 0;               ///< see traversal_cost(); 0: not known yet
     double tree_cost_ = 1;
 
     MovingMeshes meshes_;

@@ -104,6 +104,17 @@ TEST_F(BadInput, KdTreesThatAreNone) {
     expect_failure(scene + "--tracer kdtree --tree-memory 100", failure, "does not hold one leaf");
 }
 
+TEST_F(BadInput, QueuesThatAreNone) {
+    const std::string scene =
+        "render '" + asset("cornell_point.glb") + "' --size 8x8 --method photon-queue ";
+    for (const char* option : {"--window 0", "--window -1", "--window 129", "--half-life 0",
+                               "--half-life -2", "--half-life nan", "--estimator median"}) {
+        const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+        expect_failure(scene + option, usage, name);
+    }
+    expect_failure(scene + "--photons 20000000 --radius 1", failure, "fewer photons");
+}
+
 TEST_F(BadInput, ProgressiveWidthsThatAreNone) {
     const std::string scene = "render '" + asset("cornell_point.glb") + "' --size 8x8 ";
     for (const char* option : {"--passes 0", "--passes 1.5", "--passes -1", "--radius-exponent 0",

@@ -8,6 +8,7 @@
 #include "session/render.hpp"
 #include "support/abilities.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
@@ -121,11 +122,17 @@ inline std::vector<std::string> methods_that(bool quick) {
     return names;
 }
 
+/// A method's name as part of the name of a test, which has no hyphens.
+inline std::string test_name(std::string method) {
+    std::replace(method.begin(), method.end(), '-', '_');
+    return method;
+}
+
 // Quick tests run one method with a photon map and the one without; slow tests run all others.
 #define INSTANTIATE_METHODS(suite)                                                                 \
     INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(methods_that(true)),              \
-                             [](const auto& method) { return method.param; });                     \
+                             [](const auto& method) { return test_name(method.param); });          \
     INSTANTIATE_TEST_SUITE_P(SlowMethods, suite, ::testing::ValuesIn(methods_that(false)),         \
-                             [](const auto& method) { return method.param; })
+                             [](const auto& method) { return test_name(method.param); })
 
 } // namespace argand::testing

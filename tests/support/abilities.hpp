@@ -16,4 +16,9 @@ inline bool is_unbiased(std::string_view method) {
     return builtin_methods().at(method).abilities.unbiased;
 }
 
+/// Whether its images depend on those before them in the same session.
+inline bool keeps_photons(std::string_view method) {
+    return builtin_methods().at(method).abilities.keeps_photons;
+}
+
 } // namespace argand::testing

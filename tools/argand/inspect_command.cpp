@@ -4,6 +4,7 @@
 #include "methods/method_info.hpp"
 #include "methods/plan_render.hpp"
 #include "scene/gltf.hpp"
+#include "scene/motion.hpp"
 #include "scene/summary.hpp"
 #include "scene_options.hpp"
 
@@ -46,6 +47,26 @@ nlohmann::ordered_json plan_json(const Scene& scene, MethodTable methods) {
             {"left_out", left_out}};
 }
 
+/// What a photons queue would keep from frame to frame, and what lets it drop or age; empty if
+/// nothing moves.
+std::string kept_text(const Motion& motion) {
+    std::vector<std::string> words;
+    if (!motion.materials.empty()) {
+        words.emplace_back("none while materials change");
+    }
+    if (!motion.meshes.empty()) {
+        words.emplace_back(fmt::format("those away from {} moving {}", motion.meshes.size(),
+                                       motion.meshes.size() == 1 ? "mesh" : "meshes"));
+    }
+    if (!motion.lights.empty()) {
+        words.emplace_back("older ones count less while lights move");
+    }
+    if (words.empty() && !motion.cameras.empty()) {
+        words.emplace_back("all: only the camera moves");
+    }
+    return fmt::format("{}", fmt::join(words, "; "));
+}
+
 std::string plan_text(const nlohmann::ordered_json& plan) {
     std::string text =
         fmt::format("{:<12}{} (default)\n{:<12}{}\n", "method", plan["method"].get<std::string>(),
@@ -69,11 +90,18 @@ void inspect(const InspectOptions& options) {
     const Scene scene = load_gltf(options.scene, options.seconds);
     nlohmann::ordered_json summary = summary_json(scene);
     const nlohmann::ordered_json plan = plan_json(scene, options.methods);
+    const std::string kept = kept_text(scene.motion);
     if (options.json) {
         summary["plan"] = plan;
+        if (!kept.empty()) {
+            summary["photon_queue_keeps"] = kept;
+        }
         fmt::print("{}", json_text(summary));
     } else {
         fmt::print("{}{}", summary_text(scene), plan_text(plan));
+        if (!kept.empty()) {
+            fmt::print("{:<12}by --method photon-queue, of the photons: {}\n", "frames keep", kept);
+        }
     }
 }
 

@@ -1,0 +1,98 @@
+#include "methods/persist_queue.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+
+namespace argand {
+
+namespace {
+
+void check(bool holds) {
+    if (!holds) {
+        fail("loading a saved state: it is not one of a photons queue");
+    }
+}
+
+/// Saves or loads elements of a buffer. Returns them.
+template <class T>
+std::vector<T> persist_elements(Archive& archive, Device& device, const Buffer& buffer,
+                                std::uint64_t count) {
+    std::vector<T> elements;
+    if (!archive.loads() && count > 0) {
+        elements = download<T>(device, buffer, count);
+    }
+    archive.values(elements);
+    check(elements.size() == count);
+    if (archive.loads() && count > 0) {
+        device.upload(buffer, 0, std::as_bytes(std::span(elements)));
+    }
+    return elements;
+}
+
+/// Whether each node's children are nodes behind it, and its cells are those of the tree.
+bool is_tree(const CellTree& tree) {
+    std::uint32_t cells = 0;
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const std::uint32_t link = tree.nodes[i].link & cell_link_mask;
+        const bool leaf = tree.nodes[i].link >> cell_axis_shift == cell_is_leaf;
+        if (leaf ? link != cells++ : link <= i + 1 || link >= tree.nodes.size()) {
+            return false;
+        }
+    }
+    return cells > 0 && cells == tree.cells && tree.levels.size() + 1 == cells &&
+           std::all_of(tree.levels.begin(), tree.levels.end(),
+                       [](std::uint32_t level) { return level < most_cell_levels; });
+}
+
+} // namespace
+
+void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
+    CellTree tree = q.tree;
+    std::vector<QueueBlock> blocks = q.blocks;
+    bool parts_caustics = q.caustic > 0;
+    std::uint64_t entries = q.entries;
+    archive.values(tree.nodes);
+    archive.value(tree.cells);
+    archive.values(tree.levels);
+    archive.flag(parts_caustics);
+    archive.values(blocks);
+    archive.value(q.block_room);
+    archive.value(q.area_room);
+    archive.value(entries);
+    archive.value(q.crowded);
+    archive.value(q.crowded_when_divided);
+    archive.value(q.divided_for);
+    if (archive.loads()) {
+        const std::uint64_t most = max_stored_photons(device);
+        check(is_tree(tree) && (!parts_caustics || tree.cells > 1) &&
+              blocks.size() == q.window + 1ull && q.block_room <= most && q.area_room <= most &&
+              entries <= q.window * q.block_room + q.area_room);
+        set_queue_cells(device, q, std::move(tree), parts_caustics);
+        for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+            const std::uint64_t room = b < q.window ? q.block_room : q.area_room;
+            // A block that was never traced lies nowhere.
+            check(blocks[b].records <= room &&
+                  (blocks[b].records == 0 || blocks[b].first == b * q.block_room));
+        }
+        allocate_queue(device, q, q.blocks);
+        q.blocks = blocks;
+        q.entries = entries;
+    }
+    persist_elements<std::uint32_t>(archive, device, q.boxes, 6ull * q.cells);
+    persist_elements<std::uint32_t>(archive, device, q.emptied, q.cells);
+    const auto starts = persist_elements<std::uint32_t>(archive, device, q.starts, q.cells + 1ull);
+    const auto of_entry = persist_elements<std::uint32_t>(archive, device, q.of_entry, q.entries);
+    const auto cells = persist_elements<std::uint32_t>(archive, device, q.cell_of_entry, q.entries);
+    persist_elements<PhotonRecord>(archive, device, q.stored,
+                                   q.window * q.block_room + q.area_room);
+    check(std::is_sorted(starts.begin(), starts.end()) && starts.back() == q.entries &&
+          std::all_of(cells.begin(), cells.end(),
+                      [&](std::uint32_t cell) { return cell < q.cells; }) &&
+          std::all_of(of_entry.begin(), of_entry.end(), [&](std::uint32_t entry) {
+              const std::uint32_t block = entry >> queue_block_shift;
+              return block <= q.window && (entry & queue_record_mask) < q.blocks[block].records;
+          }));
+}
+
+} // namespace argand

@@ -1,0 +1,487 @@
+#include "photon/photon_queue.hpp"
+
+#include "base/error.hpp"
+#include "device/copy_elements.hpp"
+#include "methods/bandwidth.hpp"
+#include "methods/fixed_radius.hpp"
+#include "methods/light_change.hpp"
+#include "methods/nearest_photons.hpp"
+#include "methods/persist_buffer.hpp"
+#include "methods/persist_queue.hpp"
+#include "methods/photon_targets.hpp"
+#include "methods/queue_options.hpp"
+#include "methods/render_options.hpp"
+#include "methods/traced_photons.hpp"
+#include "methods/view_areas.hpp"
+#include "photon/radius.hpp"
+#include "photon/triangle_planes.hpp"
+#include "shared/photon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace argand {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Light that changes by more from one frame to the next has all its photons traced anew.
+constexpr double most_change = 0.5;
+// Moved boxes reach so many radii of estimation farther.
+constexpr double reach_of_moved = 1;
+
+/// A block of the queue: its photons, and how much older they are than those of the last frame, in
+/// half-lives.
+struct BlockAge {
+    std::uint64_t emitted = 0;
+    double half_lives = 0;
+};
+
+/// What belongs to one image.
+struct QueueImage {
+    std::uint64_t blocks = 0, emitted = 0, stored = 0; ///< traced for it
+    std::uint64_t passes = 0;
+    double flux_unit = 0;
+    double in_view = 0;  ///< photons stored in view per photon emitted
+    bool traced = false; ///< the photons of the next pass are in the queue already
+};
+
+/// The photons queue (Shi 2012, chapter 3): each frame traces a block of photons, which takes the
+/// place of the oldest one in a queue whose cells stay.
+class QueueMethod : public Method {
+public:
+    explicit QueueMethod(RenderContext& context)
+        : c_(context), options_(options_of(context.settings)),
+          strategy_(options_.estimator == QueueEstimator::nearest ? make_nearest()
+                                                                  : make_fixed_radius()) {}
+
+    void begin_frame(Budget& budget) override;
+    std::uint64_t passes() const override {
+        return std::max<std::uint64_t>(c_.settings.least_passes, 1);
+    }
+    bool pass(const Pass& pass, const OnProgress& on_part) override;
+    bool is_settled() const override { return still_ >= options_.window; }
+    std::uint64_t passes_per_seed() const override {
+        return numbers_of_seed /
+               std::max<std::uint64_t>({photons(), samples_per_pass(), std::uint64_t(1)});
+    }
+    void persist(Archive& archive) override;
+    void report(RenderStatistics& statistics) const override;
+
+private:
+    static QueueOptions options_of(const RenderSettings& settings);
+    std::uint64_t photons() const;
+    std::uint64_t photons_of(std::uint32_t block) const;
+    std::uint32_t leaf_size() const {
+        constexpr std::uint32_t automatic = 16; // as that of photon_map.cpp
+        return c_.settings.leaf_size > 0 ? c_.settings.leaf_size : automatic;
+    }
+    std::uint32_t samples_per_pass() const {
+        return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
+    }
+    void make_room();
+    void count_all_blocks();
+    StoredPhotons trace(const PassNumbers& numbers, std::uint32_t block);
+    void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
+    void refill(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
+    void add_next(const PassNumbers& numbers);
+    void divide_if_crowded();
+    void update(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
+    double age();
+    void add_areas(const PassNumbers& numbers, const StoredPhotons& stored);
+    void weigh();
+    PhotonMap make_map();
+    PhotonMap rebuilt(const PhotonMap& map);
+    const std::vector<CellNode>& planes();
+
+    RenderContext& c_;
+    QueueOptions options_;
+    std::unique_ptr<EstimationStrategy> strategy_;
+    PhotonWorkspace photons_;
+    PhotonWorkspace rebuild_; ///< with --rebuild
+    std::uint64_t room_ = 0;  ///< photons of a block for which the workspace was made
+
+    std::optional<std::vector<CellNode>> planes_; ///< none: not known yet
+    PhotonQueue queue_;
+    std::vector<BlockAge> ages_; ///< of the blocks
+    std::uint32_t moment_ = 0;   ///< of the last update, from 1; 0: there is no queue
+    std::uint32_t next_ = 0;     ///< the block to trace next
+    std::uint32_t emptied_ = 0;  ///< moment at which cells were emptied last
+    std::uint32_t still_ = 0;    ///< blocks traced since anything changed
+    SeenScene seen_;
+    Bandwidth learnt_;
+    double view_reach_ = 0;
+    SampledPart sampled_;     ///< where the area samples lie
+    bool areas_moved_ = true; ///< they have to be sampled anew
+    QueueImage image_;
+};
+
+/// The moments of a shutter's passes do not follow one another: nothing is kept from pass to pass.
+QueueOptions QueueMethod::options_of(const RenderSettings& settings) {
+    QueueOptions options = queue_options_of(settings);
+    if (settings.least_passes > 1) {
+        options.window = 1;
+    }
+    return options;
+}
+
+/// Photons in the queue once it is full.
+std::uint64_t QueueMethod::photons() const {
+    // Without bounces no photon is ever looked up.
+    return c_.settings.bounces > 0 ? (c_.settings.photons + passes() - 1) / passes() : 0;
+}
+
+std::uint64_t QueueMethod::photons_of(std::uint32_t block) const {
+    const std::uint64_t window = options_.window;
+    return photons() * (block + 1ull) / window - photons() * block / window;
+}
+
+void QueueMethod::make_room() {
+    // Rays that find covered areas go through the same slots: few would take many dispatches.
+    constexpr std::uint64_t least_room = 1 << 14;
+    const std::uint64_t most = max_photons_per_pass(c_.device);
+    const std::uint64_t room =
+        std::max(photons_of(options_.window - 1), std::min(least_room, most));
+    if (room_ == room) {
+        return;
+    }
+    if (room > most) {
+        fail("rendering '{}': '{}' cannot trace {} photons at once, as many as a frame has; use "
+             "fewer photons or a larger window",
+             c_.scene.name, c_.device.info().name, room);
+    }
+    photons_ =
+        make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
+    photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
+    room_ = room;
+}
+
+/// An estimate finds the photons of all blocks, but k was learnt for those of one.
+void QueueMethod::count_all_blocks() {
+    if (!c_.settings.neighbours) {
+        learnt_.neighbours *= options_.window;
+    }
+    if (!c_.settings.caustic_neighbours) {
+        learnt_.caustic_neighbours *= options_.window;
+    }
+}
+
+/// Traces a block. The blocks of the window follow one another in one sequence, which goes on with
+/// each pass of an image, and begins anew with each image.
+StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block) {
+    const bool light = c_.on_device.record.light_count > 0;
+    const PhotonPass emission{.seed = numbers.seed,
+                              .first =
+                                  photons() * numbers.index + photons() * block / options_.window,
+                              .count = light ? photons_of(block) : 0,
+                              .bounces = c_.settings.bounces};
+    const std::optional<StoredPhotons> stored = trace_photons(
+        c_.device, c_.on_device, photons_, emission, static_cast<float>(image_.flux_unit));
+    if (!stored) {
+        fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer "
+             "bounces or photons",
+             c_.scene.name, c_.device.info().name);
+    }
+    ++image_.blocks;
+    image_.emitted += emission.count;
+    image_.stored += stored->photons;
+    return *stored;
+}
+
+void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
+                      const StoredPhotons& stored) {
+    if (areas_moved_) {
+        add_areas(numbers, stored);
+    }
+    replace_block(c_.device, queue_, block, moment_,
+                  {photons_.photons, 0, stored.slots, stored.photons});
+    ages_[block] = {stored.emitted, 0};
+    next_ = (block + 1) % options_.window;
+    ++still_;
+}
+
+/// Samples the areas of surfaces, behind the photons that were traced last.
+void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& stored) {
+    if (!strategy_->corrects_boundaries(c_.settings)) {
+        areas_moved_ = false;
+        return;
+    }
+    const double radius = strategy_->typical_radius(learnt_);
+    sample_areas_in_view(c_, view_reach_, radius, 1);
+    // Half of the room is left to photons, if they need it.
+    const std::uint64_t room = max_stored_photons(c_.device);
+    const std::uint64_t most = room - std::min(room / 2, 2 * options_.window * stored.photons);
+    const std::uint64_t wanted = area_samples(c_.on_device.areas.area, radius, 1);
+    const std::uint32_t samples = append_area_samples(c_.device, c_.on_device, photons_, stored,
+                                                      {.area_samples = std::min(wanted, most),
+                                                       .cover_height = disc_half_height * radius,
+                                                       .seed = area_seed(numbers)});
+    sampled_ = c_.on_device.areas.part;
+    replace_block(c_.device, queue_, options_.window, queue_always,
+                  {photons_.photons, stored.slots, samples, samples});
+    areas_moved_ = samples == 0 && stored.photons == 0; // no photon: a later block may have some
+}
+
+const std::vector<CellNode>& QueueMethod::planes() {
+    if (!planes_) {
+        const double records = static_cast<double>(photons());
+        planes_ = options_.cells == QueueCells::photons
+                      ? std::vector<CellNode>()
+                      : triangle_planes(c_.scene, records / leaf_size());
+    }
+    return *planes_;
+}
+
+void QueueMethod::divide_if_crowded() {
+    if (is_crowded(queue_) && emptied_ == 0) {
+        divide_queue_anew(c_.device, queue_, planes());
+    }
+}
+
+/// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
+void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> queries,
+                         Budget* budget) {
+    queue_ = make_photon_queue(options_.window, leaf_size());
+    ages_.assign(options_.window, {});
+    areas_moved_ = true;
+    still_ = 0;
+    emptied_ = 0;
+    const StoredPhotons stored = trace(numbers, 0);
+    const auto learn = [&] {
+        const SortedPhotons sorted = sort_photons(c_.device, photons_, stored);
+        learnt_ = strategy_->learn({.device = c_.device,
+                                    .scene = c_.on_device,
+                                    .workspace = photons_,
+                                    .stored = stored,
+                                    .photons = sorted,
+                                    .queries = queries,
+                                    .passes = static_cast<double>(options_.window * passes()),
+                                    .evenness = evenness_in_view(c_, photons_, stored)},
+                                   c_.settings);
+        count_all_blocks();
+        view_reach_ = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
+        return in_view_per_emitted(c_, photons_, stored, queries);
+    };
+    if (budget) { // else a light has appeared within an image
+        image_.in_view = budget->once(learn);
+    }
+    const StoredPhotons both{.slots = stored.slots, .photons = stored.photons};
+    divide_queue(c_.device, queue_, planes(), {photons_.photons, 0, both.slots, both.photons},
+                 options_.window, c_.on_device.plan.needs(Feature::followed_paths));
+    add(numbers, 0, stored);
+    for (std::uint32_t block = 1; block < options_.window; ++block) {
+        const bool has_photons = image_.emitted > 0;
+        if (options_.fills || (!has_photons && photons() > 0)) {
+            add(numbers, block, trace(numbers, block));
+        }
+    }
+    divide_if_crowded();
+}
+
+/// Adds the next block, in the place of the oldest one.
+void QueueMethod::add_next(const PassNumbers& numbers) {
+    add(numbers, next_, trace(numbers, next_));
+    divide_if_crowded();
+}
+
+/// Lets the photons in the queue grow older by what has changed since the last update, and drops
+/// those near surfaces that have moved. Returns how much the light has changed.
+double QueueMethod::age() {
+    std::vector<BoxRecord> moved;
+    const double change = scene_change(seen_, c_.on_device, moved);
+    seen_ = seen_of(c_.on_device);
+    if (!(change > 0) && moved.empty()) {
+        return 0;
+    }
+    still_ = 0;
+    if (change > most_change) {
+        return change;
+    }
+    if (!moved.empty()) {
+        emptied_ = moment_;
+        empty_near(c_.device, queue_, moved, reach_of_moved * strategy_->typical_radius(learnt_),
+                   moment_);
+        areas_moved_ = true;
+    }
+    const double in_disc = photons_in_disc(static_cast<double>(queue_.entries));
+    const double half_life =
+        options_.half_life.value_or(balanced_half_life(change, options_.window, in_disc));
+    for (BlockAge& block : ages_) {
+        block.half_lives += 1 / half_life;
+    }
+    return change;
+}
+
+/// Brings the queue to the scene as it is.
+void QueueMethod::update(const PassNumbers& numbers, std::span<const glm::vec4> queries,
+                         Budget* budget) {
+    const bool begins = moment_ == 0;
+    if (begins) {
+        seen_ = seen_of(c_.on_device);
+    }
+    const double change = begins ? infinity : age();
+    ++moment_;
+    // Where no photon is left from before something moved, cells may be divided anew.
+    if (emptied_ > 0 && moment_ > emptied_ + options_.window) {
+        emptied_ = 0;
+    }
+    const bool moved_view =
+        std::isfinite(sampled_.reach) && !begins &&
+        glm::distance(sampled_.center, c_.scene.cameras[c_.settings.camera].position) >
+            0.1 * sampled_.reach;
+    areas_moved_ = areas_moved_ || moved_view;
+    if (begins || change > most_change || (emptied_ > 0 && is_crowded(queue_))) {
+        refill(numbers, queries, budget);
+    } else {
+        add_next(numbers);
+    }
+}
+
+void QueueMethod::begin_frame(Budget& budget) {
+    image_ = {};
+    make_room();
+    c_.device.fill(photons_.flux_sums, 0);
+    const auto& power = c_.on_device.light_table.power;
+    const double most = std::max({power.r, power.g, power.b});
+    image_.flux_unit = (most > 0 ? most : 1) /
+                       static_cast<double>(std::max<std::uint64_t>(photons_of(0), 1)) /
+                       units_per_photon;
+    const std::vector<glm::vec4> queries = sample_queries(
+        c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
+    aim_at_casters(c_, queries);
+    if (strategy_->takes_uneven_photons()) {
+        aim_at_view(c_, queries);
+    }
+    budget.start_pass();
+    update({.seed = c_.settings.seed, .index = 0}, queries, &budget);
+    image_.traced = true;
+}
+
+/// Sets the weights of the blocks, which sum to 1.
+void QueueMethod::weigh() {
+    const auto weight = [&](std::uint32_t b) {
+        return queue_.blocks[b].moment > 0
+                   ? static_cast<double>(ages_[b].emitted) * std::exp2(-ages_[b].half_lives)
+                   : 0;
+    };
+    double sum = 0;
+    for (std::uint32_t b = 0; b < options_.window; ++b) {
+        sum += weight(b);
+    }
+    for (std::uint32_t b = 0; b < options_.window; ++b) {
+        queue_.blocks[b].weight = static_cast<float>(sum > 0 ? weight(b) / sum : 0);
+    }
+}
+
+/// The map over the same records with a tree of its own, as other methods build it.
+PhotonMap QueueMethod::rebuilt(const PhotonMap& map) {
+    const std::uint64_t records = queue_.entries;
+    if (rebuild_.capacity < records) {
+        rebuild_ = make_photon_workspace(c_.device, records);
+    }
+    copy_elements(c_.device, map.photons, 0, rebuild_.photons, 0, records, sizeof(PhotonRecord));
+    c_.device.fill(rebuild_.counters, 0);
+    upload_word(c_.device, rebuild_.counters, counter_stored_slots,
+                static_cast<std::uint32_t>(records));
+    PhotonMap result =
+        build_photon_map(c_.device, c_.on_device, rebuild_, {.slots = records, .photons = records},
+                         {.leaf_size = c_.settings.leaf_size});
+    result.area_samples = map.area_samples;
+    result.corrected = map.corrected;
+    return result;
+}
+
+PhotonMap QueueMethod::make_map() {
+    weigh();
+    // A disc at the edge of the sampled part would lack some of its samples.
+    constexpr double inner_share = 0.9;
+    const PhotonMap map =
+        map_of_queue(c_.device, queue_, {sampled_.center, inner_share * sampled_.reach});
+    return options_.rebuild ? rebuilt(map) : map;
+}
+
+bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
+    if (!image_.traced) {
+        update(pass.numbers, {}, nullptr);
+    }
+    image_.traced = false;
+    const PhotonMap map = make_map();
+    const double cell = c_.settings.query_cell * strategy_->typical_radius(learnt_);
+    c_.eye.queries.sharing = {
+        .cell = cell,
+        .caustics_apart = strategy_->parts_caustics(learnt_, cell > 0 || c_.settings.final_gather),
+        .sharp_caustics = has_sharp_caustics(learnt_)};
+    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, learnt_);
+    const PhotonLookup lookup{.map = map, .estimator = *estimator};
+    const EyePass eye{.seed = pass.numbers.seed,
+                      .first_sample =
+                          static_cast<std::uint32_t>(pass.numbers.index * samples_per_pass()),
+                      .samples = samples_per_pass(),
+                      .bounces = c_.settings.bounces};
+    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
+    ++image_.passes;
+    return finished;
+}
+
+void QueueMethod::persist(Archive& archive) {
+    archive.value(image_.blocks);
+    archive.value(image_.emitted);
+    archive.value(image_.stored);
+    archive.value(image_.passes);
+    archive.value(image_.flux_unit);
+    archive.value(image_.in_view);
+    archive.flag(image_.traced);
+    archive.values(ages_);
+    archive.value(moment_);
+    archive.value(next_);
+    archive.value(emptied_);
+    archive.value(still_);
+    persist_bandwidth(archive, learnt_);
+    archive.value(view_reach_);
+    archive.value(sampled_);
+    archive.flag(areas_moved_);
+    if (ages_.size() != options_.window || next_ >= options_.window || moment_ == 0) {
+        fail("loading a saved state: it is not one of a photons queue of {} blocks",
+             options_.window);
+    }
+    if (archive.loads()) {
+        make_room();
+        queue_ = make_photon_queue(options_.window, leaf_size());
+        seen_ = seen_of(c_.on_device);
+    }
+    persist_queue(archive, c_.device, queue_);
+    persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
+}
+
+void QueueMethod::report(RenderStatistics& statistics) const {
+    statistics.photons_emitted = image_.emitted;
+    statistics.photons_stored = image_.stored;
+    statistics.photons_in_view = image_.in_view * static_cast<double>(image_.emitted);
+    statistics.radius = learnt_.radii.indirect;
+    statistics.caustic_radius = learnt_.radii.caustic;
+    statistics.neighbours = learnt_.neighbours;
+    statistics.caustic_neighbours = learnt_.caustic_neighbours;
+    statistics.leaf_size = queue_.leaf_size;
+    if (image_.blocks > 0) {
+        // Every block emits all of the lights' power.
+        statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, flux_words),
+                                  image_.flux_unit / static_cast<double>(image_.blocks));
+    }
+}
+
+} // namespace
+
+MethodInfo photon_queue_method() {
+    return {.name = "photon-queue",
+            .summary = "photon mapping, photons kept from frame to frame of a film",
+            .paper = "Shi 2012",
+            .abilities = {.photon_map = true, .keeps_photons = true},
+            .law = photon_mapping_law,
+            .options = all_queue_options(),
+            .make = [](RenderContext& context) -> std::unique_ptr<Method> {
+                return std::make_unique<QueueMethod>(context);
+            }};
+}
+
+} // namespace argand

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "methods/option.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace argand {
+
+/// What divides space into the cells of a photons queue first: the planes of the triangles' kd-tree
+/// (Shi 2012, §3.3), or where photons lie alone.
+enum class QueueCells : std::uint8_t { triangles, photons };
+
+/// How densities are estimated from the photons of a queue.
+enum class QueueEstimator : std::uint8_t { radius, nearest };
+
+/// Options of the method `photon-queue` (docs/methods/photon-queue.md).
+struct QueueOptions {
+    std::uint32_t window = 10;       ///< frames in which all photons are replaced
+    std::optional<double> half_life; ///< of photons where light moves, in frames; none: from the
+                                     ///< motion
+    bool fills = true;    ///< an empty queue is filled at once; else by a block in each frame
+    bool rebuild = false; ///< a tree over the photons is built for each frame
+    QueueCells cells = QueueCells::triangles;
+    QueueEstimator estimator = QueueEstimator::radius;
+};
+
+QueueOptions queue_options_of(const RenderSettings& settings);
+
+/// The method's options: its own, and those that it shares.
+std::vector<Option> all_queue_options();
+
+} // namespace argand

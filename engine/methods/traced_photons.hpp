@@ -1,0 +1,37 @@
+#pragma once
+
+#include "methods/method.hpp"
+#include "photon/photon_map.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace argand {
+
+/// Units of the fixed-point flux sums in the mean flux of a photon.
+inline constexpr double units_per_photon = 1 << 18;
+
+/// Words of PhotonWorkspace::flux_sums: four sums of three channels.
+inline constexpr std::size_t flux_words = 12;
+
+/// The sums of flux, for reports. unit: of the fixed-point sums.
+FluxSums flux_of(const std::vector<std::int64_t>& words, double unit);
+
+/// Seed of a pass's area samples, which differs for every seed and pass of an image.
+std::uint32_t area_seed(const PassNumbers& numbers);
+
+/// Of photons that were aimed at what is in view, many carry little flux and a few much. The noise
+/// of n of them is that of (Σ flux)² / Σ flux² photons of equal flux. Surfaces that face away from
+/// the camera do not count: a sun may shine on the outer side of a room's walls.
+/// Returns at most 1. Waits for the device.
+double evenness_in_view(RenderContext& context, const PhotonWorkspace& workspace,
+                        const StoredPhotons& stored);
+
+/// Photons stored in view per photon emitted, see photons_in_view.hpp. Waits for the device.
+double in_view_per_emitted(RenderContext& context, const PhotonWorkspace& workspace,
+                           const StoredPhotons& stored, std::span<const glm::vec4> queries);
+
+} // namespace argand

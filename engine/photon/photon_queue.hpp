@@ -1,0 +1,86 @@
+#pragma once
+
+#include "photon/cell_tree.hpp"
+#include "photon/photon_map.hpp"
+#include "shared/geometry_records.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace argand {
+
+/// A window of blocks of photons, as a queue: each frame adds one and drops the oldest (Shi 2012,
+/// chapter 3). A tree of cells, which stays from frame to frame, says which photons lie together.
+/// Records stay where their block was stored; their indices lie apart, in the order of the cells,
+/// old ones before new ones.
+struct PhotonQueue {
+    std::uint32_t window = 1; ///< blocks of photons; the area samples are the one behind them
+    std::uint32_t leaf_size = 16;
+    CellTree tree;             ///< without nodes before the first block
+    std::uint32_t cells = 0;   ///< twice those of the tree if caustic photons lie apart
+    std::uint32_t caustic = 0; ///< the first cell of caustic photons; 0: none
+    std::uint64_t entries = 0; ///< records that are in the queue
+    std::uint64_t crowded = 0; ///< records in cells that hold more than twice leaf_size
+    std::uint64_t crowded_when_divided = 0;
+    std::uint64_t divided_for = 0;  ///< records for which space was divided
+    std::vector<QueueBlock> blocks; ///< window + 1
+    std::uint64_t block_room = 0, area_room = 0;
+
+    Buffer nodes;     ///< CellNode
+    Buffer distances; ///< of cells from the next, for lbvh_fit
+    Buffer boxes;     ///< see queue_box.h
+    Buffer emptied;   ///< uint per cell: blocks up to this moment do not count there
+    Buffer stored;    ///< PhotonRecord, by block
+    Buffer of_entry, cell_of_entry, starts;                ///< see queue_move.h
+    Buffer next_of_entry, next_cell_of_entry, next_starts; ///< memory for the next ones
+    Buffer last_sorted;                                    ///< of the last map
+};
+
+/// An empty queue.
+PhotonQueue make_photon_queue(std::uint32_t window, std::uint32_t leaf_size);
+
+/// Records to add to a queue, some of which may be empty slots.
+struct QueueRecords {
+    const Buffer& photons;
+    std::uint64_t first = 0, slots = 0;
+    std::uint64_t records = 0; ///< that are not empty
+};
+
+/// Empties the queue, and divides space into cells for these records, of whose photons there will
+/// be `photon_weight` times as many. planes: see divide_cells(). parts_caustics: whether there may
+/// be caustic photons, which lie in leaves of their own. Waits for the device.
+void divide_queue(Device& device, PhotonQueue& queue, std::span<const CellNode> planes,
+                  const QueueRecords& records, double photon_weight, bool parts_caustics);
+
+/// Divides space anew for the records in the queue, and sorts them into the new cells. Not if
+/// surfaces have moved since the oldest block was traced: see empty_near(). Waits for the device.
+void divide_queue_anew(Device& device, PhotonQueue& queue, std::span<const CellNode> planes);
+
+/// Whether search would gain from new cells: they were divided for fewer than half of the records,
+/// and follow the noise of these few, or a quarter of the records lies in crowded ones, and twice
+/// as many as when they were divided last.
+bool is_crowded(const PhotonQueue& queue);
+
+/// Drops a block and adds records in its place, traced at this moment (from 1 on, rising). Waits
+/// for the device. Throws Error if the queue gets larger than the device can address.
+void replace_block(Device& device, PhotonQueue& queue, std::uint32_t block, std::uint32_t moment,
+                   const QueueRecords& records);
+
+/// Drops, with the next block that is added, what lies near these boxes and was traced up to this
+/// moment. Records only.
+void empty_near(Device& device, PhotonQueue& queue, const std::vector<BoxRecord>& moved,
+                double reach, std::uint32_t moment);
+
+/// The photon map of what is in the queue, with the photons' flux times the weights of their
+/// blocks. Waits for the device.
+PhotonMap map_of_queue(Device& device, PhotonQueue& queue, const SampledPart& corrected);
+
+/// Sets the cells of an empty queue. Records only.
+void set_queue_cells(Device& device, PhotonQueue& queue, CellTree tree, bool parts_caustics);
+
+/// Makes memory of the queue's room, and keeps what is in the queue. before: the blocks where they
+/// lie in the old memory. Throws Error if the device cannot address so much.
+void allocate_queue(Device& device, PhotonQueue& queue, const std::vector<QueueBlock>& before);
+
+} // namespace argand

@@ -1,0 +1,13 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/queue_records.h"
+
+layout(set = 0, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(set = 0, binding = 1) readonly buffer Ranks { uint ranks[]; };
+layout(set = 0, binding = 2) readonly buffer Starts { uint starts[]; };
+layout(set = 0, binding = 3) writeonly buffer NextEntries { uint next_entries[]; };
+layout(set = 0, binding = 4) writeonly buffer NextCells { uint next_cells[]; };
+layout(push_constant) uniform Push { QueueParams params; };
+
+#include "shared/kernels/photon/queue_insert.h"

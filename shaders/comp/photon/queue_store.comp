@@ -1,0 +1,15 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/photon_records.h"
+#include "shared/queue_records.h"
+
+layout(set = 0, binding = 0) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 1) readonly buffer Cells { uint cells[]; };
+layout(set = 0, binding = 2) readonly buffer Order { uint order[]; };
+layout(set = 0, binding = 3) readonly buffer Blocks { QueueBlock blocks[]; };
+layout(set = 0, binding = 4) buffer Boxes { uint boxes[]; };
+layout(set = 0, binding = 5) writeonly buffer Stored { PhotonRecord stored[]; };
+layout(push_constant) uniform Push { QueueParams params; };
+
+#include "shared/kernels/photon/queue_store.h"

@@ -1,0 +1,295 @@
+// The photons queue from frame to frame: what still and moving lights leave in it.
+#include "methods/light_change.hpp"
+#include "moving_scene.hpp"
+#include "rendering.hpp"
+#include "world/world.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace argand::testing {
+namespace {
+
+bool proceed_with_frame(double /*share*/) { return true; }
+
+class PhotonQueueFrames : public RenderTest {
+protected:
+    static RenderSettings queue_settings(std::uint32_t window, bool fills = true) {
+        RenderSettings settings = settings_of("photon-queue", 12, 4);
+        settings.photons = 8'000;
+        settings.own["window"] = std::to_string(window);
+        settings.own["queue-fill"] = fills ? "all" : "gradual";
+        return settings;
+    }
+
+    /// A room with one lamp.
+    static Scene lit_room() {
+        Scene scene = room_scene();
+        scene.lights.resize(1);
+        return scene;
+    }
+
+    static RenderResult frame(Session& session, std::uint32_t seed = 0) {
+        session.begin_frame(seed);
+        return finish(session, proceed_with_frame);
+    }
+
+    /// Expects layers that differ by rounding only.
+    static void expect_equal_to_rounding(const RenderResult& found, const RenderResult& expected) {
+        for (const char* name : {"direct", "indirect", "caustic"}) {
+            const Image& a = layer(found, name);
+            const Image& b = layer(expected, name);
+            for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+                for (int c = 0; c < 3; ++c) {
+                    ASSERT_NEAR(a.pixels[i][c], b.pixels[i][c], 2e-5 * b.pixels[i][c] + 1e-7)
+                        << name << i;
+                }
+            }
+        }
+    }
+};
+
+TEST_F(PhotonQueueFrames, FullQueueIsTheMapOfAllItsPhotons) {
+    const Scene scene = lit_room();
+    World world(device(), scene);
+    for (const std::uint32_t window : {1u, 4u, 64u}) {
+        RenderSettings settings = queue_settings(window);
+        settings.radius = 0.4;
+        RenderSettings rebuilt = settings;
+        rebuilt.method = "photons";
+        const RenderResult expected = render(scene, rebuilt);
+        expect_equal_to_rounding(render(scene, settings), expected);
+        settings.own["rebuild"] = "lbvh";
+        expect_equal_to_rounding(render(scene, settings), expected);
+        // One block in each frame: after the last of the window, and long after.
+        RenderSettings gradual = queue_settings(window, false);
+        gradual.radius = 0.4;
+        Session session(world, scene, gradual);
+        for (std::uint32_t i = 1; i <= window; ++i) {
+            const RenderResult result = frame(session);
+            EXPECT_EQ(result.statistics.photons_emitted, 8'000 / window);
+            EXPECT_EQ(session.is_current(0), i == window);
+            if (i == window) {
+                expect_equal_to_rounding(result, expected);
+            }
+        }
+        expect_equal_to_rounding(frame(session), expected);
+    }
+}
+
+TEST_F(PhotonQueueFrames, FindsTheNearestPhotonsOfAllBlocks) {
+    RenderSettings settings = queue_settings(4);
+    settings.own["estimator"] = "knn";
+    settings.radius = 0.5;
+    settings.neighbours = 60;
+    RenderSettings rebuilt = settings;
+    rebuilt.method = "knn";
+    const RenderResult found = render(lit_room(), settings);
+    expect_equal_to_rounding(found, render(lit_room(), rebuilt));
+    EXPECT_EQ(found.statistics.neighbours, 60u);
+}
+
+TEST_F(PhotonQueueFrames, SlowFirstFramesAreAsBrightAsTheOthers) {
+    const Scene scene = lit_room();
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(5, false);
+    settings.photons = 20'000;
+    settings.radius = 0.4;
+    RenderSettings rebuilt = settings;
+    rebuilt.method = "photons";
+    constexpr int seeds = 12;
+    std::array<glm::dvec3, 3> found{};
+    glm::dvec3 expected(0);
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        Session session(world, scene, settings);
+        for (glm::dvec3& sum : found) {
+            sum += mean(layer(frame(session, seed), "indirect"));
+        }
+        rebuilt.seed = seed;
+        expected += mean(layer(render(scene, rebuilt), "indirect"));
+    }
+    for (const glm::dvec3& sum : found) {
+        EXPECT_RELATIVE(sum.x, expected.x, 0.02);
+        EXPECT_RELATIVE(sum.z, expected.z, 0.02);
+    }
+}
+
+TEST_F(PhotonQueueFrames, NoGhostIsLeftWhereALightJumpsOrHasRestedForAWindow) {
+    Scene scene = lit_room();
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(4);
+    settings.radius = 0.4;
+    Session session(world, scene, settings);
+    frame(session);
+    // A step: the window's frames later nothing is left of the light from before.
+    scene.lights[0].position.x += 0.1f;
+    const RenderResult fresh = render(scene, settings);
+    RenderResult result = frame(session);
+    EXPECT_EQ(result.statistics.photons_emitted, 2'000u);
+    EXPECT_FALSE(session.is_current(0));
+    for (int i = 0; i < 3; ++i) {
+        result = frame(session);
+    }
+    expect_equal_to_rounding(result, fresh);
+    EXPECT_TRUE(session.is_current(0));
+    // Switched off, on, and another one that appears: at once, to the bit.
+    const Light lamp = scene.lights[0];
+    for (const std::vector<Light>& lights :
+         {std::vector<Light>{}, {lamp}, {lamp, point_light({0.5f, 0, 0.5f}, glm::vec3(0.5f))}}) {
+        scene.lights = lights;
+        EXPECT_TRUE(same_bits(frame(session), render(scene, settings))) << lights.size();
+    }
+}
+
+TEST_F(PhotonQueueFrames, SlowMovingLightIsNotFarBehind) {
+    Scene scene = lit_room();
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(8);
+    settings.photons = 80'000;
+    Session session(world, scene, settings);
+    const float end = scene.lights[0].position.x;
+    for (int i = 8; i >= 0; --i) {
+        scene.lights[0].position.x = end - 0.03f * static_cast<float>(i);
+        frame(session);
+    }
+    RenderSettings truth = settings_of("path", 12, 4'096);
+    scene.lights[0].position.x = end + 0.03f;
+    const Image reference = layer(render(scene, truth), "");
+    const double moving = compare(layer(frame(session), ""), reference).rel_mse;
+    const double still = compare(layer(render(scene, settings), ""), reference).rel_mse;
+    EXPECT_LT(moving, 2 * still);
+}
+
+TEST_F(PhotonQueueFrames, SurfacesThatMoveLeaveNoPhotonsBehind) {
+    Scene scene = moving_scene();
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(6);
+    settings.photons = 60'000;
+    settings.radius = 0.2;
+    Session session(world, scene, settings);
+    for (const double time : {0.0, 0.02, 0.04, 0.06, 0.08, 0.1}) {
+        move_to(time, scene);
+        world.update(scene);
+        const RenderResult found = frame(session);
+        EXPECT_EQ(found.statistics.non_finite, 0u);
+        const glm::dvec3 expected = mean(layer(render(scene, settings), "indirect"));
+        EXPECT_RELATIVE(mean(layer(found, "indirect")).y, expected.y, 0.06) << time;
+    }
+    for (int i = 0; i < 6; ++i) {
+        frame(session);
+    }
+    expect_equal_to_rounding(frame(session), frame(session));
+    EXPECT_RELATIVE(mean(layer(frame(session), "indirect")).y,
+                    mean(layer(render(scene, settings), "indirect")).y, 1e-3);
+}
+
+TEST_F(PhotonQueueFrames, FurtherPassesOfAnImageAddABlockEach) {
+    const Scene scene = lit_room();
+    World world(device(), scene);
+    const RenderSettings settings = queue_settings(4);
+    Session session(world, scene, settings);
+    session.begin_frame(0);
+    for (int i = 0; i < 9; ++i) {
+        EXPECT_TRUE(session.step({}, proceed_with_frame));
+    }
+    EXPECT_EQ(session.result().statistics.photons_emitted, 8'000u + 8 * 2'000u);
+    // The next frame begins the sequence of photons anew.
+    EXPECT_TRUE(session.step({}, proceed_with_frame));
+    for (int i = 0; i < 4; ++i) {
+        frame(session);
+    }
+    expect_equal_to_rounding(frame(session), render(scene, settings));
+}
+
+TEST_F(PhotonQueueFrames, FramesWithoutPhotonsAreRight) {
+    const Scene scene = lit_room();
+    World world(device(), scene);
+    for (const std::uint64_t photons : {0u, 1u, 3u}) {
+        for (const bool fills : {true, false}) {
+            RenderSettings settings = queue_settings(8, fills);
+            settings.photons = photons;
+            settings.radius = 0.4; // else area samples are dense
+            Session session(world, scene, settings);
+            for (int i = 0; i < 10; ++i) {
+                const RenderResult result = frame(session);
+                EXPECT_EQ(result.statistics.non_finite, 0u);
+                EXPECT_GT(mean(layer(result, "direct")).x, 0);
+            }
+        }
+    }
+    RenderSettings settings = queue_settings(8);
+    settings.radius = 0.4;
+    settings.bounces = 0;
+    EXPECT_EQ(mean(layer(render(scene, settings), "indirect")), glm::dvec3(0));
+}
+
+TEST_F(PhotonQueueFrames, GoesOnFromASavedStateWithTheSameBits) {
+    Scene scene = lit_room();
+    World world(device(), scene);
+    const RenderSettings settings = queue_settings(4);
+    Session session(world, scene, settings);
+    frame(session);
+    scene.lights[0].position.x += 0.1f;
+    session.begin_frame(0);
+    EXPECT_TRUE(session.step({}, proceed_with_frame));
+    const std::vector<std::uint8_t> state = session.save();
+    const auto go_on_from_here = [](Session& from) {
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_TRUE(from.step({}, proceed_with_frame));
+        }
+        return from.result();
+    };
+    const RenderResult expected = go_on_from_here(session);
+    Session other(world, scene, settings);
+    other.resume(state, 0);
+    EXPECT_TRUE(same_bits(go_on_from_here(other), expected));
+    const std::vector<std::uint8_t> cut(state.begin(), state.end() - 100);
+    EXPECT_THROW(other.resume(cut, 0), Error);
+}
+
+TEST_F(PhotonQueueFrames, EstimatesWithoutWhatFramesKeepAreThoseOfOneMoment) {
+    Scene scene = lit_room();
+    World world(device(), scene);
+    const RenderSettings settings = queue_settings(4);
+    for (int i = 0; i < 3; ++i) {
+        scene.lights[0].position.x += 0.05f;
+        Session session(world, scene, settings); // as --keep none
+        EXPECT_TRUE(same_bits(frame(session), render(scene, settings)));
+    }
+}
+
+TEST(LightChange, IsThatOfTheLightThatChangesMost) {
+    LightTable before;
+    before.lights = {LightRecord{.kind = light_point, .r = 1, .g = 1, .b = 1},
+                     LightRecord{.kind = light_directional, .r = 2, .dx = 0, .dy = -1}};
+    before.lights[1].dy = -1;
+    LightTable now = before;
+    EXPECT_EQ(light_change(before, now, 2), 0);
+    now.lights[0].x = 0.5f;
+    EXPECT_NEAR(light_change(before, now, 2), 0.25, 1e-6);
+    now.lights[1].r = 1;
+    EXPECT_NEAR(light_change(before, now, 2), 0.5, 1e-6);
+    now.lights.pop_back();
+    EXPECT_EQ(light_change(before, now, 2), std::numeric_limits<double>::infinity());
+}
+
+TEST(LightChange, HalfLifeBalancesLagAndNoise) {
+    // The sum of both errors is greater with a half-life a fifth shorter or longer.
+    for (const double change : {0.001, 0.03, 0.3}) {
+        for (const double window : {4.0, 64.0}) {
+            const double in_disc = 300;
+            const double h = balanced_half_life(change, window, in_disc);
+            const auto error = [&](double half_life) {
+                const double lag = change * half_life / std::log(2.0);
+                const double blocks = 2 * half_life / std::log(2.0);
+                return lag * lag + window / (blocks * in_disc);
+            };
+            EXPECT_LT(error(h), error(0.8 * h));
+            EXPECT_LT(error(h), error(1.25 * h));
+        }
+    }
+    EXPECT_EQ(balanced_half_life(0, 10, 300), std::numeric_limits<double>::infinity());
+}
+
+} // namespace
+} // namespace argand::testing
