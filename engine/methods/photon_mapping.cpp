@@ -207,9 +207,7 @@ void PhotonMapping::make_room(std::uint64_t photons) {
     photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
     photons_ =
         make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
-    photons_.numbers = c_.settings.deterministic                        ? numbers_lattice
-                       : c_.settings.photon_sampling == Sampling::sobol ? numbers_sobol
-                                                                        : numbers_hashed;
+    photons_.numbers = kind_of_photon_numbers(c_.settings);
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     if (sums) {
         photons_.flux_sums = sums;

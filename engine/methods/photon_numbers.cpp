@@ -2,6 +2,7 @@
 
 #include "methods/method.hpp"
 #include "shared/random.h"
+#include "shared/sampling.h"
 
 #include <vector>
 
@@ -22,6 +23,13 @@ PhotonPass PhotonNumbers::next(std::uint32_t seed, std::uint64_t count) {
                              static_cast<std::uint32_t>(rounds >> 32), 0x9407025u})
                           .x;
     return {.seed = of_round, .first = first, .count = count, .bounces = 0};
+}
+
+std::uint32_t kind_of_photon_numbers(const RenderSettings& settings) {
+    if (settings.deterministic) {
+        return numbers_lattice;
+    }
+    return settings.photon_sampling == Sampling::sobol ? numbers_sobol : numbers_hashed;
 }
 
 void PhotonNumbers::persist(Archive& archive) {

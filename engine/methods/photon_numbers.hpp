@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/archive.hpp"
+#include "methods/render_settings.hpp"
 #include "photon/photon_map.hpp"
 
 #include <cstdint>
@@ -25,5 +26,8 @@ private:
     /// number.
     std::map<std::uint32_t, std::uint64_t> next_;
 };
+
+/// Which numbers photons take: numbers_* of shared/sampling.h.
+std::uint32_t kind_of_photon_numbers(const RenderSettings& settings);
 
 } // namespace argand

@@ -8,6 +8,7 @@
 #include "methods/nearest_photons.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/persist_queue.hpp"
+#include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
 #include "methods/queue_options.hpp"
 #include "methods/render_options.hpp"
@@ -153,7 +154,7 @@ void QueueMethod::make_room() {
     }
     photons_ =
         make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
-    photons_.quasi_random = c_.settings.photon_sampling == Sampling::sobol;
+    photons_.numbers = kind_of_photon_numbers(c_.settings);
     room_ = room;
 }
 
