@@ -82,7 +82,9 @@ private:
         return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
     }
     void make_room();
-    void count_all_blocks();
+    void count_all_photons(double whole);
+    double learn(const PassNumbers& numbers, std::span<const glm::vec4> queries);
+    StoredPhotons trace_part(const PassNumbers& numbers, std::uint64_t first, std::uint64_t count);
     StoredPhotons trace(const PassNumbers& numbers, std::uint32_t block);
     void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
     void refill(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
@@ -158,24 +160,28 @@ void QueueMethod::make_room() {
     room_ = room;
 }
 
-/// An estimate finds the photons of all blocks, but k was learnt for those of one.
-void QueueMethod::count_all_blocks() {
+/// An estimate finds the photons of all blocks, but k was learnt for a part of them. whole: all
+/// photons over those of the part.
+void QueueMethod::count_all_photons(double whole) {
+    const auto scale = [&](std::uint32_t& k) {
+        k = static_cast<std::uint32_t>(std::lround(whole * static_cast<double>(k)));
+    };
     if (!c_.settings.neighbours) {
-        learnt_.neighbours *= options_.window;
+        scale(learnt_.neighbours);
     }
     if (!c_.settings.caustic_neighbours) {
-        learnt_.caustic_neighbours *= options_.window;
+        scale(learnt_.caustic_neighbours);
     }
 }
 
-/// Traces a block. The blocks of the window follow one another in one sequence, which goes on with
-/// each pass of an image, and begins anew with each image.
-StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block) {
+/// Traces photons of the window's sequence, from number `first` on. It goes on with each pass of an
+/// image, and begins anew with each image.
+StoredPhotons QueueMethod::trace_part(const PassNumbers& numbers, std::uint64_t first,
+                                      std::uint64_t count) {
     const bool light = c_.on_device.record.light_count > 0;
     const PhotonPass emission{.seed = numbers.seed,
-                              .first =
-                                  photons() * numbers.index + photons() * block / options_.window,
-                              .count = light ? photons_of(block) : 0,
+                              .first = photons() * numbers.index + first,
+                              .count = light ? count : 0,
                               .bounces = c_.settings.bounces};
     const std::optional<StoredPhotons> stored = trace_photons(
         c_.device, c_.on_device, photons_, emission, static_cast<float>(image_.flux_unit));
@@ -184,10 +190,17 @@ StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block
              "bounces or photons",
              c_.scene.name, c_.device.info().name);
     }
-    ++image_.blocks;
-    image_.emitted += emission.count;
-    image_.stored += stored->photons;
     return *stored;
+}
+
+/// Traces a block.
+StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block) {
+    const StoredPhotons stored =
+        trace_part(numbers, photons() * block / options_.window, photons_of(block));
+    ++image_.blocks;
+    image_.emitted += stored.emitted;
+    image_.stored += stored.photons;
+    return stored;
 }
 
 void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
@@ -240,6 +253,30 @@ void QueueMethod::divide_if_crowded() {
     }
 }
 
+/// Learns the bandwidth of an image, and returns the photons in view for each that is emitted. A
+/// block may have too few photons to learn from: as many as there is room for are traced.
+double QueueMethod::learn(const PassNumbers& numbers, std::span<const glm::vec4> queries) {
+    const std::uint64_t count = std::min(photons(), room_);
+    const StoredPhotons stored = trace_part(numbers, 0, count);
+    const double whole =
+        static_cast<double>(photons()) / static_cast<double>(std::max<std::uint64_t>(count, 1));
+    const SortedPhotons sorted = sort_photons(c_.device, photons_, stored);
+    learnt_ = strategy_->learn({.device = c_.device,
+                                .scene = c_.on_device,
+                                .workspace = photons_,
+                                .stored = stored,
+                                .photons = sorted,
+                                .queries = queries,
+                                .passes = whole * static_cast<double>(passes()),
+                                .evenness = evenness_in_view(c_, photons_, stored)},
+                               c_.settings);
+    count_all_photons(whole);
+    view_reach_ = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
+    const double in_view = in_view_per_emitted(c_, photons_, stored, queries);
+    c_.device.fill(photons_.flux_sums, 0); // these photons are traced again
+    return in_view;
+}
+
 /// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
 void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> queries,
                          Budget* budget) {
@@ -248,25 +285,10 @@ void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> 
     areas_moved_ = true;
     still_ = 0;
     emptied_ = 0;
-    const StoredPhotons stored = trace(numbers, 0);
-    const auto learn = [&] {
-        const SortedPhotons sorted = sort_photons(c_.device, photons_, stored);
-        learnt_ = strategy_->learn({.device = c_.device,
-                                    .scene = c_.on_device,
-                                    .workspace = photons_,
-                                    .stored = stored,
-                                    .photons = sorted,
-                                    .queries = queries,
-                                    .passes = static_cast<double>(options_.window * passes()),
-                                    .evenness = evenness_in_view(c_, photons_, stored)},
-                                   c_.settings);
-        count_all_blocks();
-        view_reach_ = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
-        return in_view_per_emitted(c_, photons_, stored, queries);
-    };
     if (budget) { // else a light has appeared within an image
-        image_.in_view = budget->once(learn);
+        image_.in_view = budget->once([&] { return learn(numbers, queries); });
     }
+    const StoredPhotons stored = trace(numbers, 0);
     const StoredPhotons both{.slots = stored.slots, .photons = stored.photons};
     divide_queue(c_.device, queue_, planes(), {photons_.photons, 0, both.slots, both.photons},
                  options_.window, c_.on_device.plan.needs(Feature::followed_paths));

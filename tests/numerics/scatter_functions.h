@@ -59,7 +59,7 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.exponent = a.x[k + 13];
     m.emission_r = m.emission_g = m.emission_b = float32(0.0);
     m.double_sided = 0u;
-    m.absent = m.pad = 0u;
+    m.absent = m.textures = 0u;
     return m;
 }
 
