@@ -94,6 +94,7 @@ private:
     double age();
     void add_areas(const PassNumbers& numbers, const StoredPhotons& stored);
     void weigh();
+    Bandwidth bandwidth() const;
     PhotonMap make_map();
     PhotonMap rebuilt(const PhotonMap& map);
     const std::vector<CellNode>& planes();
@@ -397,6 +398,20 @@ void QueueMethod::weigh() {
     }
 }
 
+/// The bandwidth for the photons in the queue as they count: uneven weights have the noise of fewer
+/// photons, and each disc holds the more of them. Kish's effective number, (sum w)^2 / sum w^2.
+Bandwidth QueueMethod::bandwidth() const {
+    double noise = 0;
+    for (std::uint32_t b = 0; b < options_.window; ++b) {
+        const double weight = static_cast<double>(queue_.blocks[b].weight);
+        noise += weight > 0 ? weight * weight / static_cast<double>(ages_[b].emitted) : 0;
+    }
+    const double all = static_cast<double>(photons());
+    constexpr double nearly_all = 0.999;
+    const double share = noise > 0 && all > 0 ? 1 / (noise * all) : 1;
+    return share < nearly_all ? for_passes(learnt_, 1, share, c_.settings) : learnt_;
+}
+
 /// The map over the same records with a tree of its own, as other methods build it.
 PhotonMap QueueMethod::rebuilt(const PhotonMap& map) {
     const std::uint64_t records = queue_.entries;
@@ -430,12 +445,13 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
     }
     image_.traced = false;
     const PhotonMap map = make_map();
-    const double cell = c_.settings.query_cell * strategy_->typical_radius(learnt_);
+    const Bandwidth widths = bandwidth();
+    const double cell = c_.settings.query_cell * strategy_->typical_radius(widths);
     c_.eye.queries.sharing = {
         .cell = cell,
-        .caustics_apart = strategy_->parts_caustics(learnt_, cell > 0 || c_.settings.final_gather),
-        .sharp_caustics = has_sharp_caustics(learnt_)};
-    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, learnt_);
+        .caustics_apart = strategy_->parts_caustics(widths, cell > 0 || c_.settings.final_gather),
+        .sharp_caustics = has_sharp_caustics(widths)};
+    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, widths);
     const PhotonLookup lookup{.map = map, .estimator = *estimator};
     const EyePass eye{.seed = pass.numbers.seed,
                       .first_sample =
@@ -481,10 +497,11 @@ void QueueMethod::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.emitted;
     statistics.photons_stored = image_.stored;
     statistics.photons_in_view = image_.in_view * static_cast<double>(image_.emitted);
-    statistics.radius = learnt_.radii.indirect;
-    statistics.caustic_radius = learnt_.radii.caustic;
-    statistics.neighbours = learnt_.neighbours;
-    statistics.caustic_neighbours = learnt_.caustic_neighbours;
+    const Bandwidth widths = bandwidth();
+    statistics.radius = widths.radii.indirect;
+    statistics.caustic_radius = widths.radii.caustic;
+    statistics.neighbours = widths.neighbours;
+    statistics.caustic_neighbours = widths.caustic_neighbours;
     statistics.leaf_size = queue_.leaf_size;
     if (image_.blocks > 0) {
         // Every block emits all of the lights' power.
