@@ -1,7 +1,9 @@
 #include "world/world.hpp"
 
 #include "base/same_bits.hpp"
-#include "scene/material_record.hpp"
+#include "scene/texture_range.hpp"
+#include "shared/bsdf.h"
+#include "shared/texture_record.h"
 #include "world/connected_triangles.hpp"
 
 #include <algorithm>
@@ -40,6 +42,13 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
     materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
         materials.push_back(material_record(material));
+        const bool varies =
+            material.texture_bits != 0 || material.alpha_varies || !scene.colors.empty();
+        const auto lobes = [](const MaterialRecord& record) { return bsdf_lobes(record); };
+        if (varies &&
+            (lobes_anywhere(scene, material, lobes) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0) {
+            materials.back().textures |= material_stores_everywhere;
+        }
     }
     return materials;
 }

@@ -34,6 +34,9 @@ CONSTANT uint srgb_codes = 256u;
 CONSTANT uint material_texture_mask = 0x00ffffffu;
 CONSTANT uint material_base_color_texture = 0x01000000u;
 CONSTANT uint material_metal_texture = 0x02000000u; // roughness in green, metallic in blue
+// Some texel may have an estimated lobe: photons are stored on all of the surface, as area samples
+// lie on all of it. Those that only surround a texel would make the others dark.
+CONSTANT uint material_stores_everywhere = 0x20000000u;
 // Alpha of texels and vertices counts: it scales the coverage, or where it is less than the
 // material's coverage, the surface is absent.
 CONSTANT uint material_alpha_blend = 0x40000000u;

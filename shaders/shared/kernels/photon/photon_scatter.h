@@ -216,8 +216,9 @@ FN void main() {
         transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
     }
     bool only_followed = (path.state & photon_followed) != 0u;
+    bool may_be_estimated = estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
-    if (stores && estimated != 0u && a.surface.above_horizon) {
+    if (stores && may_be_estimated && a.surface.above_horizon) {
         store_photon(store, a, followed_paths && only_followed);
         if (footprints) {
             offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
