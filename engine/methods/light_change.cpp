@@ -17,10 +17,12 @@ double distance_of(const glm::dvec3& a, const glm::dvec3& b) { return glm::dista
 
 /// The change of one light.
 double change_of(const LightRecord& a, const LightRecord& b, double distance) {
-    if (a.kind != b.kind || a.triangle_and_sides != b.triangle_and_sides) {
+    if (a.kind != b.kind ||
+        (a.kind == light_triangle && a.triangle_and_sides != b.triangle_and_sides)) {
         return infinity_of_change;
     }
-    double moved = distance_of({a.x, a.y, a.z}, {b.x, b.y, b.z});
+    // Lights from outside have no place: what stands there is how their photons are aimed.
+    double moved = is_from_outside(a) ? 0 : distance_of({a.x, a.y, a.z}, {b.x, b.y, b.z});
     double turned = 0;
     const glm::dvec3 a_d(a.dx, a.dy, a.dz);
     const glm::dvec3 b_d(b.dx, b.dy, b.dz);

@@ -106,7 +106,7 @@ TextureImage decode_image(std::span<const std::uint8_t> bytes, const std::string
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, in_file = 0;
     if (stbi_info_from_memory(bytes.data(), size, &width, &height, &in_file) == 0) {
-        fail("it is damaged ({})", stbi_failure_reason());
+        fail("it is damaged or cut short; copy it again");
     }
     const std::uint64_t count = std::uint64_t(width) * std::uint64_t(height);
     check_size(std::uint64_t(width), std::uint64_t(height));
@@ -114,7 +114,7 @@ TextureImage decode_image(std::span<const std::uint8_t> bytes, const std::string
         stbi_load_from_memory(bytes.data(), size, &width, &height, &in_file, channels),
         &stbi_image_free);
     if (samples == nullptr) {
-        fail("it is damaged ({})", stbi_failure_reason());
+        fail("it is damaged or cut short; copy it again");
     }
     static_assert(std::endian::native == std::endian::little, "red is the lowest byte of a texel");
     TextureImage image{.name = name,

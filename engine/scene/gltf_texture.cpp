@@ -33,7 +33,7 @@ std::uint64_t index_of(const GltfSource& source, const json* object, const char*
     }
     const double number = value->is_number() ? value->get<double>() : -1;
     if (!(number >= 0 && number < double(limit) && number == std::floor(number))) {
-        source.fail("{} has a \"{}\" of {}; it must be an integer from 0 to {}", what, key,
+        source.fail("the \"{}\" of {} is {}; it must be an integer from 0 to {}", key, what,
                     one_line(value->dump(-1, ' ', true), 40), limit - 1);
     }
     return static_cast<std::uint64_t>(number);
@@ -47,7 +47,7 @@ glm::dvec2 pair_of(const GltfSource& source, const json* object, const char* key
     }
     if (!value->is_array() || value->size() != 2 || !(*value)[0].is_number() ||
         !(*value)[1].is_number()) {
-        source.fail("{} has a \"{}\" that is not two numbers", what, key);
+        source.fail("the \"{}\" of {} is not two numbers", key, what);
     }
     return {(*value)[0].get<double>(), (*value)[1].get<double>()};
 }
@@ -119,8 +119,8 @@ std::vector<std::uint8_t> bytes_of(const GltfSource& source, std::size_t index,
     }
     std::vector<std::uint8_t> bytes;
     std::string type;
-    if (tinygltf::IsDataURI(uri)) {
-        if (!tinygltf::DecodeDataURI(&bytes, type, uri, 0, false)) {
+    if (uri.starts_with("data:")) {
+        if (!tinygltf::IsDataURI(uri) || !tinygltf::DecodeDataURI(&bytes, type, uri, 0, false)) {
             source.fail("{} has a data URI that is not base64 of a PNG or JPEG", what);
         }
         return bytes;
@@ -145,9 +145,11 @@ bool TextureReader::add(const json* owner, const char* key, bool srgb, const std
         return false;
     }
     const std::string name = what + "'s " + key;
+    if (!info->is_object() || !info->contains("index")) {
+        source_.fail("{} is not an object with the index of a texture", name);
+    }
     const std::size_t count = source_.model.textures.size();
-    const std::uint64_t number =
-        index_of(source_, info, "index", count, std::uint64_t{1} << 31, name);
+    const std::uint64_t number = index_of(source_, info, "index", 0, std::uint64_t{1} << 31, name);
     if (number >= count) {
         source_.fail("{} is texture {}, which does not exist", name, number);
     }
@@ -172,7 +174,10 @@ bool TextureReader::add(const json* owner, const char* key, bool srgb, const std
     if (sampler_index && !sampler) {
         source_.fail("{} uses a sampler that does not exist", name);
     }
-    const json* transform = find_extension(info, "KHR_texture_transform");
+    const json* transform = find_member(find_member(info, "extensions"), "KHR_texture_transform");
+    if (transform && !transform->is_object()) {
+        source_.fail("the KHR_texture_transform of {} is not an object", name);
+    }
     Texture texture;
     texture.image = image_of(image);
     const std::uint64_t set = index_of(source_, info, "texCoord", 0, most_uv_sets, name);

@@ -13,7 +13,7 @@ namespace {
 
 // Boxes are cut at multiples of this part of their size.
 constexpr std::size_t bins = 32;
-constexpr std::size_t most_leaves = 256;
+constexpr std::size_t most_leaves = (most_aim_nodes + 1) / 2;
 // A box with fewer samples is not divided.
 constexpr std::size_t least_samples = 8;
 // Samples that are taken to be spread evenly over each box, besides those found in it.

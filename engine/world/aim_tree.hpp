@@ -23,6 +23,9 @@ struct AimSample {
 /// few samples tell (as a hierarchical Dirichlet prior smooths). A single node: nothing was learnt.
 std::vector<AimNode> make_aim_tree(std::span<const AimSample> samples, int first_axis);
 
+/// Nodes of a tree at most.
+inline constexpr std::size_t most_aim_nodes = 511;
+
 /// Whether these are such nodes; loaded ones need not be.
 bool is_aim_tree(std::span<const AimNode> nodes);
 

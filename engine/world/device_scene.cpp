@@ -147,6 +147,8 @@ void set_aims(Device& device, DeviceScene& scene, std::vector<LightAim> aims) {
         device.upload(scene.lights, index * sizeof(LightRecord),
                       std::as_bytes(std::span(&light, 1)));
     }
+    // Trees of other sizes take the same memory in later frames.
+    nodes.resize(1 + aims.size() * most_aim_nodes, {aim_leaf, 0, 0, 0});
     scene.aims = std::move(aims);
     scene.aim_nodes = upload(device, "aim nodes", nodes);
 }

@@ -3,6 +3,7 @@
 #ifndef ARGAND_SHARED_TEXTURE_H
 #define ARGAND_SHARED_TEXTURE_H
 
+#include "shared/maths.h"
 #include "shared/texture_record.h"
 
 ARGAND_SHARED_BEGIN
@@ -14,9 +15,11 @@ struct TexelQuad {
     real x, y;
 };
 
+// 0 where the product overflows: such coordinates have no meaning.
 FN vec2 transform_uv(IN(TextureRecord) t, vec2 uv) {
-    return vec2(real(t.uu) * uv.x + real(t.uv) * uv.y + real(t.u0),
-                real(t.vu) * uv.x + real(t.vv) * uv.y + real(t.v0));
+    real u = real(t.uu) * uv.x + real(t.uv) * uv.y + real(t.u0);
+    real v = real(t.vu) * uv.x + real(t.vv) * uv.y + real(t.v0);
+    return vec2(is_finite(u) ? u : real(0.0), is_finite(v) ? v : real(0.0));
 }
 
 // The place in [0,1] of the image that a coordinate shows.

@@ -273,6 +273,22 @@ TEST(LightChange, IsThatOfTheLightThatChangesMost) {
     EXPECT_EQ(light_change(before, now, 2), std::numeric_limits<double>::infinity());
 }
 
+TEST(LightChange, HowPhotonsFromOutsideAreAimedIsNone) {
+    LightTable table;
+    table.lights.resize(2);
+    table.lights[0].kind = light_directional;
+    table.lights[1].kind = light_sky;
+    LightTable aimed = table;
+    for (LightRecord& light : aimed.lights) {
+        light.x = 3;
+        light.ex = 4;
+        light.triangle_and_sides = 5;
+    }
+    EXPECT_EQ(light_change(table, aimed, 1), 0);
+    aimed.lights[0].dx = 0.25f;
+    EXPECT_EQ(light_change(table, aimed, 1), 0.25);
+}
+
 TEST(LightChange, HalfLifeBalancesLagAndNoise) {
     // The sum of both errors is greater with a half-life a fifth shorter or longer.
     for (const double change : {0.001, 0.03, 0.3}) {

@@ -242,6 +242,9 @@ TEST(GltfTexture, TellsWhatIsWrongWithATexture) {
         return info({{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}});
     };
     expect_problem(transformed({{"scale", {1}}}), "not two numbers");
+    expect_problem(transformed(3), "is not an object");
+    expect_problem(info(nullptr), "not an object with the index of a texture");
+    expect_problem(info({{"texCoord", 0}}), "not an object with the index of a texture");
     expect_problem(transformed({{"offset", {1e300, 0}}}), "not finite");
     TexturedFile no_image = info({{"index", 0}});
     no_image.builder.root["textures"][0]["source"] = 9;

@@ -133,6 +133,7 @@ TEST(Texture, TransformsCoordinatesFirst) {
     const vec2 uv = transform_uv(t, vec2(10, 100));
     EXPECT_EQ(uv.x, 2 * 10 + 3 * 100 + 4);
     EXPECT_EQ(uv.y, 5 * 10 + 6 * 100 + 7);
+    EXPECT_EQ(transform_uv(t, vec2(3e38f, -3e38f)), vec2(0));
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "shared/kernels/material.h"
 
 // Takes the area from those sides of area samples on which another surface lies. Glass and what is
-// partly transparent lets light through.
+// partly transparent lets light through, and so may a surface with a mask: its texels are not read.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || hits[i].triangle == no_triangle) {
