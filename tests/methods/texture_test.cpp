@@ -95,10 +95,9 @@ TEST_P(Textured, ReflectsTheVerticesColour) {
 // for the estimates around it.
 TEST_P(Textured, SlowLayersAgreeWithThePathTracer) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
-    add_texture(
-        scene, 0, material_base_color_texture, 2,
-        {texel(255, 120, 120), texel(0, 0, 0), texel(40, 200, 90), texel(255, 255, 255)},
-        true);
+    add_texture(scene, 0, material_base_color_texture, 2,
+                {texel(255, 120, 120), texel(0, 0, 0), texel(40, 200, 90), texel(255, 255, 255)},
+                true);
     add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
              add_material(scene, emitter(glm::vec3(2))));
     Material metal = lambertian({0.9f, 0.8f, 0.6f});

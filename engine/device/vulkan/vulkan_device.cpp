@@ -5,6 +5,7 @@
 #include "kernels/indirect_groups.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace argand::vulkan {
@@ -398,7 +399,11 @@ void VulkanDevice::download(const Buffer& from, std::uint64_t offset, std::span<
     }
     if (download_staging_.size() < data.size()) {
         wait();
-        download_staging_ = allocate("download staging", data.size(), MemoryKind::download);
+        // Frames of a film fetch a little more or less each: that must not take new memory.
+        constexpr std::size_t most_rounded = std::size_t{1} << 24;
+        const std::size_t bytes =
+            data.size() < most_rounded ? std::bit_ceil(data.size()) : data.size();
+        download_staging_ = allocate("download staging", bytes, MemoryKind::download);
     }
     copy(BufferView(from, offset, data.size()), BufferView(download_staging_, 0, data.size()));
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
