@@ -276,10 +276,11 @@ void World::add_textures(const Scene& scene, DeviceScene& on_device) {
     if ((textured || colored) && !attributes_) {
         attributes_ = upload_attributes(device_, scene);
     }
-    on_device.attributes = textured || colored ? attributes_ : unneeded(device_);
-    on_device.textures = textured ? textures_.records : unneeded(device_);
+    const Buffer none = textured ? Buffer() : unneeded(device_);
+    on_device.attributes = textured || colored ? attributes_ : none;
+    on_device.textures = textured ? textures_.records : none;
     on_device.texture_halvings = textured ? textures_.halvings : 0;
-    on_device.texels = textured ? textures_.texels : unneeded(device_);
+    on_device.texels = textured ? textures_.texels : none;
 }
 
 void World::add_casters(const Scene& scene, DeviceScene& on_device) {

@@ -41,14 +41,16 @@ protected:
     }
 };
 
-TEST_P(Frames, AfterTheSecondAllocateAndCompileNothing) {
+// How many leaves a map has depends on the photons, and so do the blocks that the first frames
+// take.
+TEST_P(Frames, AfterTheThirdAllocateAndCompileNothing) {
     Scene scene = moving_scene();
     scene.motion.meshes.clear();
     std::vector<double> times;
     for (int frame = 0; frame < 8; ++frame) {
         times.push_back(frame / 8.0);
     }
-    expect_settled(open_anew(), scene, small(), times, 2);
+    expect_settled(open_anew(), scene, small(), times, 3);
 }
 
 TEST_P(Frames, AllocateAndCompileNothingForSurfacesAndLightsSeenBefore) {
