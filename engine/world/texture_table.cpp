@@ -1,5 +1,6 @@
 #include "world/texture_table.hpp"
 
+#include "image/srgb.hpp"
 #include "shared/texture_record.h"
 
 #include <algorithm>
@@ -14,16 +15,6 @@ namespace argand {
 
 namespace {
 
-/// The linear value of a code of sRGB (IEC 61966-2-1).
-double linear(std::size_t code) {
-    const double encoded = double(code) / 255;
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double encoded(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
 std::uint8_t byte_of(double unit) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0, 1.0) * 255));
 }
@@ -31,7 +22,7 @@ std::uint8_t byte_of(double unit) {
 std::array<double, srgb_codes> linear_values() {
     std::array<double, srgb_codes> values{};
     for (std::size_t code = 0; code < values.size(); ++code) {
-        values[code] = linear(code);
+        values[code] = srgb_decode(static_cast<double>(code) / 255);
     }
     return values;
 }
@@ -97,7 +88,7 @@ TextureImage halved(const TextureImage& image, bool srgb) {
             const glm::dvec3 mean = alpha > 0 ? weighted / alpha : sum / 4.0;
             glm::u8vec4 texel(0, 0, 0, byte_of(alpha / (4 * 255)));
             for (int channel = 0; channel < 3; ++channel) {
-                texel[channel] = byte_of(srgb ? encoded(mean[channel]) : mean[channel]);
+                texel[channel] = byte_of(srgb ? srgb_encode(mean[channel]) : mean[channel]);
             }
             half.texels.push_back(std::bit_cast<std::uint32_t>(texel));
         }
