@@ -57,9 +57,10 @@ FN void main() {
             add_without_loss(sum, rest, weight_of(range.first + k));
             end = divides ? max(share_of(steps, (sum + rest) / all), begin) : 0u;
         }
-        light_choices[params.first_choice + range.first + k] = LightChoice(
-            choice.before + begin, real(max(end - begin, 1u)) * real(2.3283064365386963e-10),
-            choice.emitter_probability, 0u);
+        LightChoice of_light = choice;
+        of_light.before = choice.before + begin;
+        of_light.probability = real(max(end - begin, 1u)) * real(2.3283064365386963e-10);
+        light_choices[params.first_choice + range.first + k] = of_light;
         begin = end;
     }
 }

@@ -29,6 +29,14 @@ FN void main() {
     }
     power += rest;
     middle = weight > real(0.0) ? middle / weight : middle;
-    sums[i] =
-        EmissiveSum(power.x, power.y, power.z, real(0.0), middle.x, middle.y, middle.z, real(0.0));
+    EmissiveSum sum;
+    sum.power_r = power.x;
+    sum.power_g = power.y;
+    sum.power_b = power.z;
+    sum.pad0 = real(0.0);
+    sum.middle_x = middle.x;
+    sum.middle_y = middle.y;
+    sum.middle_z = middle.z;
+    sum.pad1 = real(0.0);
+    sums[i] = sum;
 }
