@@ -26,7 +26,7 @@ namespace argand {
 
 namespace {
 
-constexpr int channels = 4;
+constexpr int samples_of_texel = 4;
 
 constexpr std::uint8_t jpeg_escape = 0xff, jpeg_start = 0xd8, jpeg_end = 0xd9, jpeg_scan = 0xda;
 
@@ -111,7 +111,7 @@ TextureImage decode_image(std::span<const std::uint8_t> bytes, const std::string
     const std::uint64_t count = std::uint64_t(width) * std::uint64_t(height);
     check_size(std::uint64_t(width), std::uint64_t(height));
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> samples(
-        stbi_load_from_memory(bytes.data(), size, &width, &height, &in_file, channels),
+        stbi_load_from_memory(bytes.data(), size, &width, &height, &in_file, samples_of_texel),
         &stbi_image_free);
     if (samples == nullptr) {
         fail("it is damaged or cut short; copy it again");
@@ -121,7 +121,7 @@ TextureImage decode_image(std::span<const std::uint8_t> bytes, const std::string
                        .width = static_cast<std::uint32_t>(width),
                        .height = static_cast<std::uint32_t>(height),
                        .texels = std::vector<std::uint32_t>(count)};
-    std::memcpy(image.texels.data(), samples.get(), count * channels);
+    std::memcpy(image.texels.data(), samples.get(), count * samples_of_texel);
     find_range(image);
     return image;
 }
