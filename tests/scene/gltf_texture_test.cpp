@@ -52,10 +52,10 @@ struct TexturedFile {
     json attributes;
 
     explicit TexturedFile(json image, json sampler = nullptr, json info = {{"index", 0}}) {
-        builder.root["images"] = {std::move(image)};
+        builder.root["images"] = json::array({std::move(image)});
         builder.root["textures"] = {{{"source", 0}}};
         if (!sampler.is_null()) {
-            builder.root["samplers"] = {std::move(sampler)};
+            builder.root["samplers"] = json::array({std::move(sampler)});
             builder.root["textures"][0]["sampler"] = 0;
         }
         builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", info}}}}};
