@@ -1,7 +1,5 @@
 #include "scene/gltf_surface.hpp"
 
-#include "shared/texture_record.h"
-
 #include <bit>
 
 namespace argand {
@@ -103,7 +101,7 @@ void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive
         return accessor;
     };
     const Material& of = scene.materials[material];
-    const int textures = std::popcount(of.texture_bits & ~material_texture_mask);
+    const int textures = std::popcount(of.texture_bits);
     for (int i = 0; i < textures; ++i) {
         const std::uint32_t set = scene.textures[of.first_texture + std::uint32_t(i)].uv_set;
         const std::string key = fmt::format("TEXCOORD_{}", set);

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <new>
 #include <span>
@@ -23,6 +22,8 @@ using nlohmann::json;
 
 // Texture coordinates of a vertex: as many as any exporter writes.
 constexpr std::uint64_t most_uv_sets = 8;
+// Integers of glTF, such as indices, are below this.
+constexpr std::uint64_t any_integer = std::uint64_t{1} << 31;
 
 /// A non-negative integer below `limit`, or `otherwise` if it is absent.
 std::uint64_t index_of(const GltfSource& source, const json* object, const char* key,
@@ -73,7 +74,7 @@ glm::mat3x2 transform_of(const GltfSource& source, const json* extension, const 
 Wrap wrap_of(const GltfSource& source, const json* sampler, const char* key,
              const std::string& what) {
     constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
-    switch (index_of(source, sampler, key, repeat, std::uint64_t{1} << 31, what)) {
+    switch (index_of(source, sampler, key, repeat, any_integer, what)) {
     case repeat:
         return Wrap::repeat;
     case mirrored_repeat:
@@ -87,7 +88,7 @@ Wrap wrap_of(const GltfSource& source, const json* sampler, const char* key,
 
 bool is_nearest(const GltfSource& source, const json* sampler, const std::string& what) {
     constexpr std::uint64_t nearest = 9728;
-    return index_of(source, sampler, "magFilter", 0, std::uint64_t{1} << 31, what) == nearest;
+    return index_of(source, sampler, "magFilter", 0, any_integer, what) == nearest;
 }
 
 std::vector<std::uint8_t> bytes_of(const GltfSource& source, std::size_t index,
@@ -149,28 +150,24 @@ bool TextureReader::add(const json* owner, const char* key, bool srgb, const std
         source_.fail("{} is not an object with the index of a texture", name);
     }
     const std::size_t count = source_.model.textures.size();
-    const std::uint64_t number = index_of(source_, info, "index", 0, std::uint64_t{1} << 31, name);
+    const std::uint64_t number = index_of(source_, info, "index", 0, any_integer, name);
     if (number >= count) {
         source_.fail("{} is texture {}, which does not exist", name, number);
     }
     const json* from = find_element(source_, "textures", number);
-    const std::size_t images = source_.model.images.size();
-    const std::uint64_t image =
-        index_of(source_, from, "source", std::numeric_limits<std::uint32_t>::max(),
-                 std::uint64_t{1} << 31, name);
     if (!find_member(from, "source")) {
         add_note(scene_, fmt::format("{} has no PNG or JPEG and is ignored", name));
         return false;
     }
-    if (image >= images) {
+    const std::uint64_t image = index_of(source_, from, "source", 0, any_integer, name);
+    if (image >= source_.model.images.size()) {
         source_.fail("{} uses image {}, which does not exist", name, image);
     }
-    const std::uint64_t samplers = std::uint64_t{1} << 31;
     const json* sampler_index = find_member(from, "sampler");
-    const json* sampler = sampler_index
-                              ? find_element(source_, "samplers",
-                                             index_of(source_, from, "sampler", 0, samplers, name))
-                              : nullptr;
+    const json* sampler =
+        sampler_index ? find_element(source_, "samplers",
+                                     index_of(source_, from, "sampler", 0, any_integer, name))
+                      : nullptr;
     if (sampler_index && !sampler) {
         source_.fail("{} uses a sampler that does not exist", name);
     }
