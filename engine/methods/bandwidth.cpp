@@ -131,6 +131,14 @@ constexpr std::uint32_t least_narrowed = 8;
 
 } // namespace
 
+void report_bandwidth(const Bandwidth& bandwidth, RenderStatistics& statistics) {
+    statistics.radius = bandwidth.radii.indirect;
+    statistics.caustic_radius = bandwidth.radii.caustic;
+    statistics.neighbours = bandwidth.neighbours;
+    statistics.caustic_neighbours = bandwidth.caustic_neighbours;
+    statistics.smoothing = bandwidth.smoothing;
+}
+
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth) {
     archive.value(bandwidth.radii);
     archive.value(bandwidth.neighbours);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/archive.hpp"
+#include "methods/render_result.hpp"
 #include "methods/render_settings.hpp"
 #include "photon/gather.hpp"
 #include "photon/sort_photons.hpp"
@@ -18,6 +19,9 @@ struct Bandwidth {
     double caustic_smoothing = 0;
     bool caustics = false; ///< whether there are caustic photons
 };
+
+/// Writes the bandwidth of the last pass.
+void report_bandwidth(const Bandwidth& bandwidth, RenderStatistics& statistics);
 
 /// Saves or loads a bandwidth.
 void persist_bandwidth(Archive& archive, Bandwidth& bandwidth);

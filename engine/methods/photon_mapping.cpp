@@ -371,11 +371,7 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.photons_emitted;
     statistics.photons_stored = image_.photons_stored;
     statistics.photons_in_view = image_.in_view * static_cast<double>(image_.photons_emitted);
-    statistics.radius = image_.bandwidth.radii.indirect;
-    statistics.caustic_radius = image_.bandwidth.radii.caustic;
-    statistics.neighbours = image_.bandwidth.neighbours;
-    statistics.caustic_neighbours = image_.bandwidth.caustic_neighbours;
-    statistics.smoothing = image_.bandwidth.smoothing;
+    report_bandwidth(image_.bandwidth, statistics);
     statistics.mean_footprints = image_.mean_footprints;
     statistics.leaf_size = image_.leaf_size;
     statistics.footprint_scale = image_.footprint_scale;

@@ -497,11 +497,7 @@ void QueueMethod::report(RenderStatistics& statistics) const {
     statistics.photons_emitted = image_.emitted;
     statistics.photons_stored = image_.stored;
     statistics.photons_in_view = image_.in_view * static_cast<double>(image_.emitted);
-    const Bandwidth widths = bandwidth();
-    statistics.radius = widths.radii.indirect;
-    statistics.caustic_radius = widths.radii.caustic;
-    statistics.neighbours = widths.neighbours;
-    statistics.caustic_neighbours = widths.caustic_neighbours;
+    report_bandwidth(bandwidth(), statistics);
     statistics.leaf_size = queue_.leaf_size;
     if (image_.blocks > 0) {
         // Every block emits all of the lights' power.
