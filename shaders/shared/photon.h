@@ -63,9 +63,17 @@ CONSTANT real least_coverage = real(0.1);
 CONSTANT real disc_half_height = real(0.1);
 // A chord of a circle is at the same angle to the normals at its two ends, so that the sum of the
 // normals is perpendicular to it. Of points of one smooth surface that holds nearly, also where it
-// is curved; parallel layers fail unless the chord is 20 times as long as their distance. This is
-// the most that may be left: the component of a unit chord along the sum of the normals.
+// is curved. Meshes bend at edges instead of evenly, which leaves at most the angle between the
+// normals. This is the most that may be left: the component of a unit chord along the sum of the
+// normals.
 CONSTANT real chord_tolerance = real(0.1);
+// The same where the normals are equal; it covers the error of packed normals. Parallel layers fail
+// unless the chord is 1,000 times as long as their distance: a closed white shell holds much light
+// between its layers.
+CONSTANT real flat_tolerance = real(0.002);
+// Error of the height of a point of a plane over that plane, relative to the largest coordinate:
+// some units of single precision, as hits have.
+CONSTANT real position_rounding = real(9.5e-7);
 // Square of the most that a unit chord then rises over the tangent plane: the sine of half the
 // angle between the normals, at most 60°, and of the tolerance.
 CONSTANT real steepest_chord = real(0.302);

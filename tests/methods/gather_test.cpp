@@ -57,9 +57,8 @@ Gathered expected_sum(const std::vector<PhotonRecord>& photons, const Query& que
         const double height = glm::dot(d, glm::dvec3(query.normal));
         const double d2 = glm::dot(d, d) - height * height;
         const glm::dvec3 normal(unpack_photon_normal(p.normal));
-        const bool same_surface =
-            std::abs(height + glm::dot(d, normal)) <= chord_tolerance * glm::length(d) &&
-            glm::dot(normal, glm::dvec3(query.normal)) >= same_surface_cosine;
+        const bool same_surface = bend_beyond(query, normal, d) <= 0 &&
+                                  glm::dot(normal, glm::dvec3(query.normal)) >= same_surface_cosine;
         if (d2 < radius * radius && same_surface) {
             const double weight = 2 / (double(pi) * radius * radius) *
                                   (1 - d2 / (radius * radius)) * albedo / double(pi);
@@ -125,8 +124,8 @@ TEST_F(GatherPhotons, LeavesOutOtherSurfacesAndEmptySlots) {
     empty.normal = no_photon;
     const std::vector<PhotonRecord> photons{
         photon({0.1f, 0, 0}),
-        photon({0.1f, 0.45f * chord_tolerance * 0.1f, 0}),
-        photon({0.1f, 0.55f * chord_tolerance * 0.1f, 0}),
+        photon({0.1f, 0.45f * flat_tolerance * 0.1f, 0}),
+        photon({0.1f, 0.55f * flat_tolerance * 0.1f, 0}),
         photon({0, 0, 0}, false, {0, -1, 0}),
         photon({0, 0, 0}, false, glm::normalize(glm::vec3(1, 0.9f, 0))),
         photon({0.51f, 0, 0}),
@@ -135,6 +134,42 @@ TEST_F(GatherPhotons, LeavesOutOtherSurfacesAndEmptySlots) {
     const Gathered sum = gather(photons, {Query{}}, radius, gather_budget)[0];
     expect_near(sum, expected_sum(photons, Query{}, radius), 1e-5);
     expect_near(sum, expected_sum({photons[0], photons[1], photons[4]}, Query{}, radius), 1e-5);
+}
+
+// Of a shell of two layers a millimetre apart, the inner one's photons are at the same side as the
+// query. In closed white shells there are many.
+TEST_F(GatherPhotons, TellsLayersOfThinShellsApart) {
+    std::vector<PhotonRecord> outer, both;
+    for (int i = 0; i < 1000; ++i) {
+        const float x = uniform(-1, 1), z = uniform(-1, 1);
+        outer.push_back(photon({x, 0, z}));
+        both.push_back(outer.back());
+        both.push_back(photon({x, -0.001f, z}));
+    }
+    for (const float x : {0.0f, 0.3f, 0.6f}) {
+        const std::vector<Query> queries{{{x, 0, 0.2f}}};
+        const Gathered one = gather(outer, queries, 0.4f, gather_budget)[0];
+        EXPECT_GT(one.indirect.g, 0);
+        expect_near(gather(both, queries, 0.4f, gather_budget)[0], one, 1e-5);
+    }
+}
+
+// Positions of a plane that is far from the origin are rounded by more than the tolerance.
+TEST_F(GatherPhotons, KeepsFlatSurfacesFarFromTheOrigin) {
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 1, 0.2f));
+    const Frame f = make_frame(normal);
+    const glm::vec3 far(1000, 700, -400);
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 1000; ++i) {
+        photons.push_back(photon(far + f.x * uniform(-0.01f, 0.01f) + f.y * uniform(-0.01f, 0.01f),
+                                 false, normal));
+    }
+    double flux = 0;
+    for (const PhotonRecord& p : photons) {
+        flux += p.flux_g;
+    }
+    const Gathered sum = gather(photons, {{far, normal}}, 1, gather_budget)[0];
+    EXPECT_RELATIVE(sum.indirect.g, flux * 2 / double(pi) * albedo / double(pi), 0.001);
 }
 
 // On a sphere of half the disc's radius photons count up to where its normal turns away.

@@ -69,9 +69,13 @@ public:
         const vec3 normal = unpack_photon_normal(p.normal);
         const bool flat = (p.normal & photon_normal_mask) == own_;
         const float along_sum = height + (flat ? height : dot3(d, normal));
-        const bool same_side =
-            (flat || dot3(normal, normal_) >= same_surface_cosine) &&
-            along_sum * along_sum <= chord_tolerance * chord_tolerance * dot3(d, d);
+        const vec3 turned = flat ? vec3(0) : normal - normal_;
+        const float tolerance2 = std::min(flat_tolerance * flat_tolerance + dot3(turned, turned),
+                                          chord_tolerance * chord_tolerance);
+        const float rounding = max_component(abs(query_.position)) * position_rounding;
+        const float excess = std::max(std::abs(along_sum) - rounding, 0.0f);
+        const bool same_side = (flat || dot3(normal, normal_) >= same_surface_cosine) &&
+                               excess * excess <= tolerance2 * dot3(d, d);
         if ((p.normal & area_sample_bit) == 0 && bits < limit_ && same_side) {
             found_.push_back({bits, index});
             std::push_heap(found_.begin(), found_.end());

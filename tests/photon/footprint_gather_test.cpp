@@ -109,7 +109,7 @@ Weight weight_at(const PhotonRecord& photon, const glm::uvec4& footprint, const 
     const double kernel = uniform_kernel ? 1 : 2 * (1 - q);
     Weight weight;
     weight.center = (uniform_kernel ? 1 : 2) / cut;
-    const double bend = std::abs(glm::dot(offset, n + m)) - chord_tolerance * glm::length(offset);
+    const double bend = bend_beyond({query.position, glm::vec3(m)}, n, offset);
     weight.uncertain = std::abs(q - 1) < 1e-5 || std::abs(bend) < 1e-5;
     const bool same_surface = bend <= 0 && glm::dot(n, m) >= double(same_surface_cosine);
     weight.value = q <= 1 && same_surface ? kernel / cut : 0;
@@ -316,7 +316,7 @@ TEST_F(GatherFootprints, InterruptedQueriesGiveTheSameBits) {
 TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
     const float height = 0.3f;
     // Height of a surface that is taken for another one at 0.1 from the query.
-    const float above = 0.5f * chord_tolerance * 0.1f;
+    const float above = 0.5f * flat_tolerance * 0.1f;
     const auto circle = [&](glm::vec3 position, glm::vec3 normal = {0, 1, 0}) {
         Splat s = splat(position, 1, true, normal);
         const Frame f = make_frame(normal);
@@ -329,7 +329,7 @@ TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
                                    circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.9f, 0)))};
     const std::vector<Splat> others{
         circle({0.31f, 0, 0}),         circle({0.1f, 1.1f * above, 0}),
-        circle({0, 0, 0}, {0, -1, 0}), circle({0.01f, -1e-4f, 0}, {0, -1, 0}),
+        circle({0, 0, 0}, {0, -1, 0}), circle({0.01f, -5e-6f, 0}, {0, -1, 0}),
         circle({0, 0, 0}, {1, 0, 0}),  circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.4f, 0)))};
     for (const Splat& splat : reach) {
         const Sums one = gather(device(), {splat}, {Query{}});

@@ -4,8 +4,11 @@
 #include "methods/rendering.hpp"
 #include "photon/gather.hpp"
 #include "shared/bsdf.h"
+#include "shared/photon.h"
 #include "shared/query_record.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace argand::testing {
@@ -20,6 +23,17 @@ struct Gathered {
     glm::dvec3 indirect{0}, caustic{0};
     bool operator==(const Gathered&) const = default;
 };
+
+/// By how much a chord from a query to a photon exceeds what is allowed along the sum of the
+/// normals at its ends (`on_same_surface` of the kernels); positive: the photon is on another
+/// surface.
+inline double bend_beyond(const Query& query, glm::dvec3 normal, glm::dvec3 chord) {
+    const glm::dvec3 own(query.normal), p = glm::abs(glm::dvec3(query.position));
+    const double rounding = std::max({p.x, p.y, p.z}) * double(position_rounding);
+    const double tolerance = std::min(std::hypot(double(flat_tolerance), glm::length(normal - own)),
+                                      double(chord_tolerance));
+    return std::abs(glm::dot(chord, own + normal)) - rounding - tolerance * glm::length(chord);
+}
 
 /// Stores the photons as if they had been traced.
 inline StoredPhotons store(Device& device, PhotonWorkspace& workspace,

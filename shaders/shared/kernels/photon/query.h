@@ -22,6 +22,7 @@ struct Query {
     uint lobes;
     Frame frame; // of the shading normal
     vec3 wo;
+    real rounding; // of a height over the query's plane, by the positions' single precision
     Sum indirect, caustic;
     real coverage; // sum of the weighted areas
     uint node;     // at which a walk through the map's tree continues
@@ -41,6 +42,7 @@ FN Query make_query(uint slot) {
     q.lambertian = !glossy || (record.flags & query_lambertian) != 0u;
     q.reflectance = vec3(record.reflectance_r, record.reflectance_g, record.reflectance_b);
     q.p = vec3(record.x, record.y, record.z);
+    q.rounding = max_component(abs(q.p)) * position_rounding;
     q.normal = unpack_unit(record.geometric_normal);
     q.front = (record.flags & query_front) != 0u;
     q.own_normal = pack_photon_normal(q.normal, false);
@@ -67,6 +69,7 @@ FN bool on_same_surface(IN(Query) q, uint packed, vec3 chord) {
     }
     bool is_area = (packed & area_sample_bit) != 0u;
     real along_sum = height + height;
+    real tolerance2 = flat_tolerance * flat_tolerance;
     // On flat surfaces the packed normals are equal, which saves unpacking.
     if ((packed & photon_normal_mask) != (is_area ? q.front_normal : q.own_normal)) {
         vec3 normal = unpack_photon_normal(packed);
@@ -75,8 +78,11 @@ FN bool on_same_surface(IN(Query) q, uint packed, vec3 chord) {
         if (!(dot3(normal, q.normal) >= same_surface_cosine)) {
             return false;
         }
+        vec3 turned = normal - q.normal;
+        tolerance2 = min(tolerance2 + dot3(turned, turned), chord_tolerance * chord_tolerance);
     }
-    return along_sum * along_sum <= chord_tolerance * chord_tolerance * length2;
+    real excess = max(abs(along_sum) - q.rounding, real(0.0));
+    return excess * excess <= tolerance2 * length2;
 }
 
 // The part of an area sample on the query's side. carried: the sample's second four words.
