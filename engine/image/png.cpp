@@ -11,6 +11,8 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <span>
+#include <string_view>
 #include <vector>
 
 // Static, so that this copy of stb does not clash with another one in the program. Only these two
@@ -91,6 +93,40 @@ template <class T> std::vector<float> decode_table() {
     return table;
 }
 
+/// Checks that a Radiance file has a size that can be read, and at least as many bytes as its
+/// pixels take: the decoder fills in what is missing.
+void check_hdr(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+    const std::string file = one_line(path.string(), 4096);
+    int width = 0, height = 0, channels = 0;
+    const int size = static_cast<int>(bytes.size());
+    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width < 1 ||
+        height < 1 || width > longest_side || height > longest_side ||
+        std::uint64_t(width) * std::uint64_t(height) * rgb > most_samples) {
+        fail("cannot read '{}': its size of {} × {} pixels is not one that can be read; render or "
+             "copy it again",
+             file, width, height);
+    }
+    // The header ends with an empty line and the line of the size.
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t end_of_header = text.find("\n\n");
+    const std::size_t end_of_size =
+        end_of_header == text.npos ? text.npos : text.find('\n', end_of_header + 2);
+    const auto pixels =
+        end_of_size == text.npos ? bytes.subspan(bytes.size()) : bytes.subspan(end_of_size + 1);
+    // Rows of run lengths: a mark of four bytes, then two bytes for each 127 values at the most.
+    const auto columns = static_cast<std::uint64_t>(width);
+    const bool runs = width >= 8 && width < 32768 && pixels.size() >= 4 && pixels[0] == 2 &&
+                      pixels[1] == 2 && pixels[2] < 128;
+    const std::uint64_t least =
+        std::uint64_t(height) * (runs ? 4 + 8 * ((columns + 126) / 127) : 4 * columns);
+    if (pixels.size() < least) {
+        fail(
+            "cannot read '{}': it is cut short: {} × {} pixels take at least {} bytes, of which it "
+            "has {}; render or copy it again",
+            file, width, height, least, pixels.size());
+    }
+}
+
 [[noreturn]] void fail_to_decode(const std::filesystem::path& path) {
     const char* reason = stbi_failure_reason();
     fail("cannot read '{}': it is damaged ({}); render or copy it again",
@@ -157,6 +193,7 @@ Image read_png(const std::filesystem::path& path) try {
 Image read_hdr(const std::filesystem::path& path) try {
     const std::vector<std::uint8_t> bytes =
         read_bytes(path, "Radiance HDR", &stbi_is_hdr_from_memory);
+    check_hdr(path, bytes);
     int width = 0, height = 0, channels = 0;
     const auto samples = hold(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()),
                                                      &width, &height, &channels, rgb));

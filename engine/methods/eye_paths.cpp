@@ -68,6 +68,7 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                             .alive = w.alive,
                             .query_kinds = w.queries.kinds,
                             .query_bsdfs = w.queries.bsdfs,
+                            .sky = scene.sky,
                             .batch = batch,
                             .constants = {.photon_map = photon_map,
                                           .final_gather = w.queries.final_gather,

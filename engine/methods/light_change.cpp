@@ -18,7 +18,8 @@ double distance_of(const glm::dvec3& a, const glm::dvec3& b) { return glm::dista
 /// The change of one light.
 double change_of(const LightRecord& a, const LightRecord& b, double distance) {
     if (a.kind != b.kind ||
-        (a.kind == light_triangle && a.triangle_and_sides != b.triangle_and_sides)) {
+        (a.kind == light_triangle && a.triangle_and_sides != b.triangle_and_sides) ||
+        (a.kind == light_picture && (a.dx != b.dx || a.dy != b.dy))) {
         return infinity_of_change;
     }
     // Lights from outside have no place: what stands there is how their photons are aimed.

@@ -61,12 +61,16 @@ glm::dvec3 nearest_to_rays(std::span<const FoundLight> found, double scene_radiu
 } // namespace
 
 glm::dvec4 numbers_of_photon(const LightRecord& light, const glm::vec3& middle, double radius,
-                             const glm::vec3& point, const glm::vec3& direction) {
-    const bool sky = light.kind == light_sky;
-    const Frame frame = make_frame(sky ? direction : glm::vec3(light.dx, light.dy, light.dz));
+                             const glm::vec3& point, const glm::vec3& direction,
+                             const SkyTable* sky) {
+    const bool directional = light.kind == light_directional;
+    const Frame frame =
+        make_frame(directional ? glm::vec3(light.dx, light.dy, light.dz) : direction);
     const glm::dvec3 to = glm::dvec3(point) - glm::dvec3(middle);
     const glm::dvec2 across(glm::dot(to, glm::dvec3(frame.x)), glm::dot(to, glm::dvec3(frame.y)));
-    const glm::dvec2 of_direction = sky ? numbers_of_sphere(direction) : glm::dvec2(0.5);
+    const glm::dvec2 of_direction = directional ? glm::dvec2(0.5)
+                                    : sky       ? numbers_of_direction(*sky, -direction)
+                                                : numbers_of_sphere(direction);
     const glm::dvec4 u(of_direction, numbers_of_disc(across / radius));
     return glm::clamp(u, 0.0, double(LARGEST_BELOW_1));
 }
@@ -93,13 +97,14 @@ std::vector<LightAim> learn_aims(const DeviceScene& scene, std::span<const Found
             continue;
         }
         const double radius = radius_around(aim.middle, scene.record);
+        const SkyTable* sky = lights[i].kind == light_picture ? scene.sky_table.get() : nullptr;
         std::vector<AimSample> samples(of_light.size());
         std::transform(of_light.begin(), of_light.end(), samples.begin(), [&](const FoundLight& f) {
             return AimSample{
-                .u = numbers_of_photon(lights[i], aim.middle, radius, f.point, f.direction),
+                .u = numbers_of_photon(lights[i], aim.middle, radius, f.point, f.direction, sky),
                 .weight = f.radiance};
         });
-        aim.tree = make_aim_tree(samples, lights[i].kind == light_sky ? 0 : 2);
+        aim.tree = make_aim_tree(samples, lights[i].kind == light_directional ? 2 : 0);
         if (aim.tree.size() > 1) {
             aims.push_back(std::move(aim));
         }

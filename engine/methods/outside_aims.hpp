@@ -14,10 +14,11 @@ namespace argand {
 /// found.
 std::vector<LightAim> learn_aims(const DeviceScene& scene, std::span<const FoundLight> found);
 
-/// The random numbers with which a photon of this light (a directional one or the sky) passes the
+/// The random numbers with which a photon of this light (a directional one or a sky) passes the
 /// point in this unit direction, if it starts on a disc before the sphere around `middle`: the
-/// inverse of light_emit. For directional lights the first two are 0.5.
+/// inverse of light_emit. For directional lights the first two are 0.5. sky: of a picture.
 glm::dvec4 numbers_of_photon(const LightRecord& light, const glm::vec3& middle, double radius,
-                             const glm::vec3& point, const glm::vec3& direction);
+                             const glm::vec3& point, const glm::vec3& direction,
+                             const SkyTable* sky = nullptr);
 
 } // namespace argand

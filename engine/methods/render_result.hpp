@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct RenderStatistics {
     std::optional<FootprintScale> footprint_scale; ///< none: photons are points
     std::uint64_t non_finite = 0; ///< samples left out because they were not finite
     FluxSums flux;
+    glm::ivec2 reduced_sky{0};          ///< size of the sky's picture; 0: it is not reduced
     std::uint32_t texture_halvings = 0; ///< of the largest textures, which the device cannot hold
     bool interrupted = false;           ///< pixels hold the samples that were finished, maybe none
     /// What a method counts beside all this, by a name that is a key of JSON.

@@ -6,6 +6,7 @@
 #include "shared/photon_records.h"
 #include "shared/query_record.h"
 #include "shared/scene_records.h"
+#include "shared/sky_record.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,11 @@ FeatureText text_of(Feature feature) {
         return {"emissive_triangles", "emissive triangles", ""};
     case Feature::sky:
         return {"sky", "uniform sky", ""};
+    case Feature::sky_picture:
+        return {"sky_picture", "picture of the sky",
+                fmt::format("{} bytes per texel; every ray that leaves the scene, and every sample "
+                            "of the sky, reads four texels",
+                            (sky_texel_words + 1) * word)};
     case Feature::several_lights:
         return {"several_lights", "choice among lights",
                 fmt::format("{} bytes per light", 2 * sizeof(LightChoice))};

@@ -32,7 +32,8 @@ constexpr Bit light_bits[] = {{Feature::point_light, 1u << light_point},
                               {Feature::spot_light, 1u << light_spot},
                               {Feature::directional_light, 1u << light_directional},
                               {Feature::emissive_triangles, 1u << light_triangle},
-                              {Feature::sky, 1u << light_sky}};
+                              {Feature::sky, 1u << light_sky},
+                              {Feature::sky_picture, 1u << light_picture}};
 
 std::string named(const char* kind, const std::string& name, std::size_t index) {
     return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
@@ -139,8 +140,12 @@ void add_lights(Requirements& requirements, const Scene& scene, const SurfaceUse
         requirements.add(feature_of(light.kind), named("light", light.name, i));
     }
     const bool sky = scene.sky && glm::any(glm::greaterThan(*scene.sky, glm::vec3(0)));
+    const bool picture =
+        !scene.sky && scene.environment &&
+        glm::any(glm::greaterThan(mean_radiance(*scene.environment), glm::dvec3(0)));
     requirements.add(Feature::sky, "the sky", sky);
-    lights += sky ? 1 : 0;
+    requirements.add(Feature::sky_picture, "the sky", picture);
+    lights += sky || picture ? 1 : 0;
     for (const std::uint32_t material : use.materials) {
         lights += emits(scene.materials[material]) ? use.triangles[material] : 0;
     }

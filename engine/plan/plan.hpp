@@ -29,6 +29,7 @@ enum class Feature : std::uint8_t {
     directional_light,
     emissive_triangles,
     sky,
+    sky_picture,    ///< a sky that is not uniform
     several_lights, ///< requires choosing a light
     // Paths. A path continues through followed lobes (smooth ones, and glossy ones up to
     // follow_roughness); light arriving at estimated lobes is estimated (docs/path-classes.md).

@@ -24,6 +24,11 @@ std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
     add(scene.triangle_material);
     add(scene.uvs);
     add(scene.colors);
+    if (scene.sky) {
+        hash = with(hash, *scene.sky);
+    } else if (scene.environment) {
+        hash = with(hash, fingerprint(*scene.environment));
+    }
     return hash;
 }
 

@@ -10,20 +10,20 @@
 #include "scene/gltf_node.hpp"
 #include "scene/moving_factors.hpp"
 #include "scene/pose.hpp"
+#include "scene/studio.hpp"
 #include <algorithm>
 #include <utility>
 
 namespace argand {
 namespace {
 
-/// Adds a sky where the file has no light.
+/// Adds a studio where the file has no light.
 void add_missing_light(Scene& scene) {
     const bool emissive =
         std::any_of(scene.triangle_material.begin(), scene.triangle_material.end(),
                     [&](std::uint32_t material) { return may_emit(scene, material); });
     if (scene.lights.empty() && !emissive) {
-        scene.sky = glm::vec3(1);
-        add_note(scene, "there is no light: a uniform white sky of radiance 1 is added");
+        add_studio(scene);
     }
 }
 

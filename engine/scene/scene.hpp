@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/camera.hpp"
+#include "scene/environment.hpp"
 #include "scene/light.hpp"
 #include "scene/motion.hpp"
 #include "scene/texture.hpp"
@@ -73,8 +74,9 @@ struct Scene {
     std::vector<Texture> textures;                ///< a material's follow one another
     std::vector<std::shared_ptr<const TextureImage>> images; ///< used by textures
     std::vector<Light> lights;
-    std::optional<glm::vec3> sky; ///< uniform radiance from all directions [cd/m²]
-    std::vector<Camera> cameras;  ///< at least one after loading, added if the file has none
+    std::optional<glm::vec3> sky;           ///< uniform radiance from all directions [cd/m²]
+    std::optional<Environment> environment; ///< a sky that is not uniform; unused if there is `sky`
+    std::vector<Camera> cameras; ///< at least one after loading, added if the file has none
     std::vector<Animation> animations;
     std::optional<double> seconds;            ///< moment of the animations; none: at rest
     Motion motion;                            ///< what moves, in object space

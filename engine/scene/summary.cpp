@@ -1,5 +1,6 @@
 #include "scene/summary.hpp"
 
+#include "scene/environment_summary.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/light_power.hpp"
 #include "shared/texture_record.h"
@@ -301,6 +302,7 @@ json summary_json(const Scene& scene) {
             {"lights", lights},
             {"emissive", emissive_json(scene)},
             {"sky", scene.sky ? numbers(*scene.sky) : json(nullptr)},
+            {"environment", environment_json(scene)},
             {"cameras", cameras},
             {"animations", animations},
             {"moving", motion_json(scene.motion)},
@@ -326,7 +328,7 @@ std::string summary_text(const Scene& scene) {
                                  emissive["triangles"].get<std::size_t>(),
                                  emissive["area"].get<double>(), short_text(emissive["power"])));
     line("sky", summary["sky"].is_null()
-                    ? "none"
+                    ? environment_text(scene)
                     : fmt::format("uniform, radiance {}", short_text(summary["sky"])));
     append_list(text, "cameras", summary["cameras"], camera_line);
     append_list(text, "animations", summary["animations"], animation_line);

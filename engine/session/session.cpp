@@ -49,7 +49,8 @@ CameraRecord Session::camera(const DeviceScene& on_device) const {
 }
 
 Session::Shown Session::now() const {
-    return {world_.revision(), scene_.lights, scene_.sky, scene_.cameras[settings_.camera]};
+    return {world_.revision(), scene_.lights, scene_.sky, scene_.environment,
+            scene_.cameras[settings_.camera]};
 }
 
 bool Session::is_current(std::uint32_t seed) const {
@@ -155,6 +156,9 @@ std::vector<Layer> Session::layers() {
 RenderResult Session::result() {
     method_->report(statistics_);
     statistics_.texture_halvings = context_->on_device.texture_halvings;
+    if (const auto& sky = context_->on_device.sky_table; sky && sky->halvings > 0) {
+        statistics_.reduced_sky = {sky->width, sky->height};
+    }
     std::vector<Layer> image = layers();
     return {.layers = std::move(image), .statistics = statistics_};
 }

@@ -93,6 +93,7 @@ private:
         std::uint64_t revision = 0; ///< of the world
         std::vector<Light> lights;
         std::optional<glm::vec3> sky;
+        std::optional<Environment> environment;
         Camera camera;
         bool operator==(const Shown&) const = default;
     };

@@ -79,6 +79,8 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
         result.lights = upload(device, "lights", result.light_table.lights);
     }
     result.record = scene_record(scene, result.light_table, center, radius);
+    result.record.sky_columns =
+        result.sky_table ? static_cast<std::uint32_t>(result.sky_table->width) : 0;
     result.record.follow_roughness = result.plan.request.follow_roughness;
     result.aim_nodes = unneeded(device);
     const std::vector<double> shares = plain_shares(result.light_table);
@@ -98,7 +100,7 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
         }
         return static_cast<float>(share);
     };
-    scene.record.sky_probability = share_of_kind(light_sky);
+    scene.record.sky_probability = share_of_kind(light_sky) + share_of_kind(light_picture);
     scene.record.emitter_probability = share_of_kind(light_triangle);
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
     if (!scene.plan.needs(Feature::several_lights)) {

@@ -12,6 +12,7 @@
 #include "world/caster_table.hpp"
 #include "world/emissive_parts.hpp"
 #include "world/light_table.hpp"
+#include "world/sky_table.hpp"
 
 #include <memory>
 #include <vector>
@@ -33,11 +34,13 @@ struct DeviceScene {
     Buffer materials;     ///< MaterialRecord
     Buffer lights;        ///< LightRecord: punctual lights, emissive triangles, sky
     Buffer light_choices; ///< LightChoice per light, for shadow rays and then for photons
+    Buffer sky;           ///< SkyTable::words; or not needed
     Buffer aim_nodes;     ///< AimNode of all `aims`, after one that is not used; or not needed
     Buffer attributes;    ///< uvec2: what vertices have for textures, see upload_attributes()
     Buffer textures;      ///< TextureRecord
     Buffer texels;        ///< see TextureTable
-    std::uint32_t texture_halvings = 0; ///< see FittingImages
+    std::uint32_t texture_halvings = 0;        ///< see FittingImages
+    std::shared_ptr<const SkyTable> sky_table; ///< the host's copy of `sky`; null: there is none
     TriangleBvh bvh;
     SceneRecord record;     ///< the host's copy of `scene`
     LightTable light_table; ///< what the host knows of `lights`, and their emitters

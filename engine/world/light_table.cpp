@@ -121,6 +121,18 @@ void add_sky(const Scene& scene, float scene_radius, LightTable& table) {
         sky.g = scene.sky->g;
         sky.b = scene.sky->b;
         add_light(table, sky, scene_radius);
+    } else if (scene.environment) {
+        const glm::vec3 mean(mean_radiance(*scene.environment));
+        LightRecord picture{};
+        picture.kind = light_picture;
+        picture.r = mean.r;
+        picture.g = mean.g;
+        picture.b = mean.b;
+        // Kernels set the direction. The host tells pictures apart by it (light_change.hpp).
+        const std::uint64_t hash = fingerprint(*scene.environment);
+        picture.dx = static_cast<float>(hash & 0xffffffu);
+        picture.dy = static_cast<float>(hash >> 24u & 0xffffffu);
+        add_light(table, picture, scene_radius);
     }
 }
 

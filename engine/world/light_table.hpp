@@ -26,7 +26,7 @@ struct LightTable {
     std::uint32_t first_triangle = 0, triangle_count = 0; ///< emissive triangles among the lights
 };
 
-/// Whether this is the sky or a directional light.
+/// Whether this is a sky or a directional light.
 inline bool is_from_outside(const LightRecord& light) {
     return ((1u << light.kind) & light_kinds_from_outside) != 0;
 }

@@ -262,6 +262,7 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
         }
         result.emissive = emissive_;
     }
+    add_sky(scene, result);
     prepare_scene(device_, scene, box(scene), shines, result);
     add_textures(scene, result);
     return result;
@@ -281,6 +282,22 @@ void World::add_textures(const Scene& scene, DeviceScene& on_device) {
     on_device.textures = textured ? textures_.records : none;
     on_device.texture_halvings = textured ? textures_.halvings : 0;
     on_device.texels = textured ? textures_.texels : none;
+}
+
+void World::add_sky(const Scene& scene, DeviceScene& on_device) {
+    if (!on_device.plan.needs(Feature::sky_picture) || scene.sky || !scene.environment) {
+        on_device.sky = unneeded(device_);
+        return;
+    }
+    if (!sky_table_ || environment_ != scene.environment) {
+        sky_ = Buffer(); // frees its memory before the new one takes its own
+        sky_table_ = std::make_shared<const SkyTable>(make_sky_table(
+            *scene.environment, device_.info().limits.storage_range / sizeof(std::uint32_t)));
+        sky_ = upload(device_, "sky", sky_table_->words);
+        environment_ = scene.environment;
+    }
+    on_device.sky = sky_;
+    on_device.sky_table = sky_table_;
 }
 
 void World::add_casters(const Scene& scene, DeviceScene& on_device) {

@@ -69,6 +69,7 @@ private:
     void build_tree(const Scene& scene);
     DeviceScene without_areas(const Scene& scene, const Plan& plan);
     void add_textures(const Scene& scene, DeviceScene& on_device);
+    void add_sky(const Scene& scene, DeviceScene& on_device);
     void add_casters(const Scene& scene, DeviceScene& on_device);
     void add_areas(const Scene& scene, DeviceScene& on_device);
     bool follow_meshes(const Scene& scene, WorldUpdate& update);
@@ -84,6 +85,9 @@ private:
     Buffer normals_;        ///< empty until a plan needs them
     TextureTable textures_; ///< empty until a plan needs it
     Buffer attributes_;     ///< the same
+    Buffer sky_;            ///< the same
+    std::shared_ptr<const SkyTable> sky_table_;
+    std::optional<Environment> environment_; ///< of which the table is
     TriangleBvh bvh_;
     std::uint64_t revision_ = 0;
     std::uint64_t last_material_change_ = 0; ///< see DeviceScene

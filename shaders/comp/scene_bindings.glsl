@@ -17,4 +17,4 @@ layout(set = 0, binding = 6) readonly buffer LightChoices { LightChoice light_ch
 // Features of the scene (engine/plan/plan.hpp). Buffers that are not read may be empty.
 layout(constant_id = 16) const bool smooth_normals = true;      // false: `normals` is not read
 layout(constant_id = 17) const bool several_lights = true;      // false: `light_choices` is not read
-layout(constant_id = 18) const uint light_kinds = 31u;          // a bit 1u << light_* for each kind
+layout(constant_id = 18) const uint light_kinds = 63u;          // a bit 1u << light_* for each kind

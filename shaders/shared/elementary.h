@@ -128,6 +128,35 @@ FN void sincos_2pi(real u, OUT(real) s, OUT(real) c) {
     c = (q == 1u || q == 2u) ? -c : c;
 }
 
+// The angle of (x, y) from the x axis, in turns, from -1/2 to 1/2; 0 for (0, 0). atan2(y, x)/(2
+// pi).
+FN real turn_of(real y, real x) {
+#ifdef ARGAND_REAL_DOUBLE
+    return std::atan2(y, x) / (real(2.0) * PI);
+#else
+    real a = abs(x);
+    real b = abs(y);
+    real largest = max(a, b);
+    if (!(largest > real(0.0))) {
+        return real(0.0);
+    }
+    real s = min(a, b) / largest;
+    // Beyond an eighth of pi the angle is that of (1 + s, 1 - s) short of an eighth of a turn.
+    bool reduce = s > real(0.41421356);
+    real r = reduce ? (s - real(1.0)) / (s + real(1.0)) : s;
+    real z = r * r;
+    real tail = real(-0.33333331761166274) +
+                z * (real(0.19999540483502168) +
+                     z * (real(-0.1426395559525927) +
+                          z * (real(0.10743731471527072) + z * real(-0.06451928161888948))));
+    real turn = (r + r * (z * tail)) * (real(0.5) * INV_PI);
+    turn = reduce ? real(0.125) + turn : turn;
+    turn = b > a ? real(0.25) - turn : turn;
+    turn = x < real(0.0) ? real(0.5) - turn : turn;
+    return y < real(0.0) ? -turn : turn;
+#endif
+}
+
 // log(1 - x) for x in [0, 1), with a small relative error even where 1 - x has lost the digits of
 // x.
 FN real log_complement(real x) {

@@ -45,6 +45,8 @@ FN PhotonDifferential light_differential(IN(LightRecord) l, uint kinds, IN(Emitt
     real spread = real(0.0);
     if (is_light(l, kinds, light_sky)) {
         spread = sqrt(PI / max(photons * p.concentration, real(1.0)));
+    } else if (is_light(l, kinds, light_picture)) {
+        spread = sqrt(PI / max(photons * p.concentration * real(l.ey), real(1.0)));
     } else if (is_light(l, kinds, light_triangle)) {
         real area;
         light_normal(l, area);

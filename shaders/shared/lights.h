@@ -111,10 +111,17 @@ FN Sphere aim_sphere(IN(LightRecord) l) {
     return s;
 }
 
+FN bool is_any_sky(IN(LightRecord) l, uint kinds) {
+    return is_light(l, kinds, light_sky) || is_light(l, kinds, light_picture);
+}
+
+FN bool is_from_outside(IN(LightRecord) l, uint kinds) {
+    return is_light(l, kinds, light_directional) || is_any_sky(l, kinds);
+}
+
 // Whether the photons of this light come from outside and are aimed by a tree (aim.h).
 FN bool is_aimed_from_outside(IN(LightRecord) l, uint kinds) {
-    return (is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky)) &&
-           l.triangle_and_sides != 0u;
+    return is_from_outside(l, kinds) && l.triangle_and_sides != 0u;
 }
 
 FN uint aim_root(IN(LightRecord) l) { return l.triangle_and_sides; }
@@ -130,7 +137,7 @@ FN vec3 light_power(IN(LightRecord) l, uint kinds, real radius) {
         factor = spot_solid_angles(real(l.cos_inner), real(l.cos_outer), ramp, ramp_share);
     } else if (is_light(l, kinds, light_directional)) {
         factor = PI * radius * radius;
-    } else if (is_light(l, kinds, light_sky)) {
+    } else if (is_any_sky(l, kinds)) {
         factor = real(39.478417604357434) * radius * radius; // 4 pi²
     } else if (is_light(l, kinds, light_triangle)) {
         real area;
@@ -170,7 +177,23 @@ FN bool sample_emitter(IN(LightRecord) l, vec3 p, vec2 u, INOUT(LightSample) s) 
     return is_finite(s.pdf) && s.pdf > real(0.0);
 }
 
-// Samples a direction from p towards the light. p must be the origin of the shadow ray: it is
+// The sky's picture as if all of it came from the direction that was sampled with this density
+// [1/sr] and has this radiance.
+FN LightRecord light_from_picture(LightRecord l, vec3 towards, vec3 radiance, real pdf) {
+    l.dx = float32(-towards.x);
+    l.dy = float32(-towards.y);
+    l.dz = float32(-towards.z);
+    real over_even = pdf * (real(4.0) * PI);
+    vec3 color = over_even > real(0.0) ? radiance / over_even : vec3(real(0.0));
+    l.r = float32(color.x);
+    l.g = float32(color.y);
+    l.b = float32(color.z);
+    l.ey = float32(over_even);
+    return l;
+}
+
+// Samples a direction from p towards the light; of a picture it has been sampled before
+// (light_from_picture). p must be the origin of the shadow ray: it is
 // offset from the surface, and on a large floor the offset exceeds the rounding errors allowed for
 // here. Returns false where none of the light arrives.
 FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSample) s) {
@@ -188,6 +211,12 @@ FN bool light_sample(IN(LightRecord) l, uint kinds, vec3 p, vec2 u, OUT(LightSam
         s.pdf = UNIFORM_SPHERE_PDF;
         s.delta = false;
         return true;
+    }
+    if (is_light(l, kinds, light_picture)) {
+        s.radiance = light_color(l) * (real(4.0) * PI);
+        s.pdf = real(l.ey) * UNIFORM_SPHERE_PDF;
+        s.delta = false;
+        return s.pdf > real(0.0);
     }
     if (is_light(l, kinds, light_triangle)) {
         return sample_emitter(l, p, u, s);
@@ -376,8 +405,8 @@ FN bool light_emit_aimed(IN(LightRecord) l, uint kinds, IN(Sphere) bounds, IN(Ta
                          vec4 u, vec4 v, real choice, OUT(EmittedPhoton) p) {
     vec3 error;
     bool emitted = emit_evenly(l, kinds, bounds, u, v, p, error);
-    bool from_outside = is_light(l, kinds, light_directional) || is_light(l, kinds, light_sky);
-    if (!from_outside && (targets.count > 0u || targets.view_share > real(0.0)) && emitted) {
+    if (!is_from_outside(l, kinds) && (targets.count > 0u || targets.view_share > real(0.0)) &&
+        emitted) {
         emitted = aim_at_targets(l, kinds, targets, vec2(u.x, u.y), choice, p);
         p.flux = p.flux / (emitted ? p.concentration : real(1.0));
     }

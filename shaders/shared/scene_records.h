@@ -11,7 +11,7 @@ CONSTANT uint most_targets = 4u;
 // Data of the whole scene for kernels; a storage buffer holds one of these.
 struct SceneRecord {
     float32 center_x, center_y, center_z, radius; // bounding sphere
-    float32 sky_r, sky_g, sky_b;                  // uniform radiance [cd/m²]
+    float32 sky_r, sky_g, sky_b;                  // radiance of a uniform sky [cd/m²]
     uint light_count;
     uint first_emitter;      // index of the first emissive triangle among the lights
     float32 sky_probability; // probability that a shadow ray is sent to the sky
@@ -28,8 +28,8 @@ struct SceneRecord {
     uint target_count;
     float32 target_share;
     float32 view_share; // of the photons emitted or scattered outside `view` that are aimed at it
-    uint pad5;
-    lane4 view; // sphere (center, radius) around most of what is in view
+    uint sky_columns;   // of texels in the sky's picture; 0: there is none
+    lane4 view;         // sphere (center, radius) around most of what is in view
 };
 
 // A row of the table that chooses a light, by inversion of the cumulative probabilities: that keeps

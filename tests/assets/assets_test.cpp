@@ -87,10 +87,10 @@ TEST_P(Asset, LoadsAsItIsMeant) {
     EXPECT_EQ(scene.cameras[0].aspect, 1);
     if (expected.lights + expected.emitters > 0) {
         EXPECT_THAT(scene.notes, IsEmpty());
-        EXPECT_FALSE(scene.sky.has_value());
+        EXPECT_FALSE(scene.environment.has_value());
     } else {
-        EXPECT_THAT(scene.notes, ElementsAre(HasSubstr("sky")));
-        EXPECT_TRUE(scene.sky.has_value());
+        EXPECT_THAT(scene.notes, ElementsAre(HasSubstr("studio")));
+        EXPECT_TRUE(scene.environment.has_value());
     }
 }
 

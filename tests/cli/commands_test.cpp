@@ -333,7 +333,7 @@ TEST_F(Commands, BenchPrintsARowForEachMeasurement) {
 TEST_F(Commands, NotesSayWhatWasMadeUp) {
     const Outcome run = render("-o a.png", "sky_room.glb");
     EXPECT_THAT(run.error, HasSubstr("argand: note: "));
-    EXPECT_THAT(run.error, HasSubstr("sky"));
+    EXPECT_THAT(run.error, HasSubstr("studio"));
 }
 
 } // namespace

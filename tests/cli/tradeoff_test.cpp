@@ -54,7 +54,7 @@ TEST_F(Tradeoff, DrawsSettingsAsAccurateAsTheReference) {
     write_text(file("unlit.gltf"),
                scene.dump()); // under a white sky: the radiance is uniform
     const Outcome swept =
-        argand("tradeoff unlit.gltf --size 16x16 --quick --methods path,path --seeds 2 "
+        argand("tradeoff unlit.gltf --env 1,1,1 --size 16x16 --quick --methods path,path --seeds 2 "
                "--reference-seconds 0 --backend cpu");
     ASSERT_EQ(swept.exit_code, 0) << swept.error;
     EXPECT_THAT(swept.out, HasSubstr("4 settings measured"));

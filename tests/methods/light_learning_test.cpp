@@ -2,6 +2,8 @@
 // with a strong one that does not reach what is in view.
 #include "rendering.hpp"
 
+#include "scene/studio.hpp"
+
 namespace argand::testing {
 namespace {
 
@@ -152,6 +154,33 @@ TEST_P(LightLearning, SkyAndSunThroughAnOpening) {
         }
         EXPECT_RELATIVE(sum, mean(layer(truth, "indirect")).g, 0.03);
     }
+}
+
+// The same for a picture, brighter above, whose sun shines through the opening: photons learn which
+// part of the sky they should come from, too.
+TEST_P(LightLearning, PictureWithASunThroughAnOpening) {
+    Scene scene = room_with_opening(false);
+    scene.sky.reset();
+    Environment sky = studio();
+    sky.rotation = 30;
+    sky.sun = Sun{.towards = glm::normalize(glm::vec3(-0.7f, 0.8f, 0.75f)),
+                  .radius = 0.05f,
+                  .radiance = glm::vec3(400)};
+    scene.environment = sky;
+    const RenderResult& truth = render_once("opening, picture", scene, reference(2048));
+    double sum = 0;
+    constexpr int seeds = 4;
+    for (int seed = 0; seed < seeds; ++seed) {
+        RenderSettings settings = small_picture(GetParam());
+        settings.seed = static_cast<std::uint32_t>(seed) + 10;
+        const RenderResult found = render(scene, settings);
+        sum += mean(layer(found, "indirect")).g / seeds;
+        if (found.statistics.photons_emitted > 0) {
+            EXPECT_GT(found.statistics.photons_in_view,
+                      0.12 * static_cast<double>(found.statistics.photons_emitted));
+        }
+    }
+    EXPECT_RELATIVE(sum, mean(layer(truth, "indirect")).g, 0.03);
 }
 
 // With one photon, or with a light that reaches nothing in view, little is learnt.

@@ -16,8 +16,13 @@
 
 namespace argand::testing {
 
+/// A scene of assets/, those without light under a uniform white sky.
 inline Scene load_asset(const std::string& name) {
-    return load_gltf(std::string(ARGAND_SOURCE_DIR "/assets/") + name);
+    Scene scene = load_gltf(std::string(ARGAND_SOURCE_DIR "/assets/") + name);
+    if (scene.environment) {
+        scene.sky = glm::vec3(1);
+    }
+    return scene;
 }
 
 inline const Image& layer(const RenderResult& result, const std::string& name) {

@@ -1,6 +1,7 @@
 // Argand compiles, runs and allocates only what a scene requires, which changes no bit of an image.
 #include "methods/plan_render.hpp"
 #include "rendering.hpp"
+#include "scene/studio.hpp"
 #include "shared/geometry_records.h"
 #include "shared/query_record.h"
 #include "support/recording_device.hpp"
@@ -127,6 +128,10 @@ RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const s
 TEST_P(Specialisation, ChangesNoBit) {
     expect_same_bits(diffuse_box(), small(GetParam()));
     expect_same_bits(mixed_scene(), small(GetParam()));
+    Scene under_a_picture = mixed_scene();
+    under_a_picture.sky.reset();
+    under_a_picture.environment = studio();
+    expect_same_bits(under_a_picture, small(GetParam()));
 }
 
 TEST_P(Specialisation, SlowChangesNoBitOfAnyScene) {
@@ -298,9 +303,9 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
             }
         }
     }
-    // Seven features of materials and five of lights. Leaving out transmission alone changes no
+    // Seven features of materials and six of lights. Leaving out transmission alone changes no
     // constant, because refraction has its bit, too.
-    EXPECT_EQ(smaller.size(), 11u);
+    EXPECT_EQ(smaller.size(), 12u);
     for (const auto& [feature, kernels] : smaller) {
         EXPECT_GT(kernels, 0) << text_of(feature).name;
     }

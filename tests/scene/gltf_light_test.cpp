@@ -30,7 +30,7 @@ TEST(GltfLight, ReadsPointLights) {
     EXPECT_EQ(scene.lights[0].kind, LightKind::point);
     EXPECT_EQ(scene.lights[0].position, glm::vec3(1, 2, 3));
     EXPECT_EQ(scene.lights[0].intensity, glm::vec3(40, 20, 0)); // the node's scale does not matter
-    EXPECT_FALSE(scene.sky);
+    EXPECT_FALSE(scene.environment);
 }
 
 TEST(GltfLight, HasTheDefaultsOfTheExtension) {
@@ -110,11 +110,12 @@ TEST(GltfLight, LeavesOutLightsWithoutADirection) {
     EXPECT_EQ(with_light({{"type", "point"}}, {{"scale", {0, 0, 0}}}).load().lights.size(), 1u);
 }
 
-TEST(GltfLight, AddsASkyIfThereIsNoLight) {
+TEST(GltfLight, AddsAStudioIfThereIsNoLight) {
     const Scene scene = one_triangle().load();
-    ASSERT_TRUE(scene.sky.has_value());
-    EXPECT_EQ(*scene.sky, glm::vec3(1));
-    EXPECT_TRUE(has_note(scene, "no light: a uniform white sky"));
+    EXPECT_FALSE(scene.sky.has_value());
+    ASSERT_TRUE(scene.environment.has_value());
+    EXPECT_EQ(*scene.environment, *one_triangle().load().environment);
+    EXPECT_TRUE(has_note(scene, "no light: a neutral studio"));
 }
 
 } // namespace

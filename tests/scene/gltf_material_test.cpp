@@ -63,7 +63,7 @@ TEST(GltfMaterial, MultipliesEmissionByItsStrength) {
     material["emissiveFactor"] = {1, 0.5, 0};
     const Scene scene = with_material(material).load();
     EXPECT_EQ(scene.materials[0].emission, glm::vec3(1e10f, 5e9f, 0));
-    EXPECT_FALSE(scene.sky);
+    EXPECT_FALSE(scene.environment);
     EXPECT_FALSE(has_note(scene, "no light"));
 }
 
@@ -115,7 +115,7 @@ TEST(GltfMaterial, BlendedSurfacesWithAlphaZeroAreAbsent) {
     builder.add_triangles({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.triangles.size(), 1u);
-    EXPECT_TRUE(scene.sky.has_value());
+    EXPECT_TRUE(scene.environment.has_value());
 }
 
 TEST(GltfMaterial, RejectsUnknownAlphaModesAndClampsAlpha) {
@@ -251,7 +251,7 @@ TEST(GltfMaterial, SurfacesWithEmissiveTexturesDoNotEmit) {
         with_material({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}}).load();
     EXPECT_EQ(scene.materials[0].emission, glm::vec3(0));
     EXPECT_TRUE(has_note(scene, "emissive textures are not read yet"));
-    EXPECT_TRUE(scene.sky.has_value());
+    EXPECT_TRUE(scene.environment.has_value());
 }
 
 TEST(GltfExtensions, AreListedWithANoteIfNotSupported) {

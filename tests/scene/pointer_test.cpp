@@ -229,12 +229,12 @@ TEST(Pointer, WhatIsDarkAtRestMayShineLater) {
             screen.animate_pointer(to_material + "emissiveFactor", {0, 1}, "VEC3",
                                    {0, 0, 0, 5, 5, 5});
         }
-        EXPECT_FALSE(screen.load({}).sky);
+        EXPECT_FALSE(screen.load({}).environment);
         EXPECT_FALSE(emits(screen.load({}).materials[0]));
         EXPECT_EQ(screen.load(1.0).materials[0].emission, glm::vec3(5));
         // What never shines is no light.
         screen.builder.root["animations"].clear();
-        EXPECT_TRUE(screen.load({}).sky);
+        EXPECT_TRUE(screen.load({}).environment);
     }
 }
 

@@ -139,7 +139,7 @@ TEST(Summary, ReportsPhong) {
 
 TEST(Summary, ReportsAddedObjects) {
     const std::string text = summary_text(one_triangle().load());
-    EXPECT_THAT(text, HasSubstr("sky         uniform, radiance 1"));
+    EXPECT_THAT(text, HasSubstr("sky         studio, 1 × 64 texels, mean radiance "));
     EXPECT_THAT(text, HasSubstr("there is no camera"));
 }
 

@@ -54,6 +54,26 @@ TEST(Elementary, SinesOfTurnsHaveAFewUlps) {
     EXPECT_LE(cosine.error, 2.5) << "cosine " << cosine;
 }
 
+TEST(Elementary, AnglesInTurnsHaveAFewUlps) {
+    std::mt19937 bits(8);
+    Worst worst;
+    for (int i = 0; i < tries; ++i) {
+        const float x = any_magnitude(bits, -60, 60) * ((bits() & 1u) != 0 ? 1.0f : -1.0f);
+        // Of the same magnitude, or any other.
+        const float y =
+            (i % 2 == 0 ? any_magnitude(bits, -60, 60) : x * any_magnitude(bits, -3, 3)) *
+            ((bits() & 1u) != 0 ? 1.0f : -1.0f);
+        worst.take(ulps(turn_of(y, x), std::atan2(double(y), double(x)) / (2 * pi)), y, x);
+    }
+    EXPECT_LE(worst.error, 4) << worst;
+    EXPECT_EQ(turn_of(0, 1), 0);
+    EXPECT_EQ(turn_of(0, 0), 0);
+    EXPECT_EQ(turn_of(1, 0), 0.25f);
+    EXPECT_EQ(turn_of(-1, 0), -0.25f);
+    EXPECT_EQ(turn_of(0, -1), 0.5f);
+    EXPECT_EQ(turn_of(1, 1), 0.125f);
+}
+
 TEST(Elementary, QuarterTurnsAreExact) {
     const float truths[5][3] = {
         {0, 0, 1}, {0.25f, 1, 0}, {0.5f, 0, -1}, {0.75f, -1, 0}, {-0.25f, -1, 0}};

@@ -81,7 +81,8 @@ std::vector<LightRecord> one_of_each() {
             spot_light(vec3(0, 0, 2), vec3(0, 0, -1), color, 30, 60),
             directional_light(vec3(0, 0, -1), color),
             triangle_light(vec3(-1, -1, 2), vec3(0, 1, 2), vec3(1, -1, 2), color, false),
-            light(light_sky, color)};
+            light(light_sky, color),
+            light_from_picture(light(light_picture, color), vec3(0, 0, 1), color, 0.1f)};
 }
 
 TEST(EveryLight, IsInEveryFunction) {

@@ -4,12 +4,12 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "compare/backends.hpp"
+#include "environment_options.hpp"
 #include "method_options.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
 #include "picture_size.hpp"
 #include "scene/fingerprint.hpp"
-#include "scene/gltf.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -21,6 +21,7 @@ namespace {
 struct BackendOptions {
     MethodTable table;
     std::string scene;
+    EnvironmentOptions sky;
     std::string a = "vulkan";
     std::string b = "cpu";
     std::string device_a, device_b;
@@ -163,7 +164,7 @@ void run(BackendOptions& options) {
         check_overwrites_none(options.record, {options.scene});
         check_writable(options.record);
     }
-    const Scene scene = load_gltf(options.scene);
+    const Scene scene = load_scene(options.scene, options.sky);
     if (!options.record.empty()) {
         record(options, scene);
     } else if (!options.golden.empty()) {
@@ -182,6 +183,7 @@ void add_compare_backends_command(CLI::App& app, MethodTable methods) {
         BackendOptions{.table = methods, .methods = methods.names()});
     const std::string backends = fmt::format("{}", fmt::join(backend_names(), ", "));
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
+    add_environment_options(*command, options->sky);
     command->add_option("--a", options->a, backends)->capture_default_str();
     command->add_option("--b", options->b, backends + ", golden (with --golden)")
         ->capture_default_str();

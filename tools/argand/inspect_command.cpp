@@ -3,7 +3,6 @@
 #include "base/json.hpp"
 #include "methods/method_info.hpp"
 #include "methods/plan_render.hpp"
-#include "scene/gltf.hpp"
 #include "scene/motion.hpp"
 #include "scene/summary.hpp"
 #include "scene_options.hpp"
@@ -87,7 +86,7 @@ std::string plan_text(const nlohmann::ordered_json& plan) {
 }
 
 void inspect(const InspectOptions& options) {
-    const Scene scene = load_gltf(options.scene, options.seconds);
+    const Scene scene = load_scene(options.scene, options, options.seconds);
     nlohmann::ordered_json summary = summary_json(scene);
     const nlohmann::ordered_json plan = plan_json(scene, options.methods);
     const std::string kept = kept_text(scene.motion);

@@ -152,6 +152,10 @@ void check(const RenderOptions& options, const CLI::App& command) {
     check_progressive(options, command);
     check_frames(options, command);
     std::vector<std::string> files{options.scene};
+    if (!options.env.empty()) {
+        files.push_back(options.env);
+    }
+    const std::vector<std::string> inputs = files;
     for (const std::string& checkpoint : {options.checkpoint, options.resume}) {
         if (!checkpoint.empty()) {
             files.push_back(checkpoint);
@@ -159,8 +163,8 @@ void check(const RenderOptions& options, const CLI::App& command) {
         }
     }
     if (!options.checkpoint.empty()) {
-        check_overwrites_none(options.checkpoint, {options.scene});
-        check_overwrites_none(older_checkpoint(options.checkpoint).string(), {options.scene});
+        check_overwrites_none(options.checkpoint, inputs);
+        check_overwrites_none(older_checkpoint(options.checkpoint).string(), inputs);
     }
     for (const std::string& output : options.outputs) {
         check_overwrites_none(output, files);

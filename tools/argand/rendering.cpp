@@ -11,7 +11,6 @@
 #include "methods/plan_render.hpp"
 #include "numbers.hpp"
 #include "picture_size.hpp"
-#include "scene/gltf.hpp"
 #include "session/checkpoint.hpp"
 #include "session/render.hpp"
 
@@ -269,6 +268,11 @@ std::vector<std::string> notes_on(const Rendered& rendered, MethodTable methods,
                                     "reduced to 1/{} of their sides",
                                     std::uint64_t{1} << times));
     }
+    if (const glm::ivec2 size = rendered.result.statistics.reduced_sky; size.x > 0) {
+        notes.push_back(fmt::format("the sky's picture exceeds what the device can hold: it is "
+                                    "reduced to {} × {} texels",
+                                    size.x, size.y));
+    }
     if (settings.budget && seconds > clearly_more * *settings.budget) {
         notes.push_back(fmt::format(
             "rendering took {:.3g} s in {} pass{}, not the {:.3g} s of "
@@ -314,7 +318,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.settings.width = size.width;
     job.settings.height = size.height;
     const Clock::time_point start = Clock::now();
-    job.scene = load_gltf(options.scene, seconds);
+    job.scene = load_scene(options.scene, options, seconds);
     job.times.load = seconds_since(start);
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);

@@ -12,6 +12,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "animations run at once; each stands still before its first key and after its "
                     "last one")
         ->check(number_between(-1e9, 1e9));
+    add_environment_options(command, options);
 }
 
 } // namespace argand

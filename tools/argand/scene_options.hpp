@@ -1,18 +1,20 @@
 #pragma once
 
+#include "environment_options.hpp"
+
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 namespace argand {
 
-/// The scene that a command reads, and the moment of its animations.
-struct SceneOptions {
+/// The scene that a command reads, its sky, and the moment of its animations.
+struct SceneOptions : EnvironmentOptions {
     std::string scene;
     std::optional<double> seconds; ///< none: nodes as they rest
 };
 
-/// Adds the scene's file and --at.
+/// Adds the scene's file, --at and the options of the sky.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 } // namespace argand

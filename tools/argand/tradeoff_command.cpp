@@ -7,13 +7,13 @@
 #include "base/machine.hpp"
 #include "base/progress.hpp"
 #include "base/read_file.hpp"
+#include "environment_options.hpp"
 #include "method_options.hpp"
 #include "numbers.hpp"
 #include "picture_size.hpp"
 #include "plot/page.hpp"
 #include "plot/plot.hpp"
 #include "scene/fingerprint.hpp"
-#include "scene/gltf.hpp"
 #include "sweep/tradeoff.hpp"
 
 #include <memory>
@@ -26,6 +26,7 @@ namespace {
 struct TradeoffOptions {
     MethodTable table;
     std::string scene;
+    EnvironmentOptions sky;
     std::string folder;
     std::string size = "128x128";
     std::string backend = "auto";
@@ -124,7 +125,7 @@ void run(TradeoffOptions& options) {
     }
     TradeoffRequest& request = options.request;
     catch_interrupts();
-    const Scene scene = load_gltf(options.scene);
+    const Scene scene = load_scene(options.scene, options.sky);
     const std::vector<std::uint8_t> file = read_file(options.scene);
     const std::uint64_t contents = fingerprint(scene, fingerprint(std::as_bytes(std::span(file))));
     const DeviceInfo device = open_backend(options.backend, options.device, options.quiet)->info();
@@ -156,6 +157,7 @@ void add_tradeoff_command(CLI::App& app, MethodTable methods) {
     request.methods = methods.names();
     request.table = methods;
     command->add_option("scene", options->scene, "glTF 2.0 file (.gltf, .glb)")->required();
+    add_environment_options(*command, options->sky);
     command->add_option("-o,--output", options->folder,
                         "Folder for tradeoff.html, .svg, .csv and .json, the reference and all "
                         "pictures; settings measured there already are skipped (default: SCENE's "

@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 #include "shared/query_cell.h"
 #include "shared/query_bsdf.h"
 #include "shared/sampling.h"
+#include "shared/sky.h"
 
 layout(set = 0, binding = 10) readonly buffer Hits { HitRecord hits[]; };
 layout(set = 0, binding = 11) readonly buffer Active { uint active_slots[]; };
@@ -23,6 +24,7 @@ layout(set = 0, binding = 18) writeonly buffer Queries { QueryRecord queries[]; 
 layout(set = 0, binding = 19) writeonly buffer Alive { uint alive[]; };
 layout(set = 0, binding = 20) writeonly buffer QueryKinds { uint query_kinds[]; };
 layout(set = 0, binding = 21) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
+layout(set = 0, binding = 22) readonly buffer Sky { uint sky[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: the photon map provides the light that estimated lobes scatter more than once.

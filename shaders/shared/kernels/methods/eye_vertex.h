@@ -2,6 +2,7 @@
 // a query of the photon map, and samples the ray on which the path continues.
 #include "shared/kernels/layers.h"
 #include "shared/kernels/scene.h"
+#include "shared/kernels/sky.h"
 #include "shared/kernels/textures.h"
 
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
@@ -27,7 +28,10 @@ struct Vertex {
 FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
 
 // Whether rays can find light. Kernels that may have every kind of light ask the scene.
-FN bool has_sky() { return has_light(light_sky) && scene[0].sky_probability > real(0.0); }
+FN bool has_sky() {
+    return (has_light(light_sky) || has_light(light_picture)) &&
+           scene[0].sky_probability > real(0.0);
+}
 FN bool has_emitters() {
     return has_light(light_triangle) && scene[0].emitter_probability > real(0.0);
 }
@@ -77,14 +81,21 @@ FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
 }
 
 // Adds the sky's emission to the path of a ray that leaves the scene.
-FN void add_sky(uint slot, IN(PathRecord) path, vec3 throughput) {
-    vec3 sky = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
-    if (has_light(light_sky) && max_component(sky) > real(0.0)) {
+FN void add_sky(uint slot, IN(PathRecord) path, vec3 direction, vec3 throughput) {
+    vec3 even = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
+    if (has_light(light_sky) && max_component(even) > real(0.0)) {
         real weight =
             path.pdf > real(0.0)
                 ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI)
                 : real(1.0);
-        add_emission(slot, path, throughput * sky * weight);
+        add_emission(slot, path, throughput * even * weight);
+    }
+    if (has_light(light_picture) && scene[0].sky_columns > 0u) {
+        SkyPoint seen = sky_at(direction, path.pdf > real(0.0));
+        real weight = path.pdf > real(0.0)
+                          ? power_heuristic(path.pdf, scene[0].sky_probability * seen.pdf)
+                          : real(1.0);
+        add_emission(slot, path, throughput * seen.radiance * weight);
     }
 }
 
@@ -178,6 +189,9 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
                          lattice);
     l.choice = choose_light(vec2(u.x, u.w), false);
     LightRecord light = lights[l.choice.index];
+    if (is_light(light, light_kinds, light_picture)) {
+        light = sample_picture(light, vec2(u.y, u.z));
+    }
     l.wi = vec3(real(0.0));
     l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                  surface.geometric_normal);
@@ -380,7 +394,7 @@ FN void main() {
         query_kinds[i] = 0u;
     }
     if (hit.triangle == no_triangle) {
-        add_sky(v.slot, v.path, v.throughput);
+        add_sky(v.slot, v.path, v.direction, v.throughput);
         return;
     }
     v.triangle = hit.triangle;

@@ -1,4 +1,5 @@
 #include "shared/kernels/scene.h"
+#include "shared/kernels/sky.h"
 
 // Warps the random numbers of a photon of this light by the light's tree.
 FN AimedNumbers aim(LightRecord light, vec4 u) {
@@ -45,10 +46,17 @@ FN void main() {
     EmittedPhoton p;
     bool emitted;
     vec4 rest = vec4(v.z, v.w, v.x, v.y);
-    if (is_aimed_from_outside(light, light_kinds)) {
-        AimedNumbers aimed = aim(light, u);
-        emitted = light_emit_from_disc(light, light_kinds, bounds, aimed.concentration,
-                                       end_aim(aimed), rest, p);
+    bool aimed_from_outside = is_aimed_from_outside(light, light_kinds);
+    AimedNumbers aimed = begin_aim(u);
+    if (aimed_from_outside) {
+        aimed = aim(light, u);
+        u = end_aim(aimed);
+    }
+    if (is_light(light, light_kinds, light_picture)) {
+        light = sample_picture(light, vec2(u.x, u.y));
+    }
+    if (aimed_from_outside) {
+        emitted = light_emit_from_disc(light, light_kinds, bounds, aimed.concentration, u, rest, p);
     } else {
         emitted = light_emit_aimed(light, light_kinds, bounds, targets, u, rest, w.y, p);
     }

@@ -1,0 +1,2 @@
+#define ARGAND_REAL_DOUBLE
+#include "sky_case.hpp"
