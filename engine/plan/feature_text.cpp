@@ -6,6 +6,7 @@
 #include "shared/photon_records.h"
 #include "shared/query_record.h"
 #include "shared/scene_records.h"
+#include "shared/texture_record.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +41,11 @@ FeatureText text_of(Feature feature) {
     case Feature::vertex_colors:
         return {"vertex_colors", "colours of vertices",
                 fmt::format("{} bytes per vertex; every hit reads three vertices", 2 * word)};
+    case Feature::emissive_textures:
+        return {"emissive_textures", "emissive textures",
+                fmt::format("at most {} KiB; every sample of a light that shines by texels walks "
+                            "down a tree",
+                            most_texel_tree_words * word / 1024)};
     case Feature::point_light:
         return {"point_light", "point lights", ""};
     case Feature::spot_light:

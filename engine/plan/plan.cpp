@@ -5,6 +5,7 @@
 #include "scene/texture_range.hpp"
 #include "shared/follow.h"
 #include "shared/light_record.h"
+#include "shared/texture_record.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -96,6 +97,9 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
         const Material& material = scene.materials[index];
         const std::string by = named("material", material.name, index);
         const auto add = [&](const Material& at_a_time) {
+            requirements.add(Feature::emissive_textures, by,
+                             emits(at_a_time) &&
+                                 (material.texture_bits & material_emissive_texture) != 0);
             for (const Material& variant : at_extreme_texels(scene, at_a_time)) {
                 const bool has_estimated =
                     add_material(requirements, variant, by, request.follow_roughness);

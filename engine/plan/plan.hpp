@@ -23,6 +23,7 @@ enum class Feature : std::uint8_t {
     smooth_normals, ///< interpolated from the vertices' normals
     textures,
     vertex_colors,
+    emissive_textures, ///< emissive triangles shine by their texels
     // Lights.
     point_light,
     spot_light,

@@ -57,7 +57,7 @@ void list_textures(const json& value, std::set<std::string>& keys) {
 /// Textures that are read, or that rendering does not need.
 bool is_read(const std::string& texture) {
     return texture == "baseColorTexture" || texture == "metallicRoughnessTexture" ||
-           texture == "occlusionTexture" || texture == "emissiveTexture"; // has a note of its own
+           texture == "emissiveTexture" || texture == "occlusionTexture";
 }
 
 void read_alpha(const FactorReader& read, const tinygltf::Material& from,
@@ -134,20 +134,6 @@ void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, 
     }
 }
 
-/// Emissive textures are black nearly everywhere; with the factor alone, whole objects would glow.
-void forget_textured_emission(const tinygltf::Material& from, MaterialFactors& factors,
-                              MaterialKeys& keys, Scene& scene) {
-    if (from.emissiveTexture.index < 0) {
-        return;
-    }
-    if (factors.emissive * factors.emissive_strength != glm::dvec3(0) || keys.emissive ||
-        keys.emissive_strength) {
-        add_note(scene, "emissive textures are not read yet: surfaces that have one do not emit");
-    }
-    factors.emissive = glm::dvec3(0);
-    keys.emissive.reset();
-}
-
 /// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}; both members are required.
 void read_phong(const FactorReader& read, const json* object, Material& material) {
     const json* phong = find_member(find_member(object, "extras"), "phong");
@@ -180,9 +166,9 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     material.phong = Phong{glm::vec3(specular), static_cast<float>(exponent)};
 }
 
-/// Adds the textures of a material.
+/// Adds the textures of a material. may_emit: now or at another time.
 void read_textures(TextureReader& textures, const FactorReader& read, const json* object,
-                   Material& material) {
+                   bool may_emit, Material& material) {
     material.first_texture = static_cast<std::uint32_t>(read.scene.textures.size());
     const json* pbr = find_member(object, "pbrMetallicRoughness");
     if (textures.add(pbr, "baseColorTexture", true, read.what)) {
@@ -191,6 +177,9 @@ void read_textures(TextureReader& textures, const FactorReader& read, const json
     // A Phong lobe has neither metal nor roughness.
     if (!material.phong && textures.add(pbr, "metallicRoughnessTexture", false, read.what)) {
         material.texture_bits |= material_metal_texture;
+    }
+    if (may_emit && textures.add(object, "emissiveTexture", true, read.what)) {
+        material.texture_bits |= material_emissive_texture;
     }
     if (material.texture_bits == 0) {
         material.first_texture = 0;
@@ -230,13 +219,14 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         read_emission(read, from, object, factors);
         read_extensions(read, object, factors);
         note_unsupported(factors, keys[i], object, scene);
-        forget_textured_emission(from, factors, keys[i], scene);
         Material material;
         material.name = one_line(from.name);
         material.double_sided = from.doubleSided;
         set_factors(factors, material);
         read_phong(read, object, material);
-        read_textures(textures, read, object, material);
+        const bool may_emit = factors.emissive * factors.emissive_strength != glm::dvec3(0) ||
+                              keys[i].emissive || keys[i].emissive_strength;
+        read_textures(textures, read, object, may_emit, material);
         scene.materials.push_back(material);
         if (keys[i].moves()) {
             scene.motion.materials.push_back({i, factors, std::move(keys[i])});

@@ -45,7 +45,8 @@ json material_json(const Material& material, std::size_t triangles, double area)
 json textures_json(const Scene& scene, const Material& material) {
     constexpr std::pair<std::uint32_t, const char*> kinds[] = {
         {material_base_color_texture, "base_color"},
-        {material_metal_texture, "metallic_roughness"}};
+        {material_metal_texture, "metallic_roughness"},
+        {material_emissive_texture, "emissive"}};
     json list = json::array();
     std::size_t next = material.first_texture;
     for (const auto& [bit, name] : kinds) {

@@ -39,7 +39,7 @@ std::uint32_t wrap_flag(Wrap wrap) {
     return texture_clamp;
 }
 
-TextureRecord record_of(const Texture& texture, const TextureImage& image, std::uint32_t first) {
+TextureRecord record_of(const Texture& texture, const TextureImage& image) {
     const glm::mat3x2& m = texture.transform;
     const std::uint32_t flags =
         wrap_flag(texture.wrap_u) | wrap_flag(texture.wrap_v) << texture_wrap_v |
@@ -52,7 +52,7 @@ TextureRecord record_of(const Texture& texture, const TextureImage& image, std::
             .v0 = m[2].y,
             .width = image.width,
             .height = image.height,
-            .first = first,
+            .first = 0,
             .uv_set = texture.uv_set,
             .flags = flags,
             .pad = 0};
@@ -127,8 +127,12 @@ FittingImages fitting_images(const Scene& scene, std::uint64_t most) {
 }
 
 TextureTable make_texture_table(Device& device, const Scene& scene) {
-    const std::uint64_t most =
-        device.info().limits.storage_range / sizeof(std::uint32_t) - srgb_codes;
+    const bool shines =
+        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+            return (material.texture_bits & material_emissive_texture) != 0;
+        });
+    const std::uint64_t most = device.info().limits.storage_range / sizeof(std::uint32_t) -
+                               srgb_codes - (shines ? most_texel_tree_words : 0);
     const auto [images, halvings] = fitting_images(scene, most);
     TextureTable table;
     table.halvings = halvings;
@@ -137,16 +141,22 @@ TextureTable make_texture_table(Device& device, const Scene& scene) {
     for (const double value : linear_values()) {
         texels.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
     }
+    std::vector<TextureRecord> records;
+    records.reserve(scene.textures.size());
+    for (const Texture& texture : scene.textures) {
+        records.push_back(record_of(texture, *images[texture.image]));
+    }
+    if (shines) {
+        table.trees = make_texel_trees(scene, images, records, texels);
+    }
     std::vector<std::uint32_t> first;
     first.reserve(images.size());
     for (const auto& image : images) {
         first.push_back(static_cast<std::uint32_t>(texels.size()));
         texels.insert(texels.end(), image->texels.begin(), image->texels.end());
     }
-    std::vector<TextureRecord> records;
-    records.reserve(scene.textures.size());
-    for (const Texture& texture : scene.textures) {
-        records.push_back(record_of(texture, *images[texture.image], first[texture.image]));
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].first = first[scene.textures[i].image];
     }
     table.records = upload(device, "textures", records);
     table.texels = upload(device, "texels", texels);

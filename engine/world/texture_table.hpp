@@ -2,6 +2,7 @@
 
 #include "device/device.hpp"
 #include "scene/scene.hpp"
+#include "world/texel_trees.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -12,8 +13,9 @@ namespace argand {
 /// What kernels read of a scene's textures (shaders/comp/texture_bindings.glsl).
 struct TextureTable {
     Buffer records; ///< TextureRecord per texture of the scene
-    Buffer texels;  ///< uint: linear values of the codes of sRGB, and then the texels of all images
+    Buffer texels;  ///< uint: linear values of the codes of sRGB, trees, the texels of all images
     std::uint32_t halvings = 0; ///< see FittingImages
+    TexelTrees trees;
 };
 
 /// Uploads the scene's textures. If they exceed what one buffer may hold, the largest images are

@@ -24,7 +24,9 @@ struct LightRecord {
     uint kind;
     // Intensity [cd] (point, spot), irradiance [lux] (directional) or radiance [cd/m²].
     float32 r, g, b;
-    float32 cos_inner; // spot
+    // Spot; triangle: the root of its tree of texels (texel_tree.h), an integer below 2^24; 0: it
+    // has none.
+    float32 cos_inner;
     // Unit direction in which light travels (spot, directional), or second vertex (triangle).
     float32 dx, dy, dz;
     float32 cos_outer;  // spot

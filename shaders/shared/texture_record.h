@@ -29,11 +29,16 @@ CONSTANT uint texture_srgb = 32u;    // colours are encoded by sRGB's curve
 // Words before the first texel: the linear values of the 256 codes of sRGB, as bits of floats.
 CONSTANT uint srgb_codes = 256u;
 
+// Words between those and the first texel: the trees of triangles that shine by their texels
+// (texel_tree.h). At most:
+CONSTANT uint most_texel_tree_words = 262144u;
+
 // MaterialRecord::textures: the index of the first of the material's textures, which follow one
 // another in the order of these bits, and the bits of those that it has.
 CONSTANT uint material_texture_mask = 0x00ffffffu;
 CONSTANT uint material_base_color_texture = 0x01000000u;
 CONSTANT uint material_metal_texture = 0x02000000u; // roughness in green, metallic in blue
+CONSTANT uint material_emissive_texture = 0x04000000u;
 // Some texel may have an estimated lobe: photons are stored on all of the surface, as area samples
 // lie on all of it. Those that only surround a texel would make the others dark.
 CONSTANT uint material_stores_everywhere = 0x20000000u;

@@ -4,6 +4,8 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/emission.h"
+
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
 // and this one.
 struct Vertex {
@@ -104,18 +106,21 @@ FN uint light_of_triangle(uint triangle) {
     return first;
 }
 
-// Solid-angle density with which shadow rays find a point on this emissive triangle; see
+// Solid-angle density with which shadow rays find this point of an emissive triangle; see
 // emitter_density.
-FN real shadow_ray_density(uint triangle, real distance, real cosine) {
-    uint index = light_of_triangle(triangle);
+FN real shadow_ray_density(HitRecord hit, real cosine) {
+    uint index = light_of_triangle(hit.triangle);
     real probability = several_lights ? light_choices[index].probability : real(1.0);
     LightRecord light = lights[index];
     real area;
     light_normal(light, area);
-    return emitter_density(probability, area, distance, cosine);
+    if (shines_by_texels(light)) {
+        probability *= density_by_texels(light, hit.u, hit.v);
+    }
+    return emitter_density(probability, area, hit.t, cosine);
 }
 
-FN void add_surface_emission(IN(Vertex) v, real distance) {
+FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
     MaterialRecord m = v.material;
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
     if (has_light(light_triangle) && max_component(emission) > real(0.0) &&
@@ -123,7 +128,7 @@ FN void add_surface_emission(IN(Vertex) v, real distance) {
         real weight = real(1.0);
         if (v.path.pdf > real(0.0)) {
             real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
-            weight = power_heuristic(v.path.pdf, shadow_ray_density(v.triangle, distance, cosine));
+            weight = power_heuristic(v.path.pdf, shadow_ray_density(hit, cosine));
         }
         add_emission(v.slot, v.path, v.throughput * emission * weight);
     }
@@ -181,9 +186,12 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     l.wi = vec3(real(0.0));
     l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                  surface.geometric_normal);
-    if (!light_sample(light, light_kinds, l.origin, vec2(u.y, u.z), l.s)) {
+    vec2 where = vec2(u.y, u.z);
+    real density = shines_by_texels(light) ? choose_texel(light, where) : real(1.0);
+    if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
     }
+    l.s.pdf *= density;
     l.wi = to_local(v.frame, l.s.wi);
     return dot(l.s.wi, surface.geometric_normal) > real(0.0);
 }
@@ -386,7 +394,7 @@ FN void main() {
     v.triangle = hit.triangle;
     v.surface = load_surface(hit, v.direction);
     v.material = material_at(triangles[hit.triangle], hit);
-    add_surface_emission(v, hit.t);
+    add_surface_emission(v, hit);
     if (seeks_emission(v.path) ||
         (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {
         return;

@@ -1,4 +1,7 @@
 #include "shared/kernels/scene.h"
+#include "shared/kernels/texels.h"
+
+#include "shared/kernels/emission.h"
 
 // Warps the random numbers of a photon of this light by the light's tree.
 FN AimedNumbers aim(LightRecord light, vec4 u) {
@@ -29,6 +32,13 @@ FN void main() {
     vec4 w = photon_random4(batch.seed, photon, dimension_of_choices, numbers);
     ChosenLight chosen = choose_light(vec2(v.w, w.x), true);
     LightRecord light = lights[chosen.index];
+    real density = real(1.0); // of photons that start here, over that of even ones
+    if (shines_by_texels(light)) {
+        vec2 where = vec2(u.z, u.w);
+        density = choose_texel(light, where);
+        u.z = where.x;
+        u.w = where.y;
+    }
     Sphere bounds;
     bounds.center = scene_center();
     bounds.radius = scene[0].radius;
@@ -56,7 +66,7 @@ FN void main() {
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
         differentials[slot] = differential_record(
-            light_differential(light, light_kinds, p, scene[0].radius, photons * chosen.probability,
+            light_differential(light, light_kinds, p, scene[0].radius, photons * chosen.probability * density,
                                photons * chosen.emitter_probability));
     }
     rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
