@@ -2,6 +2,7 @@
 
 #include "scene/material_record.hpp"
 #include "scene/moving_factors.hpp"
+#include "scene/texture_mips.hpp"
 #include "scene/texture_range.hpp"
 #include "shared/follow.h"
 #include "shared/light_record.h"
@@ -107,6 +108,11 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
             }
         };
         requirements.add(Feature::textures, by, material.texture_bits != 0);
+        requirements.add(Feature::mip_maps, by, has_mips(scene, material));
+        requirements.add(Feature::normal_textures, by,
+                         (material.texture_bits & material_normal_texture) != 0);
+        requirements.add(Feature::other_textures, by,
+                         (material.texture_bits & material_other_textures) != 0);
         const MovingMaterial* moving =
             request.at_any_time ? moving_material(scene.motion, index) : nullptr;
         if (moving) {

@@ -30,6 +30,7 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
     record.emitter_count = lights.triangle_count;
     record.attributes = attributes_of_vertex(scene);
     record.color_attribute = scene.uv_sets;
+    record.pad5 = first_tangent(scene);
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
     return record;
 }
@@ -59,7 +60,10 @@ kernels::TextureBindings DeviceScene::texture_bindings() const {
 kernels::TextureConstants DeviceScene::texture_constants() const {
     return {.textured = plan.needs(Feature::textures),
             .vertex_colors = plan.needs(Feature::vertex_colors),
-            .emissive_texels = plan.needs(Feature::emissive_textures)};
+            .emissive_texels = plan.needs(Feature::emissive_textures),
+            .normal_maps = plan.needs(Feature::normal_textures),
+            .other_textures = plan.needs(Feature::other_textures),
+            .mip_maps = plan.needs(Feature::mip_maps)};
 }
 
 Buffer unneeded(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }

@@ -31,11 +31,15 @@ struct FittingImages {
 FittingImages fitting_images(const Scene& scene, std::uint64_t most);
 
 /// Texture coordinates and colours of the vertices: for each vertex uv_sets times two floats, then
-/// its colour as four words of 16 bits, if the scene has any.
+/// its colour as four words of 16 bits, if the scene has any. Behind them, two elements for each
+/// triangle: the tangents at its corners, if the scene has any, and a word that is not used.
 Buffer upload_attributes(Device& device, const Scene& scene);
 
 /// How many a vertex has.
 std::uint32_t attributes_of_vertex(const Scene& scene);
+
+/// The element at which the tangents begin.
+std::uint32_t first_tangent(const Scene& scene);
 
 /// An image of half the width and height, at least 1. Texels are means of linear values, weighted
 /// by alpha if the image has any. srgb: its colours are encoded.

@@ -33,10 +33,12 @@ inline void add_texture(Scene& scene, std::uint32_t material, std::uint32_t bit,
         of.first_texture = static_cast<std::uint32_t>(scene.textures.size());
     }
     of.texture_bits |= bit;
+    ++of.texture_count;
     scene.textures.push_back(
         {.image = static_cast<std::uint32_t>(scene.images.size()),
          .nearest = nearest,
-         .srgb = bit == material_base_color_texture || bit == material_emissive_texture});
+         .srgb = bit == material_base_color_texture || bit == material_emissive_texture,
+         .use = bit == material_normal_texture ? TextureUse::normal : TextureUse::base_color});
     of.alpha_varies = of.alpha_varies || (of.alpha_mode != AlphaMode::opaque && image.low.a < 255);
     scene.images.push_back(std::make_shared<const TextureImage>(std::move(image)));
     scene.uv_sets = 1;

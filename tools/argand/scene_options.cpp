@@ -12,6 +12,16 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "animations run at once; each stands still before its first key and after its "
                     "last one")
         ->check(number_between(-1e9, 1e9));
+    command.add_flag("--allow-external", options.load.allow_external,
+                     "Read buffers and images that are outside the scene's folder");
+    command
+        .add_option_function<std::string>(
+            "--missing-textures",
+            [&options](const std::string& choice) {
+                options.load.grey_for_missing = choice == "grey";
+            },
+            "What to do where an image's file does not exist (default: error)")
+        ->check(CLI::IsMember({"error", "grey"}));
 }
 
 } // namespace argand

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/gltf.hpp"
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@ namespace argand {
 struct SceneOptions {
     std::string scene;
     std::optional<double> seconds; ///< none: nodes as they rest
+    LoadOptions load;
 };
 
 /// Adds the scene's file and --at.

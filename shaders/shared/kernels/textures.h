@@ -16,7 +16,31 @@ FN void multiply_base(INOUT(MaterialRecord) m, vec4 color, INOUT(real) alpha) {
     alpha *= color.w;
 }
 
-FN MaterialRecord material_at(uvec4 triangle, HitRecord hit) {
+// The textures of `material_other_textures`. next: index of the first.
+FN void multiply_others(INOUT(MaterialRecord) m, uint next, uvec4 triangle, vec2 b) {
+    for (uint i = 0u; i < most_other_textures; ++i) {
+        vec4 texel = sample_texture(next + i, triangle, b);
+        uint flags = textures[next + i].flags;
+        uint use = (flags >> texture_use_shift) & texture_use_mask;
+        if (use == texture_of_specular) {
+            m.specular *= texel.w;
+        } else if (use == texture_of_specular_color) {
+            m.specular_r *= texel.x;
+            m.specular_g *= texel.y;
+            m.specular_b *= texel.z;
+        } else if (use == texture_of_transmission) {
+            m.transmission *= texel.x;
+        } else {
+            m.thickness *= texel.y;
+        }
+        if ((flags & texture_last) != 0u) {
+            break;
+        }
+    }
+}
+
+// cone, direction: of the ray that hit the surface.
+FN MaterialRecord material_at(uvec4 triangle, HitRecord hit, uint cone, vec3 direction) {
     MaterialRecord m = load_material(triangle.w);
     if (!textured && !vertex_colors) {
         return m;
@@ -25,7 +49,8 @@ FN MaterialRecord material_at(uvec4 triangle, HitRecord hit) {
     vec2 b = vec2(hit.u, hit.v);
     uint next = m.textures & material_texture_mask;
     if (textured && (m.textures & material_base_color_texture) != 0u) {
-        multiply_base(m, sample_texture(next, triangle, b), alpha);
+        real width = mip_maps ? cone_width(cone, real(hit.t)) : real(0.0);
+        multiply_base(m, sample_filtered(next, triangle, b, width, direction), alpha);
         next += 1u;
     }
     if (textured && (m.textures & material_metal_texture) != 0u) {
@@ -34,11 +59,18 @@ FN MaterialRecord material_at(uvec4 triangle, HitRecord hit) {
         m.metallic *= metal.z;
         next += 1u;
     }
-    if (emissive_texels && (m.textures & material_emissive_texture) != 0u) {
-        vec4 emission = sample_texture(next, triangle, b);
-        m.emission_r *= emission.x;
-        m.emission_g *= emission.y;
-        m.emission_b *= emission.z;
+    if (textured && (m.textures & material_emissive_texture) != 0u) {
+        if (emissive_texels) {
+            vec4 emission = sample_texture(next, triangle, b);
+            m.emission_r *= emission.x;
+            m.emission_g *= emission.y;
+            m.emission_b *= emission.z;
+        }
+        next += 1u;
+    }
+    if (other_textures && (m.textures & material_other_textures) != 0u) {
+        next += (m.textures & material_normal_texture) != 0u ? 1u : 0u;
+        multiply_others(m, next, triangle, b);
     }
     if (vertex_colors && scene[0].color_attribute < scene[0].attributes) {
         multiply_base(m,

@@ -5,6 +5,7 @@
 #include "shared/kernels/textures.h"
 
 #include "shared/kernels/emission.h"
+#include "shared/kernels/normals.h"
 
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
 // and this one.
@@ -14,7 +15,10 @@ struct Vertex {
     PathRecord path;
     vec3 throughput;
     vec3 direction; // of the ray that hit this vertex
+    vec3 toward;    // where it came from, or above the horizon (toward_above)
     uint triangle;
+    uint cone; // of the ray
+    real distance;
     Surface surface;
     MaterialRecord material;
     Frame frame; // of the shading normal
@@ -145,7 +149,7 @@ FN real seek_probability(IN(Vertex) v) {
 // Decides which lobes scatter the path, and with which probabilities.
 FN void split_lobes(INOUT(Vertex) v) {
     v.frame = make_frame(v.surface.shading_normal);
-    v.wo = to_local(v.frame, -v.direction);
+    v.wo = to_local(v.frame, v.toward);
     v.followed = followed_paths ? followed_lobes(v.material, scene[0].follow_roughness) : 0u;
     v.estimated = bsdf_lobes(v.material) & ~v.followed;
     real followed_albedo =
@@ -293,7 +297,7 @@ FN void leave_query(IN(Vertex) v) {
     }
     flags |= min(scatterings, most_scatterings_known) << query_scatterings_shift;
     flags |= v.estimated << query_lobes_shift;
-    uint direction = pack_unit(-v.direction);
+    uint direction = pack_unit(v.toward);
     uint shading_normal = pack_unit(v.surface.shading_normal);
     vec3 reflectance = vec3(INV_PI);
     if (lambertian) {
@@ -355,6 +359,11 @@ FN void continue_path(INOUT(Vertex) v) {
         return;
     }
     rays[v.slot] = make_ray(v.surface, wi, far_away);
+    if (mip_maps) {
+        rays[v.slot].pad = pack_cone(
+            cone_width(v.cone, v.distance),
+            scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
+    }
     path.throughput_r = throughput.x;
     path.throughput_g = throughput.y;
     path.throughput_b = throughput.z;
@@ -392,8 +401,12 @@ FN void main() {
         return;
     }
     v.triangle = hit.triangle;
+    v.distance = hit.t;
     v.surface = load_surface(hit, v.direction);
-    v.material = material_at(triangles[hit.triangle], hit);
+    v.cone = rays[v.slot].pad;
+    v.material = material_at(triangles[hit.triangle], hit, v.cone, v.direction);
+    turn_normal(v.material.textures, hit, v.direction, v.surface);
+    v.toward = toward_above(v.surface, -v.direction);
     add_surface_emission(v, hit);
     if (seeks_emission(v.path) ||
         (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {

@@ -17,6 +17,17 @@ FN AimedNumbers aim(LightRecord light, vec4 u) {
     return a;
 }
 
+// The cone of one of the pass's photons, as if all were of this light.
+FN uint emitted_cone(LightRecord light) {
+    real photons = real(1.0) / batch.inverse_total;
+    bool outside = ((1u << light.kind) & light_kinds_from_outside) != 0u;
+    real width = outside ? real(scene[0].radius) * sqrt(PI / photons) : real(0.0);
+    real spread = light.kind == light_directional
+                      ? real(0.0)
+                      : scattered_spread(real(0.0), photons, UNIFORM_SPHERE_PDF);
+    return pack_cone(width, spread);
+}
+
 FN void main() {
     uint slot = THREAD_INDEX;
     if (slot >= batch.count) {
@@ -65,12 +76,13 @@ FN void main() {
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
-        differentials[slot] = differential_record(
-            light_differential(light, light_kinds, p, scene[0].radius, photons * chosen.probability * density,
-                               photons * chosen.emitter_probability));
+        differentials[slot] = differential_record(light_differential(
+            light, light_kinds, p, scene[0].radius, photons * chosen.probability * density,
+            photons * chosen.emitter_probability));
     }
-    rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
-                           p.direction.x, p.direction.y, p.direction.z, 0u);
+    rays[slot] =
+        RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
+                  p.direction.x, p.direction.y, p.direction.z, mip_maps ? emitted_cone(light) : 0u);
     uint state = photon_followed;
     if (emitted && ((1u << light.kind) & light_kinds_from_outside) == 0u) {
         state |= (aimed_by(p.for_targets) << photon_aimed_shift) |
