@@ -5,6 +5,7 @@ import hashlib
 import json
 import math
 import struct
+import zlib
 
 
 def rounded(x):
@@ -34,12 +35,14 @@ def unit(a):
 
 
 class Mesh:
-    """Triangles, counter-clockwise seen from the front; without normals they are flat."""
+    """Triangles, counter-clockwise seen from the front; without normals they are flat. Texture coordinates are for
+    meshes that are added as they are."""
 
-    def __init__(self, positions=(), triangles=(), normals=None):
+    def __init__(self, positions=(), triangles=(), normals=None, uvs=None):
         self.positions = list(positions)
         self.triangles = list(triangles)
         self.normals = normals
+        self.uvs = uvs
 
     def __add__(self, other):
         assert self.normals is None and other.normals is None
@@ -51,7 +54,7 @@ class Mesh:
         return Mesh(self.positions, self.triangles)
 
     def moved(self, offset):
-        return Mesh([add(p, offset) for p in self.positions], self.triangles, self.normals)
+        return Mesh([add(p, offset) for p in self.positions], self.triangles, self.normals, self.uvs)
 
     def turned(self, degrees):
         """Rotates about the y axis."""
@@ -97,6 +100,11 @@ class Mesh:
 
 def quad(a, b, c, d):
     return Mesh([a, b, c, d], [(0, 1, 2), (0, 2, 3)])
+
+
+def textured_quad(a, b, c, d, across=1, up=1):
+    """A quad that shows an image so many times; its lower edge is from a to b."""
+    return Mesh([a, b, c, d], [(0, 1, 2), (0, 2, 3)], uvs=[(0, up), (across, up), (across, 0), (0, 0)])
 
 
 def box(low, high):
@@ -176,6 +184,18 @@ def emitter(radiance, albedo=(0, 0, 0)):
     return material
 
 
+def png(rows):
+    """The bytes of a PNG of rows of (red, green, blue), 0 to 255. They are stored, so that no version of zlib changes
+    them."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    lines = b"".join(b"\0" + bytes(sample for texel in row for sample in texel) for row in rows)
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 0)) +
+            chunk(b"IEND", b""))
+
+
 def rotation_towards(forward, up):
     """Quaternion (x, y, z, w) that turns -z to `forward` and y as close to `up` as can be."""
     z = scaled(unit(forward), -1)
@@ -202,6 +222,7 @@ class Scene:
         self.nodes, self.meshes, self.materials, self.lights, self.cameras = [], [], [], [], []
         self.accessors, self.views, self.data = [], [], b""
         self.samplers, self.channels = [], []
+        self.images, self.textures, self.texture_samplers = [], [], []
 
     def add(self, name, mesh, material, at=None, targets=()):
         """Adds a mesh, its origin `at` a place. Morph targets are meshes of offsets, without triangles."""
@@ -222,7 +243,21 @@ class Scene:
         if mesh.normals:
             normals = [tuple(rounded(x) for x in n) for n in mesh.normals]
             attributes["NORMAL"] = self._accessor(normals, 5126, "VEC3", "f", 34962)
+        if mesh.uvs:
+            attributes["TEXCOORD_0"] = self._accessor([tuple(uv) for uv in mesh.uvs], 5126, "VEC2", "f", 34962)
         return attributes
+
+    def texture(self, rows, nearest=False):
+        """Adds a texture of rows of texels, and returns what a material refers to it by."""
+        self.data += b"\0" * (-len(self.data) % 4)
+        image = png(rows)
+        self.images.append({"bufferView": len(self.views), "mimeType": "image/png"})
+        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(image)})
+        self.data += image
+        kind = 9728 if nearest else 9729
+        self.texture_samplers.append({"magFilter": kind, "minFilter": kind if nearest else 9987})
+        self.textures.append({"source": len(self.images) - 1, "sampler": len(self.texture_samplers) - 1})
+        return {"index": len(self.textures) - 1}
 
     def _accessor(self, rows, component, kind, code, target=None):
         self.data += b"\0" * (-len(self.data) % 4)
@@ -287,7 +322,9 @@ class Scene:
         document["scene"] = 0
         document["scenes"] = [{"nodes": list(range(len(self.nodes)))}]
         for key, value in (("nodes", self.nodes), ("meshes", self.meshes), ("materials", self.materials),
-                           ("cameras", self.cameras), ("accessors", self.accessors), ("bufferViews", self.views)):
+                           ("cameras", self.cameras), ("accessors", self.accessors), ("bufferViews", self.views),
+                           ("images", self.images), ("textures", self.textures),
+                           ("samplers", self.texture_samplers)):
             if value:
                 document[key] = value
         if self.channels:

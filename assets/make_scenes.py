@@ -11,7 +11,7 @@ import pathlib
 import sys
 
 from gltf_writer import (Mesh, Scene, add, blended, box, cross, emitter, glass, lambertian, metal, phong, quad,
-                         revolved, rotation_towards, scaled, sphere, unit)
+                         revolved, rotation_towards, scaled, sphere, textured_quad, unit)
 
 WHITE, RED, GREEN, WOOD = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091), (0.63, 0.3, 0.1)
 ROOM, SHELL = ((-2, 0, -2), (2, 2.5, 2)), ((-2.2, -0.04, -2.2), (2.2, 2.7, 2.2))
@@ -154,6 +154,41 @@ def veil():
     scene.add("short box", short_box(), lambertian(WHITE))
     pane = quad((-0.9, 0.02, 0.75), (0.5, 0.02, 0.75), (0.5, 1.3, 0.75), (-0.9, 1.3, 0.75))
     scene.add("pane", pane, blended(lambertian((0.2, 0.5, 0.7)), 0.4))
+    return scene
+
+
+def slope_texel(x, y):
+    """A texel of a normal texture: parts of the normal along u, and upwards in the image."""
+    return tuple(round(128 + 127 * part) for part in (x, y, math.sqrt(1 - x * x - y * y)))
+
+
+def textures():
+    """A lamp that shines by its texels over a checkerboard, before a wall of waves, with a sphere of metal that is
+    polished in squares. All repeat their images; that of the lamp has one row."""
+    scene = Scene()
+    board = scene.texture([[(225, 215, 200), (40, 60, 110)], [(40, 60, 110), (225, 215, 200)]], nearest=True)
+    floor = lambertian((1, 1, 1))
+    floor["pbrMetallicRoughness"]["baseColorTexture"] = board
+    scene.add("floor", textured_quad((-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1), 4, 4), floor)
+    waves = [[slope_texel(0.7 * math.sin(2 * math.pi * x / 16), 0.5 * math.cos(2 * math.pi * y / 16))
+              for x in range(16)] for y in range(16)]
+    wall = lambertian(WHITE)
+    wall["normalTexture"] = scene.texture(waves)
+    scene.add("back wall", textured_quad((-1, 0, -1), (1, 0, -1), (1, 2, -1), (-1, 2, -1), 3, 3), wall)
+    scene.add("left wall", quad((-1, 0, 1), (-1, 0, -1), (-1, 2, -1), (-1, 2, 1)), lambertian(RED))
+    scene.add("right wall", quad((1, 0, -1), (1, 0, 1), (1, 2, 1), (1, 2, -1)), lambertian(GREEN))
+    scene.add("ceiling", ceiling(-1, 1, -1, 1), lambertian(WHITE))
+    lamp = emitter((14, 14, 14))
+    lamp["emissiveTexture"] = scene.texture([[(255, 80, 40), (0, 0, 0), (255, 240, 200), (0, 0, 0), (60, 120, 255)]],
+                                            nearest=True)
+    scene.add("lamp", textured_quad((-0.6, 1.98, -0.3), (0.6, 1.98, -0.3), (0.6, 1.98, 0.3), (-0.6, 1.98, 0.3)), lamp)
+    ball = sphere(0.4, 8)
+    ball.uvs = [(0.5 + 0.5 * n[0], 0.5 - 0.5 * n[1]) for n in ball.normals]  # projected along z
+    polished = metal((0.95, 0.8, 0.5), 1)
+    polished["pbrMetallicRoughness"]["metallicRoughnessTexture"] = scene.texture(
+        [[(0, 30 if (x + y) % 2 else 140, 255) for x in range(8)] for y in range(4)], nearest=True)
+    scene.add("ball", ball.moved((0.25, 0.4 + SUNK, 0.2)), polished)
+    scene.camera((0, 1, 3.72), (0, 1, 0))
     return scene
 
 
@@ -483,7 +518,7 @@ def dynamic_camera():
 BINARY = (cornell_point, cornell_area, cornell_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
           inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
           glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls,
-          moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,
+          textures, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,
           dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)
 

@@ -41,7 +41,7 @@ void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const Ey
                                   .layers = w.layers,
                                   .active_slots = w.active,
                                   .batch = batch,
-                                  .constants = {.lattice = w.lattice}},
+                                  .constants = {.lattice = w.lattice, .cones = w.cones}},
              slots);
     upload_word(device, w.counts, 0, slots);
 }
@@ -285,6 +285,7 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
                                 const CameraRecord& camera) {
     EyeWorkspace w;
     w.lattice = settings.deterministic;
+    w.cones = plan.needs(Feature::mip_maps);
     w.film = make_film(device, settings.width, settings.height);
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
                        w.film.pixels() * settings.samples);

@@ -13,6 +13,7 @@ namespace argand {
 struct EyeWorkspace {
     std::uint64_t slots = 0;
     bool lattice = false; ///< the numbers of paths are points of a lattice
+    bool cones = false;   ///< rays have cones, which choose mip levels
     Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows,
         occluded;
     Buffer counts;

@@ -75,6 +75,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         const StageScope stage(device, "emit photons");
         dispatch(device,
                  kernels::photon_emit{.scene = scene.bindings(),
+                                      .texture = scene.texture_bindings(),
                                       .rays = w.rays,
                                       .paths = w.paths,
                                       .ledgers = w.ledgers,
@@ -85,7 +86,8 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                       .batch = batch,
                                       .constants = {.footprints = w.footprints,
                                                     .numbers = w.numbers,
-                                                    .scene = scene.constants()}},
+                                                    .scene = scene.constants(),
+                                                    .texture = scene.texture_constants()}},
                  batch.count);
         upload_word(device, w.counters, counter_active, batch.count);
     }

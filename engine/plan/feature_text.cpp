@@ -7,6 +7,8 @@
 #include "shared/query_record.h"
 #include "shared/scene_records.h"
 #include "shared/sky_record.h"
+#include "shared/texture.h"
+#include "shared/texture_record.h"
 
 #include <fmt/format.h>
 
@@ -41,6 +43,23 @@ FeatureText text_of(Feature feature) {
     case Feature::vertex_colors:
         return {"vertex_colors", "colours of vertices",
                 fmt::format("{} bytes per vertex; every hit reads three vertices", 2 * word)};
+    case Feature::emissive_textures:
+        return {"emissive_textures", "emissive textures",
+                fmt::format("at most {} KiB; every sample of a light that shines by texels walks "
+                            "down a tree",
+                            most_texel_tree_words * word / 1024)};
+    case Feature::mip_maps:
+        return {"mip_maps", "mip maps",
+                fmt::format("{} bytes per texel; a hit reads up to eight texels",
+                            fmt::format("{:.1f}", double(words_of_mip * word) / 3))};
+    case Feature::normal_textures:
+        return {"normal_textures", "normal textures",
+                fmt::format("{} bytes per triangle; every hit on one reads its tangents and four "
+                            "texels",
+                            4 * word)};
+    case Feature::other_textures:
+        return {"other_textures", "textures of specular reflection and transmission",
+                "every hit on one reads four texels of each"};
     case Feature::point_light:
         return {"point_light", "point lights", ""};
     case Feature::spot_light:

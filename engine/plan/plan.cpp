@@ -2,9 +2,11 @@
 
 #include "scene/material_record.hpp"
 #include "scene/moving_factors.hpp"
+#include "scene/texture_mips.hpp"
 #include "scene/texture_range.hpp"
 #include "shared/follow.h"
 #include "shared/light_record.h"
+#include "shared/texture_record.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,6 +99,9 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
         const Material& material = scene.materials[index];
         const std::string by = named("material", material.name, index);
         const auto add = [&](const Material& at_a_time) {
+            requirements.add(Feature::emissive_textures, by,
+                             emits(at_a_time) &&
+                                 (material.texture_bits & material_emissive_texture) != 0);
             for (const Material& variant : at_extreme_texels(scene, at_a_time)) {
                 const bool has_estimated =
                     add_material(requirements, variant, by, request.follow_roughness);
@@ -104,6 +109,11 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
             }
         };
         requirements.add(Feature::textures, by, material.texture_bits != 0);
+        requirements.add(Feature::mip_maps, by, has_mips(scene, material));
+        requirements.add(Feature::normal_textures, by,
+                         (material.texture_bits & material_normal_texture) != 0);
+        requirements.add(Feature::other_textures, by,
+                         (material.texture_bits & material_other_textures) != 0);
         const MovingMaterial* moving =
             request.at_any_time ? moving_material(scene.motion, index) : nullptr;
         if (moving) {

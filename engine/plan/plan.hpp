@@ -23,6 +23,10 @@ enum class Feature : std::uint8_t {
     smooth_normals, ///< interpolated from the vertices' normals
     textures,
     vertex_colors,
+    emissive_textures, ///< emissive triangles shine by their texels
+    mip_maps,          ///< of textures, chosen by paths' cones
+    normal_textures,
+    other_textures, ///< of specular reflection, transmission and thickness
     // Lights.
     point_light,
     spot_light,

@@ -56,6 +56,21 @@ bool has_end(std::span<const std::uint8_t> bytes) {
                        end.end()) != bytes.end();
 }
 
+/// The number of components that a JPEG's frame header states; 0 if there is none.
+int jpeg_components(std::span<const std::uint8_t> bytes) {
+    constexpr std::uint8_t first_frame = 0xc0, last_frame = 0xcf; // but for three other segments
+    std::size_t at = 2;
+    while (at + 9 < bytes.size() && bytes[at] == jpeg_escape && bytes[at + 1] != jpeg_scan) {
+        const std::uint8_t kind = bytes[at + 1];
+        if (kind >= first_frame && kind <= last_frame && kind != 0xc4 && kind != 0xc8 &&
+            kind != 0xcc) {
+            return bytes[at + 9];
+        }
+        at += 2 + (std::size_t{bytes[at + 2]} << 8 | bytes[at + 3]);
+    }
+    return 0;
+}
+
 /// Throws Error unless the image has few enough texels.
 void check_size(std::uint64_t width, std::uint64_t height) {
     if (width > most_texels || height > most_texels || width * height > most_texels) {
@@ -99,6 +114,10 @@ TextureImage decode_image(std::span<const std::uint8_t> bytes, const std::string
     }
     if (is_jpeg(bytes) && !has_end(bytes)) {
         fail("it is cut short; copy it again");
+    }
+    if (is_jpeg(bytes) && jpeg_components(bytes) > 3) {
+        fail(
+            "it is a JPEG of four components (CMYK), which glTF does not allow; convert it to RGB");
     }
     if (is_png(bytes)) {
         check_png_size(bytes);

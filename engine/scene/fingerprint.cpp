@@ -24,6 +24,7 @@ std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
     add(scene.triangle_material);
     add(scene.uvs);
     add(scene.colors);
+    add(scene.tangents);
     if (scene.sky) {
         hash = with(hash, *scene.sky);
     } else if (scene.environment) {
@@ -42,7 +43,8 @@ std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
         hash = fingerprint(std::as_bytes(std::span(image.texels)), hash);
         hash = with(with(with(hash, image.width), texture.uv_set), texture.transform);
         hash = with(with(hash, texture.wrap_u), texture.wrap_v);
-        hash = with(with(hash, texture.nearest), texture.srgb);
+        hash = with(with(with(hash, texture.nearest), texture.mips), texture.srgb);
+        hash = with(with(hash, texture.use), texture.scale);
     }
     for (const Light& light : scene.lights) {
         hash = with(with(with(hash, light.kind), light.position), light.direction);

@@ -6,6 +6,12 @@
 
 namespace argand {
 
+/// What a file may make the loader do.
+struct LoadOptions {
+    bool allow_external = false;   ///< read buffers and images outside the file's folder
+    bool grey_for_missing = false; ///< where an image's file does not exist
+};
+
 /// Loads a glTF 2.0 file (.gltf or .glb, told apart by content) and the buffers that it names.
 /// Loads the default scene, else the first, else all root nodes. Positions, normals, lights and
 /// cameras are converted to world space, at a moment of the file's animations, or as the nodes
@@ -13,6 +19,7 @@ namespace argand {
 /// value. Scene::notes lists unsupported features and objects that were added (a camera, a studio).
 /// Throws Error if the file cannot be read, is invalid where it matters, requires an unsupported
 /// extension, or contains nothing to render.
-Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds = {});
+Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds = {},
+                const LoadOptions& options = {});
 
 } // namespace argand

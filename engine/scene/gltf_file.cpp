@@ -130,7 +130,7 @@ struct ExternalFiles {
 };
 
 ExternalFiles list_external_files(const nlohmann::json& root, const std::filesystem::path& path,
-                                  bool is_glb) {
+                                  bool is_glb, bool allow_external) {
     ExternalFiles files;
     files.directory = path.parent_path();
     const auto buffers = root.find("buffers");
@@ -152,8 +152,9 @@ ExternalFiles list_external_files(const nlohmann::json& root, const std::filesys
         if (uri.empty() || tinygltf::IsDataURI(uri)) {
             continue;
         }
-        files.pending.push_back({path_of_uri(files.directory, uri, fmt::format("buffer {}", i)),
-                                 one_line(uri), buffer["byteLength"].get<std::size_t>()});
+        files.pending.push_back(
+            {path_of_uri(files.directory, uri, fmt::format("buffer {}", i), allow_external),
+             one_line(uri), buffer["byteLength"].get<std::size_t>()});
     }
     return files;
 }
@@ -209,7 +210,8 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
     check_gltf_version(source.root);
     check_gltf_json(source.root);
 
-    ExternalFiles files = list_external_files(source.root, path, container.is_glb);
+    ExternalFiles files =
+        list_external_files(source.root, path, container.is_glb, source.options.allow_external);
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks({file_exists, expand_path, read_external, write_nothing, &files});
     reader.SetImageLoader(keep_image_undecoded, nullptr);
@@ -249,8 +251,10 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
 
 } // namespace
 
-GltfSource read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& notes) {
+GltfSource read_gltf_file(const std::filesystem::path& path, const LoadOptions& options,
+                          std::vector<std::string>& notes) {
     GltfSource source;
+    source.options = options;
     source.file = one_line(path.string());
     source.directory = path.parent_path();
     try {

@@ -59,9 +59,10 @@ Bounds bounds_to_frame(const Scene& scene) {
 
 } // namespace
 
-Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds) {
+Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds,
+                const LoadOptions& options) {
     Scene scene;
-    const GltfSource source = read_gltf_file(path, scene.notes);
+    const GltfSource source = read_gltf_file(path, options, scene.notes);
     scene.name = one_line(path.filename().string());
     scene.seconds = seconds;
     add_extensions(source, scene);

@@ -5,8 +5,10 @@
 #include "scene/gltf_value.hpp"
 #include "shared/texture_record.h"
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace argand {
@@ -56,8 +58,11 @@ void list_textures(const json& value, std::set<std::string>& keys) {
 
 /// Textures that are read, or that rendering does not need.
 bool is_read(const std::string& texture) {
-    return texture == "baseColorTexture" || texture == "metallicRoughnessTexture" ||
-           texture == "occlusionTexture" || texture == "emissiveTexture"; // has a note of its own
+    constexpr std::array<std::string_view, 9> known{
+        "baseColorTexture",     "metallicRoughnessTexture", "emissiveTexture",
+        "normalTexture",        "occlusionTexture",         "specularTexture",
+        "specularColorTexture", "transmissionTexture",      "thicknessTexture"};
+    return std::find(known.begin(), known.end(), texture) != known.end();
 }
 
 void read_alpha(const FactorReader& read, const tinygltf::Material& from,
@@ -134,20 +139,6 @@ void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, 
     }
 }
 
-/// Emissive textures are black nearly everywhere; with the factor alone, whole objects would glow.
-void forget_textured_emission(const tinygltf::Material& from, MaterialFactors& factors,
-                              MaterialKeys& keys, Scene& scene) {
-    if (from.emissiveTexture.index < 0) {
-        return;
-    }
-    if (factors.emissive * factors.emissive_strength != glm::dvec3(0) || keys.emissive ||
-        keys.emissive_strength) {
-        add_note(scene, "emissive textures are not read yet: surfaces that have one do not emit");
-    }
-    factors.emissive = glm::dvec3(0);
-    keys.emissive.reset();
-}
-
 /// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}; both members are required.
 void read_phong(const FactorReader& read, const json* object, Material& material) {
     const json* phong = find_member(find_member(object, "extras"), "phong");
@@ -180,18 +171,60 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     material.phong = Phong{glm::vec3(specular), static_cast<float>(exponent)};
 }
 
+/// What textures may change of a material, now or at another time.
+struct TextureNeeds {
+    bool emission, specular, transmission, thickness;
+};
+
+TextureNeeds needs_of(const MaterialFactors& factors, const MaterialKeys& keys) {
+    return {.emission = factors.emissive * factors.emissive_strength != glm::dvec3(0) ||
+                        keys.emissive || keys.emissive_strength,
+            .specular = factors.specular > 0 || keys.specular,
+            .transmission = factors.transmission > 0 || keys.transmission,
+            .thickness = factors.thickness > 0 || keys.thickness};
+}
+
+/// Adds a texture, or if it changes nothing only checks it.
+void read_texture(TextureReader& textures, const json* owner, const char* key, TextureUse use,
+                  bool needed, std::uint32_t bit, const std::string& what, Material& material,
+                  float scale = 1) {
+    if (!needed) {
+        textures.check(owner, key, what);
+    } else if (textures.add(owner, key, use, what, scale)) {
+        material.texture_bits |= bit;
+        ++material.texture_count;
+    }
+}
+
 /// Adds the textures of a material.
 void read_textures(TextureReader& textures, const FactorReader& read, const json* object,
-                   Material& material) {
+                   const TextureNeeds& needs, Material& material) {
     material.first_texture = static_cast<std::uint32_t>(read.scene.textures.size());
+    const auto add = [&](const json* owner, const char* key, TextureUse use, bool needed,
+                         std::uint32_t bit, float scale = 1) {
+        read_texture(textures, owner, key, use, needed, bit, read.what, material, scale);
+    };
     const json* pbr = find_member(object, "pbrMetallicRoughness");
-    if (textures.add(pbr, "baseColorTexture", true, read.what)) {
-        material.texture_bits |= material_base_color_texture;
-    }
-    // A Phong lobe has neither metal nor roughness.
-    if (!material.phong && textures.add(pbr, "metallicRoughnessTexture", false, read.what)) {
-        material.texture_bits |= material_metal_texture;
-    }
+    const bool has_metal = !material.phong; // and a dielectric's layer
+    add(pbr, "baseColorTexture", TextureUse::base_color, true, material_base_color_texture);
+    add(pbr, "metallicRoughnessTexture", TextureUse::metallic_roughness, has_metal,
+        material_metal_texture);
+    add(object, "emissiveTexture", TextureUse::emissive, needs.emission, material_emissive_texture);
+    const double scale =
+        number_of(read.source, find_member(object, "normalTexture"), "scale", 1, read.what);
+    add(object, "normalTexture", TextureUse::normal, scale != 0, material_normal_texture,
+        read.in_range(scale, -unlimited, unlimited, "normal scale"));
+    const json* specular = find_extension(object, "KHR_materials_specular");
+    add(specular, "specularTexture", TextureUse::specular, has_metal && needs.specular,
+        material_other_textures);
+    add(specular, "specularColorTexture", TextureUse::specular_color, has_metal && needs.specular,
+        material_other_textures);
+    const bool transmits = has_metal && needs.transmission;
+    add(find_extension(object, "KHR_materials_transmission"), "transmissionTexture",
+        TextureUse::transmission, transmits, material_other_textures);
+    add(find_extension(object, "KHR_materials_volume"), "thicknessTexture", TextureUse::thickness,
+        transmits && needs.thickness, material_other_textures);
+    textures.check(object, "occlusionTexture", read.what); // its effect is that of the light paths
     if (material.texture_bits == 0) {
         material.first_texture = 0;
     }
@@ -230,13 +263,12 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         read_emission(read, from, object, factors);
         read_extensions(read, object, factors);
         note_unsupported(factors, keys[i], object, scene);
-        forget_textured_emission(from, factors, keys[i], scene);
         Material material;
         material.name = one_line(from.name);
         material.double_sided = from.doubleSided;
         set_factors(factors, material);
         read_phong(read, object, material);
-        read_textures(textures, read, object, material);
+        read_textures(textures, read, object, needs_of(factors, keys[i]), material);
         scene.materials.push_back(material);
         if (keys[i].moves()) {
             scene.motion.materials.push_back({i, factors, std::move(keys[i])});

@@ -8,7 +8,9 @@
 #include "scene/moving_factors.hpp"
 #include "scene/placement.hpp"
 #include "scene/pose.hpp"
+#include "scene/tangents.hpp"
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -75,6 +77,7 @@ void check_triangle_count(const GltfSource& source, const std::vector<GltfNode>&
 struct StagedVertex {
     std::size_t in_file;           ///< index in the primitive's accessors
     glm::vec3 position, normal;    ///< in world space, or of a moving mesh in object space
+    glm::vec4 tangent{0};          ///< in world space; see Scene::vertex_tangents
     std::uint32_t in_scene = none; ///< index in the scene, once a triangle uses the vertex
 };
 
@@ -162,6 +165,25 @@ private:
         return normal;
     }
 
+    /// Of a vertex that stays where it is; 0 if the file has none.
+    glm::vec4 read_tangent(const Surface& surface, const VertexTransform& transform,
+                           std::size_t vertex, const std::string& name) const {
+        if (!surface.has_tangents) {
+            return glm::vec4(0);
+        }
+        glm::dvec4 tangent;
+        for (int i = 0; i < 4; ++i) {
+            tangent[i] = read_component(surface.tangents, vertex, i);
+        }
+        if (!is_finite(glm::dvec3(tangent)) || !std::isfinite(tangent.w)) {
+            source_.fail("vertex {} of {} has a tangent that is not finite", vertex, name);
+        }
+        const glm::dvec3 world = unit_or_zero(glm::dmat3(transform.point) * glm::dvec3(tangent));
+        const bool left_handed = (tangent.w < 0) != transform.mirrors;
+        return world == glm::dvec3(0) ? glm::vec4(0)
+                                      : glm::vec4(glm::vec3(world), left_handed ? -1 : 1);
+    }
+
     StagedVertex read_world(const Surface& surface, const VertexTransform& transform,
                             std::size_t vertex, const std::string& name) const {
         const glm::dvec3 local = read_vec3(surface.positions, vertex);
@@ -171,7 +193,8 @@ private:
                          is_finite(local) ? " in world space" : "");
         }
         const glm::dvec3 normal = transform.normal * read_normal(surface, vertex, name);
-        return {vertex, glm::vec3(position), glm::vec3(unit_or_zero(normal))};
+        return {vertex, glm::vec3(position), glm::vec3(unit_or_zero(normal)),
+                read_tangent(surface, transform, vertex, name)};
     }
 
     StagedVertex read_object(const Surface& surface, std::size_t vertex,
@@ -180,7 +203,8 @@ private:
         if (!fits_float(position)) {
             source_.fail("vertex {} of {} has a position that is not finite", vertex, name);
         }
-        return {vertex, glm::vec3(position), glm::vec3(read_normal(surface, vertex, name))};
+        return {vertex, glm::vec3(position), glm::vec3(read_normal(surface, vertex, name)),
+                glm::vec4(0)};
     }
 
     template <class Read>
@@ -231,6 +255,10 @@ private:
             add_texture_attributes(source_, surface, vertex.in_file, material, name, scene_);
             scene_.positions.push_back(vertex.position);
             scene_.normals.push_back(vertex.normal);
+            if (vertex.tangent.w != 0) {
+                scene_.vertex_tangents.resize(scene_.positions.size(), glm::vec4(0));
+                scene_.vertex_tangents.back() = vertex.tangent;
+            }
         }
         return vertex.in_scene;
     }
@@ -305,6 +333,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         }
     }
     adder.add_notes();
+    add_tangents(scene);
 }
 
 } // namespace argand

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "scene/gltf.hpp"
 #include "scene/scene.hpp"
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ struct GltfSource {
     nlohmann::json root; ///< the raw JSON: for extensions, whose integers tinygltf would wrap
     std::string file;    ///< file name for messages
     std::filesystem::path directory; ///< of the file: URIs are relative to it
+    LoadOptions options;
 
     /// Throws Error: "cannot load 'FILE': ...".
     template <class... Args>

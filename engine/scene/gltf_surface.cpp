@@ -1,6 +1,6 @@
 #include "scene/gltf_surface.hpp"
 
-#include <bit>
+#include "shared/texture_record.h"
 
 namespace argand {
 
@@ -101,9 +101,8 @@ void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive
         return accessor;
     };
     const Material& of = scene.materials[material];
-    const int textures = std::popcount(of.texture_bits);
-    for (int i = 0; i < textures; ++i) {
-        const std::uint32_t set = scene.textures[of.first_texture + std::uint32_t(i)].uv_set;
+    for (std::uint32_t i = 0; i < of.texture_count; ++i) {
+        const std::uint32_t set = scene.textures[of.first_texture + i].uv_set;
         const std::string key = fmt::format("TEXCOORD_{}", set);
         if (attribute(primitive, key.c_str()) < 0) {
             source.fail("{} has no {}, which a texture of {} needs", name, key,
@@ -114,6 +113,15 @@ void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive
             source.fail("the texture coordinates of {} are not pairs", name);
         }
         surface.uvs.emplace_back(set, accessor);
+    }
+    surface.has_tangents =
+        (of.texture_bits & material_normal_texture) != 0 && attribute(primitive, "TANGENT") >= 0;
+    if (surface.has_tangents) {
+        surface.tangents = open("TANGENT", "tangents");
+        if (surface.tangents.components != 4) {
+            source.fail("the tangents of {} have {} components; they must have 4", name,
+                        surface.tangents.components);
+        }
     }
     surface.has_colors = attribute(primitive, "COLOR_0") >= 0;
     if (surface.has_colors) {

@@ -14,7 +14,9 @@ struct Surface {
     GltfAccessor normals;
     GltfAccessor indices;
     std::vector<std::pair<std::uint32_t, GltfAccessor>> uvs; ///< sets that the material needs
+    GltfAccessor tangents; ///< if the material has a normal texture
     GltfAccessor colors;
+    bool has_tangents = false;
     bool has_colors = false;
     bool has_normals = false;
     bool has_indices = false;

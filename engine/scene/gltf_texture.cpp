@@ -8,11 +8,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <span>
+#include <system_error>
 #include <utility>
 
 namespace argand {
@@ -91,6 +94,14 @@ bool is_nearest(const GltfSource& source, const json* sampler, const std::string
     return index_of(source, sampler, "magFilter", 0, any_integer, what) == nearest;
 }
 
+/// Mip maps are the default; two filters do without them.
+bool has_mip_filter(const GltfSource& source, const json* sampler, const std::string& what) {
+    constexpr std::uint64_t nearest = 9728, linear = 9729;
+    const std::uint64_t filter = index_of(source, sampler, "minFilter", 0, any_integer, what);
+    return filter != nearest && filter != linear;
+}
+
+/// Empty if there is none and grey takes its place.
 std::vector<std::uint8_t> bytes_of(const GltfSource& source, std::size_t index,
                                    const std::string& what) {
     const tinygltf::Image& image = source.model.images[index];
@@ -126,7 +137,29 @@ std::vector<std::uint8_t> bytes_of(const GltfSource& source, std::size_t index,
         }
         return bytes;
     }
-    return read_file(path_of_uri(source.directory, uri, what));
+    const std::filesystem::path path =
+        path_of_uri(source.directory, uri, what, source.options.allow_external);
+    std::error_code unknown;
+    if (std::filesystem::exists(path, unknown) || unknown) {
+        return read_file(path);
+    }
+    if (!source.options.grey_for_missing) {
+        fail("{} is at '{}', which does not exist; --missing-textures grey renders without it",
+             what, one_line(uri, 60));
+    }
+    return {};
+}
+
+/// In the place of an image that does not exist: a texel of half the light, or a flat normal.
+TextureImage grey_image(const std::string& name, bool of_normals) {
+    const glm::u8vec4 texel =
+        of_normals ? glm::u8vec4(128, 128, 255, 255) : glm::u8vec4(glm::u8vec3(188), 255);
+    return {.name = name,
+            .width = 1,
+            .height = 1,
+            .texels = {std::bit_cast<std::uint32_t>(texel)},
+            .low = texel,
+            .high = texel};
 }
 
 } // namespace
@@ -140,10 +173,11 @@ std::uint32_t TextureReader::image_of(std::size_t in_file) {
     return static_cast<std::uint32_t>(known - images_.begin());
 }
 
-bool TextureReader::add(const json* owner, const char* key, bool srgb, const std::string& what) {
+std::optional<Texture> TextureReader::read(const json* owner, const char* key,
+                                           const std::string& what, std::size_t& image) {
     const json* info = find_member(owner, key);
     if (!info) {
-        return false;
+        return {};
     }
     const std::string name = what + "'s " + key;
     if (!info->is_object() || !info->contains("index")) {
@@ -157,9 +191,9 @@ bool TextureReader::add(const json* owner, const char* key, bool srgb, const std
     const json* from = find_element(source_, "textures", number);
     if (!find_member(from, "source")) {
         add_note(scene_, fmt::format("{} has no PNG or JPEG and is ignored", name));
-        return false;
+        return {};
     }
-    const std::uint64_t image = index_of(source_, from, "source", 0, any_integer, name);
+    image = index_of(source_, from, "source", 0, any_integer, name);
     if (image >= source_.model.images.size()) {
         source_.fail("{} uses image {}, which does not exist", name, image);
     }
@@ -176,29 +210,57 @@ bool TextureReader::add(const json* owner, const char* key, bool srgb, const std
         source_.fail("the KHR_texture_transform of {} is not an object", name);
     }
     Texture texture;
-    texture.image = image_of(image);
     const std::uint64_t set = index_of(source_, info, "texCoord", 0, most_uv_sets, name);
     texture.uv_set = static_cast<std::uint32_t>(
         index_of(source_, transform, "texCoord", set, most_uv_sets, name));
     texture.wrap_u = wrap_of(source_, sampler, "wrapS", name);
     texture.wrap_v = wrap_of(source_, sampler, "wrapT", name);
     texture.nearest = is_nearest(source_, sampler, name);
-    texture.srgb = srgb;
+    texture.mips = !texture.nearest && has_mip_filter(source_, sampler, name);
     texture.transform = transform_of(source_, transform, name);
-    scene_.textures.push_back(texture);
-    scene_.uv_sets = std::max(scene_.uv_sets, texture.uv_set + 1);
+    return texture;
+}
+
+bool TextureReader::add(const json* owner, const char* key, TextureUse use, const std::string& what,
+                        float scale) {
+    std::size_t image = 0;
+    std::optional<Texture> texture = read(owner, key, what, image);
+    if (!texture) {
+        return false;
+    }
+    texture->image = image_of(image);
+    texture->use = use;
+    texture->scale = scale;
+    texture->srgb = use == TextureUse::base_color || use == TextureUse::emissive ||
+                    use == TextureUse::specular_color;
+    scene_.textures.push_back(*texture);
+    scene_.uv_sets = std::max(scene_.uv_sets, texture->uv_set + 1);
     return true;
+}
+
+void TextureReader::check(const json* owner, const char* key, const std::string& what) {
+    std::size_t image = 0;
+    read(owner, key, what, image);
 }
 
 void TextureReader::decode_images() {
     scene_.images.resize(images_.size());
     std::vector<std::string> problems(images_.size());
+    std::vector<std::uint8_t> missing(images_.size(), 0);
+    const auto is_of_normals = [&](std::size_t image) {
+        return std::any_of(scene_.textures.begin(), scene_.textures.end(), [&](const Texture& t) {
+            return t.image == image && t.use == TextureUse::normal;
+        });
+    };
     std::atomic<std::uint64_t> texels = 0;
     for_each_on_all_cores(images_.size(), [&](std::size_t i) {
         const std::string what =
             label("image", static_cast<int>(images_[i]), source_.model.images[images_[i]].name);
         try {
-            TextureImage image = decode_image(bytes_of(source_, images_[i], what), what);
+            const std::vector<std::uint8_t> bytes = bytes_of(source_, images_[i], what);
+            missing[i] = bytes.empty() && source_.options.grey_for_missing;
+            TextureImage image =
+                missing[i] ? grey_image(what, is_of_normals(i)) : decode_image(bytes, what);
             if ((texels += image.texels.size()) > most_texels_of_scene) {
                 fail("all textures together have more than {} million pixels; make them smaller",
                      most_texels_of_scene >> 20);
@@ -220,6 +282,11 @@ void TextureReader::decode_images() {
         if (!problem.empty()) {
             fail("{}", problem);
         }
+    }
+    const auto count = std::count(missing.begin(), missing.end(), 1);
+    if (count > 0) {
+        add_note(scene_, fmt::format("{} image{} not exist: grey is in {} place", count,
+                                     count == 1 ? " does" : "s do", count == 1 ? "its" : "their"));
     }
 }
 

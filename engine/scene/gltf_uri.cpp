@@ -3,6 +3,9 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 
+#include <algorithm>
+#include <system_error>
+
 namespace argand {
 
 namespace {
@@ -29,15 +32,36 @@ std::string percent_decoded(const std::string& uri) {
     return decoded;
 }
 
+/// Whether a path leads out of a directory, as it is written or by links. Files that do not exist
+/// are where their names say.
+bool leads_out(const std::filesystem::path& directory, const std::filesystem::path& path) {
+    std::error_code of_folder, of_file;
+    const std::filesystem::path folder =
+        std::filesystem::canonical(directory.empty() ? "." : directory, of_folder);
+    const std::filesystem::path file =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path), of_file);
+    const auto end = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return of_folder || of_file || end.first != folder.end();
+}
+
 } // namespace
 
 std::filesystem::path path_of_uri(const std::filesystem::path& directory, const std::string& uri,
-                                  const std::string& what) {
+                                  const std::string& what, bool allow_external) {
     const std::size_t colon = uri.find(':');
     if (colon != std::string::npos && colon < uri.find_first_of("/?#")) {
         fail("{} is at '{}', which is neither a file nor base64 data", what, one_line(uri, 60));
     }
-    return directory / percent_decoded(uri);
+    const std::string decoded = percent_decoded(uri);
+    if (decoded.find('\0') != std::string::npos) {
+        fail("{} is at '{}', which is not the name of a file", what, one_line(uri, 60));
+    }
+    const std::filesystem::path path = directory / decoded;
+    if (!allow_external && leads_out(directory, path)) {
+        fail("{} is at '{}', outside the scene's folder; --allow-external reads it all the same",
+             what, one_line(uri, 60));
+    }
+    return path;
 }
 
 } // namespace argand

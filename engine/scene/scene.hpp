@@ -38,10 +38,11 @@ struct Material {
     float thickness = 0;    ///< KHR_materials_volume; 0: thin wall, else a refracting solid
     bool double_sided = false;
     std::optional<Phong> phong; ///< if present, replaces metal, dielectric and transmission
-    /// Which textures it has: material_*_texture of shared/texture_record.h. Their texels multiply
-    /// the factors. They follow one another in Scene::textures, in the order of these bits.
+    /// Which textures it has: material_*_texture(s) of shared/texture_record.h. They follow one
+    /// another in Scene::textures, in the order of these bits; the others are the last.
     std::uint32_t texture_bits = 0;
     std::uint32_t first_texture = 0;
+    std::uint32_t texture_count = 0;
     bool alpha_varies = false; ///< with the texels or the vertices, and the mode is not opaque
     AlphaMode alpha_mode = AlphaMode::opaque; ///< how the alpha of texels and vertices acts
     float alpha_threshold = 0; ///< mask: the surface is absent where their product is less
@@ -62,12 +63,18 @@ struct Bounds {
 /// A file's contents on the host at one moment: triangles in world space, materials, lights,
 /// cameras. move_to() changes the moment.
 struct Scene {
-    std::string name;                  ///< file name without directory
-    std::vector<glm::vec3> positions;  ///< vertices, world space
-    std::vector<glm::vec3> normals;    ///< one per vertex, unit; (0,0,0): use the geometric normal
-    std::uint32_t uv_sets = 0;         ///< texture coordinates of each vertex
-    std::vector<glm::vec2> uvs;        ///< uv_sets per vertex, finite
-    std::vector<glm::u16vec4> colors;  ///< one per vertex, 65535 is 1; empty: all are white
+    std::string name;                 ///< file name without directory
+    std::vector<glm::vec3> positions; ///< vertices, world space
+    std::vector<glm::vec3> normals;   ///< one per vertex, unit; (0,0,0): use the geometric normal
+    std::uint32_t uv_sets = 0;        ///< texture coordinates of each vertex
+    std::vector<glm::vec2> uvs;       ///< uv_sets per vertex, finite
+    std::vector<glm::u16vec4> colors; ///< one per vertex, 65535 is 1; empty: all are white
+    /// One per vertex, or none: the tangents of the file, unit, and the sign of the bitangent; its
+    /// sign is 0 where the file has none.
+    std::vector<glm::vec4> vertex_tangents;
+    /// Of each triangle the tangents at its corners (scene/tangents.hpp), if any surface has a
+    /// normal texture.
+    std::vector<glm::uvec3> tangents;
     std::vector<glm::uvec3> triangles; ///< vertex indices, counter-clockwise seen from the front
     std::vector<std::uint32_t> triangle_material; ///< one per triangle, index into materials
     std::vector<Material> materials;              ///< at least one

@@ -43,17 +43,35 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"double_sided", material.double_sided}};
 }
 
+const char* name_of(TextureUse use) {
+    switch (use) { // without a default, so that the compiler finds a use that is missing
+    case TextureUse::base_color:
+        break;
+    case TextureUse::metallic_roughness:
+        return "metallic_roughness";
+    case TextureUse::emissive:
+        return "emissive";
+    case TextureUse::normal:
+        return "normal";
+    case TextureUse::specular:
+        return "specular";
+    case TextureUse::specular_color:
+        return "specular_color";
+    case TextureUse::transmission:
+        return "transmission";
+    case TextureUse::thickness:
+        return "thickness";
+    }
+    return "base_color";
+}
+
 json textures_json(const Scene& scene, const Material& material) {
-    constexpr std::pair<std::uint32_t, const char*> kinds[] = {
-        {material_base_color_texture, "base_color"},
-        {material_metal_texture, "metallic_roughness"}};
     json list = json::array();
-    std::size_t next = material.first_texture;
-    for (const auto& [bit, name] : kinds) {
-        if ((material.texture_bits & bit) != 0) {
-            const TextureImage& image = *scene.images[scene.textures[next++].image];
-            list.push_back({{"kind", name}, {"width", image.width}, {"height", image.height}});
-        }
+    for (std::uint32_t i = 0; i < material.texture_count; ++i) {
+        const Texture& texture = scene.textures[material.first_texture + i];
+        const TextureImage& image = *scene.images[texture.image];
+        list.push_back(
+            {{"kind", name_of(texture.use)}, {"width", image.width}, {"height", image.height}});
     }
     return list;
 }

@@ -19,14 +19,29 @@ struct TextureImage {
 /// How texture coordinates outside [0,1] are treated.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
+/// What texels multiply or turn.
+enum class TextureUse : std::uint8_t {
+    base_color,
+    metallic_roughness,
+    emissive,
+    normal,
+    specular,
+    specular_color,
+    transmission,
+    thickness
+};
+
 /// How a material uses an image (glTF 2.0, sections 3.8 and 3.9, KHR_texture_transform).
 struct Texture {
     std::uint32_t image = 0;  ///< index into Scene::images
     std::uint32_t uv_set = 0; ///< less than Scene::uv_sets
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
     bool nearest = false;        ///< the nearest texel instead of bilinear interpolation
+    bool mips = false;           ///< the sampler filters minified images by mip maps
     bool srgb = false;           ///< colours are encoded; alpha never is
     glm::mat3x2 transform{1.0f}; ///< of texture coordinates (u, v, 1)
+    TextureUse use = TextureUse::base_color;
+    float scale = 1; ///< of the slopes of a normal texture
 };
 
 } // namespace argand

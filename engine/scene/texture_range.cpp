@@ -31,6 +31,29 @@ std::vector<Material> at_extreme_texels(const Scene& scene, const Material& mate
         vary([&](Material& m, bool high) { m.roughness *= range(1)[high ? 1 : 0]; });
         vary([&](Material& m, bool high) { m.metallic *= range(2)[high ? 1 : 0]; });
     }
+    for (std::uint32_t i = 0; i < material.texture_count; ++i) {
+        const Texture& texture = scene.textures[material.first_texture + i];
+        const TextureImage& image = *scene.images[texture.image];
+        const auto texel = [&image](bool high) {
+            return glm::vec4(high ? image.high : image.low) / 255.0f;
+        };
+        switch (texture.use) {
+        case TextureUse::specular:
+            vary([&](Material& m, bool high) { m.specular *= texel(high).a; });
+            break;
+        case TextureUse::specular_color: // linear or not, as 0 and 1 are the same
+            vary([&](Material& m, bool high) { m.specular_color *= glm::vec3(texel(high)); });
+            break;
+        case TextureUse::transmission:
+            vary([&](Material& m, bool high) { m.transmission *= texel(high).r; });
+            break;
+        case TextureUse::thickness:
+            vary([&](Material& m, bool high) { m.thickness *= texel(high).g; });
+            break;
+        default:
+            break;
+        }
+    }
     if (material.alpha_varies) {
         // Somewhere between: neither absent nor opaque.
         vary([](Material& m, bool high) { m.coverage *= high ? 1.0f : 0.5f; });
@@ -38,6 +61,7 @@ std::vector<Material> at_extreme_texels(const Scene& scene, const Material& mate
     for (Material& variant : variants) {
         variant.texture_bits = 0;
         variant.first_texture = 0;
+        variant.texture_count = 0;
         variant.alpha_varies = false;
     }
     return variants;

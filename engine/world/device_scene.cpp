@@ -30,6 +30,7 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
     record.emitter_count = lights.triangle_count;
     record.attributes = attributes_of_vertex(scene);
     record.color_attribute = scene.uv_sets;
+    record.pad5 = first_tangent(scene);
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
     return record;
 }
@@ -58,13 +59,18 @@ kernels::TextureBindings DeviceScene::texture_bindings() const {
 
 kernels::TextureConstants DeviceScene::texture_constants() const {
     return {.textured = plan.needs(Feature::textures),
-            .vertex_colors = plan.needs(Feature::vertex_colors)};
+            .vertex_colors = plan.needs(Feature::vertex_colors),
+            .emissive_texels = plan.needs(Feature::emissive_textures),
+            .normal_maps = plan.needs(Feature::normal_textures),
+            .other_textures = plan.needs(Feature::other_textures),
+            .mip_maps = plan.needs(Feature::mip_maps)};
 }
 
 Buffer unneeded(Device& device) { return device.allocate("not needed", sizeof(glm::vec4)); }
 
 void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
-                   const std::vector<std::uint32_t>& shining, DeviceScene& result) {
+                   const std::vector<std::uint32_t>& shining, const TexelTrees& texels,
+                   DeviceScene& result) {
     const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
     // A little more than half the diagonal, so that the sphere contains the box in spite of
     // rounding.
@@ -75,7 +81,7 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
             make_light_table(device, scene, *result.emissive, result.positions, result.triangles,
                              result.materials, radius, result.lights);
     } else {
-        result.light_table = make_light_table(scene, shining, radius);
+        result.light_table = make_light_table(scene, shining, texels, radius);
         result.lights = upload(device, "lights", result.light_table.lights);
     }
     result.record = scene_record(scene, result.light_table, center, radius);

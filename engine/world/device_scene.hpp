@@ -70,9 +70,11 @@ Buffer unneeded(Device& device);
 
 /// Adds the parts of a scene that belong to one render: its lights and how they are chosen. All
 /// others but casters and areas must be there (World::on_device()). shining: the triangles that
-/// emit light. Waits for the device if there are emissive parts.
+/// emit light; texels: of those that do by a texture. Waits for the device if there are emissive
+/// parts.
 void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
-                   const std::vector<std::uint32_t>& shining, DeviceScene& result);
+                   const std::vector<std::uint32_t>& shining, const TexelTrees& texels,
+                   DeviceScene& result);
 
 /// Sets the probabilities with which each emitter is chosen for shadow rays and for photons, and
 /// uploads `record` with them. Records only.

@@ -45,14 +45,18 @@ std::vector<EmissiveSum> make_lights(Device& device, const EmissiveParts& emissi
     const std::size_t parts = emissive.ranges.size();
     const Buffer sums = device.allocate("sums of emissive parts", parts * sizeof(EmissiveSum));
     dispatch(device,
-             kernels::emissive_lights{.parts = emissive.parts,
-                                      .shining = emissive.triangles,
-                                      .positions = positions,
-                                      .triangles = triangles,
-                                      .materials = materials,
-                                      .lights = lights,
-                                      .sums = sums,
-                                      .params = {static_cast<std::uint32_t>(parts), first_light}},
+             kernels::emissive_lights{
+                 .parts = emissive.parts,
+                 .shining = emissive.triangles,
+                 .positions = positions,
+                 .triangles = triangles,
+                 .materials = materials,
+                 .lights = lights,
+                 .sums = sums,
+                 .means = emissive.texels ? emissive.texels
+                                          : device.allocate("no texels", sizeof(TexelMean)),
+                 .params = {static_cast<std::uint32_t>(parts), first_light},
+                 .constants = {.by_texels = bool(emissive.texels)}},
              parts);
     return download<EmissiveSum>(device, sums, parts);
 }
@@ -67,7 +71,8 @@ void upload_lights(Device& device, const std::vector<LightRecord>& lights, std::
 } // namespace
 
 EmissiveParts find_emissive_parts(Device& device, const Scene& scene,
-                                  const std::vector<std::uint32_t>& shining) {
+                                  const std::vector<std::uint32_t>& shining,
+                                  const TexelTrees& texels) {
     EmissiveParts result;
     result.triangle_count = static_cast<std::uint32_t>(shining.size());
     const std::vector<std::uint32_t> emitters = emitters_of(scene, shining, result.emitter_count);
@@ -82,6 +87,14 @@ EmissiveParts find_emissive_parts(Device& device, const Scene& scene,
     }
     result.triangles = upload(device, "emissive triangles", shining);
     result.parts = upload(device, "parts of emissive triangles", result.ranges);
+    if (!texels.triangles.empty()) {
+        std::vector<TexelMean> means;
+        means.reserve(shining.size());
+        for (const std::uint32_t triangle : shining) {
+            means.push_back(mean_of(texels, triangle));
+        }
+        result.texels = upload(device, "texels of emissive triangles", means);
+    }
     return result;
 }
 

@@ -16,15 +16,18 @@ namespace argand {
 struct EmissiveParts {
     Buffer triangles;                   ///< uint: the triangles, by rising index
     Buffer parts;                       ///< EmissivePart
+    Buffer texels;                      ///< TexelMean of each triangle, if any has a texture
     std::vector<EmissivePart> ranges;   ///< of each part, as in `parts`
     std::vector<std::uint32_t> emitter; ///< of each part, from 0
     std::uint32_t triangle_count = 0, emitter_count = 0;
 };
 
-/// shining: the triangles that emit light, by rising index. Those are connected that have a corner
-/// at the same place in the space that moves both. Records only.
+/// shining: the triangles that emit light, by rising index; texels: of those that do by a texture.
+/// Those are connected that have a corner at the same place in the space that moves both. Records
+/// only.
 EmissiveParts find_emissive_parts(Device& device, const Scene& scene,
-                                  const std::vector<std::uint32_t>& shining);
+                                  const std::vector<std::uint32_t>& shining,
+                                  const TexelTrees& texels);
 
 /// Makes the lights of a scene in `lights` (LightRecord), where its vertices are now on the device:
 /// the host does nothing for a triangle. positions, triangles, materials: as in DeviceScene.

@@ -146,17 +146,17 @@ std::vector<double> weights_of_emitters(const LightTable& table) {
 }
 
 LightTable make_light_table(const Scene& scene, const std::vector<std::uint32_t>& shining,
-                            float scene_radius) {
+                            const TexelTrees& texels, float scene_radius) {
     LightTable table;
     add_punctual_lights(scene, scene_radius, table);
     table.first_triangle = static_cast<std::uint32_t>(table.lights.size());
     for (const std::uint32_t i : shining) {
         const glm::uvec3& corners = scene.triangles[i];
-        add_light(table,
-                  emissive_light(i, scene.positions[corners.x], scene.positions[corners.y],
-                                 scene.positions[corners.z],
-                                 material_record(scene.materials[scene.triangle_material[i]])),
-                  scene_radius);
+        LightRecord light = emissive_light(
+            i, scene.positions[corners.x], scene.positions[corners.y], scene.positions[corners.z],
+            material_record(scene.materials[scene.triangle_material[i]]));
+        shine_by_texels(light, mean_of(texels, i));
+        add_light(table, light, scene_radius);
     }
     table.triangle_count = static_cast<std::uint32_t>(table.lights.size()) - table.first_triangle;
     add_sky(scene, scene_radius, table);

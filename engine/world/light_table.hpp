@@ -3,6 +3,7 @@
 #include "scene/scene.hpp"
 #include "shared/light_record.h"
 #include "shared/scene_records.h"
+#include "world/texel_trees.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -37,10 +38,10 @@ std::size_t row_of(const LightTable& table, std::uint32_t light);
 /// For each material whether it emits light.
 std::vector<bool> which_emit(const Scene& scene);
 
-/// shining: the triangles that emit light. scene_radius: of the bounding sphere, which determines
-/// the power of light from outside.
+/// shining: the triangles that emit light; texels: of those that do by a texture. scene_radius: of
+/// the bounding sphere, which determines the power of light from outside.
 LightTable make_light_table(const Scene& scene, const std::vector<std::uint32_t>& shining,
-                            float scene_radius);
+                            const TexelTrees& texels, float scene_radius);
 
 /// Adds a row of this power.
 void add_row(LightTable& table, const LightRecord& light, const glm::dvec3& power);

@@ -1,7 +1,10 @@
 #include "world/texture_table.hpp"
 
+#include "base/thread_each.hpp"
 #include "image/srgb.hpp"
+#include "scene/texture_mips.hpp"
 #include "shared/texture_record.h"
+#include "world/mip_maps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,11 +42,25 @@ std::uint32_t wrap_flag(Wrap wrap) {
     return texture_clamp;
 }
 
-TextureRecord record_of(const Texture& texture, const TextureImage& image, std::uint32_t first) {
+std::uint32_t use_flag(TextureUse use) {
+    switch (use) {
+    case TextureUse::specular_color:
+        return texture_of_specular_color << texture_use_shift;
+    case TextureUse::transmission:
+        return texture_of_transmission << texture_use_shift;
+    case TextureUse::thickness:
+        return texture_of_thickness << texture_use_shift;
+    default:
+        return 0;
+    }
+}
+
+TextureRecord record_of(const Texture& texture, const TextureImage& image) {
     const glm::mat3x2& m = texture.transform;
-    const std::uint32_t flags =
-        wrap_flag(texture.wrap_u) | wrap_flag(texture.wrap_v) << texture_wrap_v |
-        (texture.nearest ? texture_nearest : 0u) | (texture.srgb ? texture_srgb : 0u);
+    const std::uint32_t flags = wrap_flag(texture.wrap_u) |
+                                wrap_flag(texture.wrap_v) << texture_wrap_v |
+                                (texture.nearest ? texture_nearest : 0u) |
+                                (texture.srgb ? texture_srgb : 0u) | use_flag(texture.use);
     return {.uu = m[0].x,
             .uv = m[1].x,
             .u0 = m[2].x,
@@ -52,10 +69,21 @@ TextureRecord record_of(const Texture& texture, const TextureImage& image, std::
             .v0 = m[2].y,
             .width = image.width,
             .height = image.height,
-            .first = first,
+            .first = 0,
             .uv_set = texture.uv_set,
             .flags = flags,
-            .pad = 0};
+            .scale = texture.scale};
+}
+
+std::vector<bool> have_mips(const Scene& scene) {
+    std::vector<bool> mips(scene.images.size(), false);
+    for (const Material& material : scene.materials) {
+        for (std::uint32_t i = 0; i < material.texture_count; ++i) {
+            const Texture& texture = scene.textures[material.first_texture + i];
+            mips[texture.image] = mips[texture.image] || has_mips(scene, material, texture);
+        }
+    }
+    return mips;
 }
 
 } // namespace
@@ -103,10 +131,11 @@ FittingImages fitting_images(const Scene& scene, std::uint64_t most) {
     for (const Texture& texture : scene.textures) {
         srgb[texture.image] = srgb[texture.image] || texture.srgb;
     }
+    const std::vector<bool> mips = have_mips(scene);
     const auto total = [&] {
         std::uint64_t sum = 0;
-        for (const auto& image : images) {
-            sum += image->texels.size();
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            sum += images[i]->texels.size() + (mips[i] ? mip_word_count(*images[i]) : 0);
         }
         return sum;
     };
@@ -127,8 +156,12 @@ FittingImages fitting_images(const Scene& scene, std::uint64_t most) {
 }
 
 TextureTable make_texture_table(Device& device, const Scene& scene) {
-    const std::uint64_t most =
-        device.info().limits.storage_range / sizeof(std::uint32_t) - srgb_codes;
+    const bool shines =
+        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+            return (material.texture_bits & material_emissive_texture) != 0;
+        });
+    const std::uint64_t most = device.info().limits.storage_range / sizeof(std::uint32_t) -
+                               srgb_codes - (shines ? most_texel_tree_words : 0);
     const auto [images, halvings] = fitting_images(scene, most);
     TextureTable table;
     table.halvings = halvings;
@@ -137,20 +170,50 @@ TextureTable make_texture_table(Device& device, const Scene& scene) {
     for (const double value : linear_values()) {
         texels.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
     }
-    std::vector<std::uint32_t> first;
-    first.reserve(images.size());
-    for (const auto& image : images) {
-        first.push_back(static_cast<std::uint32_t>(texels.size()));
-        texels.insert(texels.end(), image->texels.begin(), image->texels.end());
-    }
     std::vector<TextureRecord> records;
     records.reserve(scene.textures.size());
     for (const Texture& texture : scene.textures) {
-        records.push_back(record_of(texture, *images[texture.image], first[texture.image]));
+        records.push_back(record_of(texture, *images[texture.image]));
+    }
+    for (const Material& material : scene.materials) {
+        for (std::uint32_t i = 0; i < material.texture_count; ++i) {
+            const std::uint32_t index = material.first_texture + i;
+            if (has_mips(scene, material, scene.textures[index]) &&
+                images[scene.textures[index].image]->texels.size() > 1) {
+                records[index].flags |= texture_mips;
+            }
+        }
+        if ((material.texture_bits & material_other_textures) != 0) {
+            records[material.first_texture + material.texture_count - 1].flags |= texture_last;
+        }
+    }
+    if (shines) {
+        table.trees = make_texel_trees(scene, images, records, texels);
+    }
+    const std::vector<bool> mips = have_mips(scene);
+    std::vector<std::uint32_t> first;
+    first.reserve(images.size());
+    std::vector<std::vector<std::uint32_t>> levels(images.size());
+    for_each_on_all_cores(images.size(), [&](std::size_t i) {
+        if (mips[i]) {
+            levels[i] = mip_words(*images[i]);
+        }
+    });
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        first.push_back(static_cast<std::uint32_t>(texels.size()));
+        texels.insert(texels.end(), images[i]->texels.begin(), images[i]->texels.end());
+        texels.insert(texels.end(), levels[i].begin(), levels[i].end());
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].first = first[scene.textures[i].image];
     }
     table.records = upload(device, "textures", records);
     table.texels = upload(device, "texels", texels);
     return table;
+}
+
+std::uint32_t first_tangent(const Scene& scene) {
+    return static_cast<std::uint32_t>(scene.positions.size()) * attributes_of_vertex(scene);
 }
 
 std::uint32_t attributes_of_vertex(const Scene& scene) {
@@ -159,7 +222,7 @@ std::uint32_t attributes_of_vertex(const Scene& scene) {
 
 Buffer upload_attributes(Device& device, const Scene& scene) {
     std::vector<glm::uvec2> attributes;
-    attributes.reserve(scene.positions.size() * attributes_of_vertex(scene));
+    attributes.reserve(first_tangent(scene) + 2 * scene.tangents.size());
     for (std::size_t vertex = 0; vertex < scene.positions.size(); ++vertex) {
         for (std::size_t set = 0; set < scene.uv_sets; ++set) {
             attributes.push_back(glm::floatBitsToUint(scene.uvs[vertex * scene.uv_sets + set]));
@@ -167,6 +230,10 @@ Buffer upload_attributes(Device& device, const Scene& scene) {
         if (!scene.colors.empty()) {
             attributes.push_back(std::bit_cast<glm::uvec2>(scene.colors[vertex]));
         }
+    }
+    for (const glm::uvec3& tangents : scene.tangents) {
+        attributes.emplace_back(tangents.x, tangents.y);
+        attributes.emplace_back(tangents.z, 0u);
     }
     return upload(device, "attributes", attributes);
 }

@@ -254,17 +254,17 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     for (std::size_t i = 0; i < last_moved_.size(); ++i) {
         result.meshes.push_back({meshes_.boxes(scene)[i], last_moved_[i]});
     }
+    add_textures(scene, result);
     const std::vector<std::uint32_t>& shines = shining(scene);
     if (meshes_.have_any(emitting_)) {
         if (!emissive_) {
-            emissive_ =
-                std::make_shared<const EmissiveParts>(find_emissive_parts(device_, scene, shines));
+            emissive_ = std::make_shared<const EmissiveParts>(
+                find_emissive_parts(device_, scene, shines, textures_.trees));
         }
         result.emissive = emissive_;
     }
     add_sky(scene, result);
-    prepare_scene(device_, scene, box(scene), shines, result);
-    add_textures(scene, result);
+    prepare_scene(device_, scene, box(scene), shines, textures_.trees, result);
     return result;
 }
 

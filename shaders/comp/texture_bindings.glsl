@@ -1,6 +1,9 @@
 // The textures of the scene and what vertices have for them, for kernels that evaluate materials.
 // They follow the scene's buffers and the features of materials; such a kernel's own buffers begin
 // at binding 10.
+#include "shared/ray_cone.h"
+#include "shared/tangent.h"
+#include "shared/texel_tree.h"
 #include "shared/texture.h"
 
 layout(set = 0, binding = 7) readonly buffer Attributes { uvec2 attributes[]; };
@@ -10,3 +13,7 @@ layout(set = 0, binding = 9) readonly buffer Texels { uint texels[]; };
 // Features of the scene (engine/plan/plan.hpp). Buffers that are not read may be empty.
 layout(constant_id = 20) const bool textured = true;      // false: textures and texels are not read
 layout(constant_id = 21) const bool vertex_colors = true; // of the attributes
+layout(constant_id = 23) const bool normal_maps = true;     // some surfaces have normal textures
+layout(constant_id = 24) const bool other_textures = true;  // of material_other_textures
+layout(constant_id = 25) const bool mip_maps = true; // some textures have them, and paths have cones
+layout(constant_id = 22) const bool emissive_texels = true; // some triangles shine by texels

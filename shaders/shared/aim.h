@@ -6,6 +6,7 @@
 #define ARGAND_SHARED_AIM_H
 
 #include "shared/aim_records.h"
+#include "shared/maths.h"
 
 ARGAND_SHARED_BEGIN
 

@@ -9,7 +9,6 @@ ARGAND_SHARED_BEGIN
 CONSTANT uint aim_leaf = 4u;
 // Trees are no deeper.
 CONSTANT uint most_aim_levels = 48u;
-CONSTANT real LARGEST_BELOW_1 = real(0.999999940395355224609375); // 1 - 2^-24
 
 // A node of the trees of aim.h: a box of the unit hypercube, divided in two across an axis. The
 // children follow one another.

@@ -2,6 +2,7 @@
 #ifndef ARGAND_SHARED_EMISSIVE_H
 #define ARGAND_SHARED_EMISSIVE_H
 
+#include "shared/emissive_records.h"
 #include "shared/lights.h"
 #include "shared/material_record.h"
 
@@ -27,6 +28,14 @@ FN LightRecord emissive_light(uint triangle, vec3 a, vec3 b, vec3 c, IN(Material
     l.ez = c.z;
     l.triangle_and_sides = 2u * triangle + (m.double_sided != 0u ? 1u : 0u);
     return l;
+}
+
+// Makes a triangle's light one that shines by texels.
+FN void shine_by_texels(INOUT(LightRecord) l, IN(TexelMean) texels) {
+    l.r *= texels.r;
+    l.g *= texels.g;
+    l.b *= texels.b;
+    l.cos_inner = real(texels.root);
 }
 
 ARGAND_SHARED_END

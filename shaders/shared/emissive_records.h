@@ -12,6 +12,13 @@ struct EmissivePart {
 };
 CONSTANT uint most_triangles_of_emissive_part = 128u;
 
+// How a triangle shines by its texels: the mean colour of those that it shows, and where its tree
+// begins among the words of the texels (texel_tree.h). White and 0 if it has no emissive texture.
+struct TexelMean {
+    float32 r, g, b;
+    uint root;
+};
+
 // What a part emits. Laid out in 16-byte lanes.
 struct EmissiveSum {
     float32 power_r, power_g, power_b, pad0;

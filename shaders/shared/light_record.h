@@ -26,7 +26,9 @@ struct LightRecord {
     // Intensity [cd] (point, spot), irradiance [lux] (directional) or radiance [cd/m²]; of a
     // picture the mean, but after a direction has been sampled, the direction's radiance over `ey`.
     float32 r, g, b;
-    float32 cos_inner; // spot
+    // Spot; triangle: the root of its tree of texels (texel_tree.h), an integer below 2^24; 0: it
+    // has none.
+    float32 cos_inner;
     // Unit direction in which light travels (spot, directional; picture after sampling), or second
     // vertex (triangle).
     float32 dx, dy, dz;

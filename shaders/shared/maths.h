@@ -5,6 +5,8 @@
 
 ARGAND_SHARED_BEGIN
 
+CONSTANT real LARGEST_BELOW_1 = real(0.999999940395355224609375); // 1 - 2^-24
+
 FN real sqr(real x) { return x * x; }
 
 FN bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }

@@ -91,6 +91,57 @@ FN uint texel_byte(uint texel, uint channel) { return (texel >> (8u * channel)) 
 
 FN real unit_byte(uint code) { return real(code) / real(255.0); }
 
+// Mip levels. Level k has floor(size / 2^k) columns and rows, but at least one. Each of its texels
+// is the mean of its part of the image, so that all levels have the same mean. They follow the
+// image in two words per texel: the square roots of linear red, green and blue, in 16 bits each,
+// and alpha. (A mean in eight bits would be wrong by half a percent.)
+CONSTANT uint words_of_mip = 2u;
+
+FN uint mip_size(uint size, uint level) { return max(size >> level, 1u); }
+
+// The highest level, of one texel.
+FN uint last_mip(uint width, uint height) { return uint(findMSB(max(width, height))); }
+
+// Words between a texture's first texel and those of a level, which is at least 1.
+FN uint words_before_mip(uint width, uint height, uint level) {
+    uint words = width * height;
+    for (uint k = 1u; k < level; ++k) {
+        words += words_of_mip * mip_size(width, k) * mip_size(height, k);
+    }
+    return words;
+}
+
+FN real mip_code(uint code) {
+    real root = real(code) / real(65535.0);
+    return root * root;
+}
+
+FN vec4 texel_of_mip(uint first, uint second) {
+    return vec4(mip_code(first & 0xffffu), mip_code(first >> 16u), mip_code(second & 0xffffu),
+                real(second >> 16u) / real(65535.0));
+}
+
+// Logarithm to base 2 of a finite number of at least 1, between powers of two by a straight line:
+// off by at most 0.09, and the same on every device.
+FN real rough_log2(real x) {
+    uint bits = float_bits(float32(x));
+    real mantissa = real(bits_float((bits & 0x007fffffu) | 0x3f800000u));
+    return real(int(bits >> 23u) - 128) + mantissa;
+}
+
+// The mip level of a lookup that a cone of this width makes: 0 where a texel is as wide. uv_area:
+// of the triangle in the image; world_area: its own; cosine: between the ray and the normal.
+FN real mip_level(IN(TextureRecord) t, real uv_area, real world_area, real width, real cosine) {
+    real texels = uv_area * real(t.width) * real(t.height) / world_area;
+    real squared = texels * width * width / max(abs(cosine), real(1e-3));
+    if (!(squared > real(1.0))) {
+        return real(0.0);
+    }
+    real most = real(last_mip(t.width, t.height));
+    // Triangles without area show one point, in any level.
+    return is_finite(squared) ? min(real(0.5) * rough_log2(squared), most) : most;
+}
+
 ARGAND_SHARED_END
 
 #endif

@@ -33,6 +33,7 @@ const std::vector<Expected> scenes = {
     {"ring.glb", 3842, 2, 0, 1},
     {"glossy.glb", 2910, 11, 1, 0},
     {"veil.glb", 44, 12, 1, 0},
+    {"textures.glb", 1292, 7, 1, 0},
     {"spot.glb", 34, 7, 0, 1},
     {"sky_room.glb", 34, 7, 0, 0},
     {"courtyard.glb", 92, 6, 0, 1},

@@ -1,54 +1,11 @@
 // Textured surfaces and vertices with colours, rendered by every method.
 #include "rendering.hpp"
-#include "shared/texture_record.h"
+#include "textured.hpp"
 
 #include <bit>
 
 namespace argand::testing {
 namespace {
-
-std::uint32_t texel(int red, int green, int blue, int alpha = 255) {
-    return std::bit_cast<std::uint32_t>(glm::u8vec4(red, green, blue, alpha));
-}
-
-/// Gives a material a texture of these texels, row by row. Call in the order of the material's
-/// bits.
-void add_texture(Scene& scene, std::uint32_t material, std::uint32_t bit, std::uint32_t width,
-                 std::vector<std::uint32_t> texels, bool nearest) {
-    TextureImage image{.name = "image",
-                       .width = width,
-                       .height = static_cast<std::uint32_t>(texels.size()) / width,
-                       .texels = std::move(texels)};
-    for (const std::uint32_t t : image.texels) {
-        image.low = glm::min(image.low, std::bit_cast<glm::u8vec4>(t));
-        image.high = glm::max(image.high, std::bit_cast<glm::u8vec4>(t));
-    }
-    Material& of = scene.materials[material];
-    if (of.texture_bits == 0) {
-        of.first_texture = static_cast<std::uint32_t>(scene.textures.size());
-    }
-    of.texture_bits |= bit;
-    scene.textures.push_back({.image = static_cast<std::uint32_t>(scene.images.size()),
-                              .nearest = nearest,
-                              .srgb = bit == material_base_color_texture});
-    of.alpha_varies = of.alpha_varies || (of.alpha_mode != AlphaMode::opaque && image.low.a < 255);
-    scene.images.push_back(std::make_shared<const TextureImage>(std::move(image)));
-    scene.uv_sets = 1;
-}
-
-/// Gives all vertices as texture coordinates their place in the plane y = 0, so that the image lies
-/// in 0 <= x, z <= size.
-void project(Scene& scene, float size) {
-    for (const glm::vec3& p : scene.positions) {
-        scene.uvs.emplace_back(p.x / size, p.z / size);
-    }
-}
-
-/// sRGB's curve, IEC 61966-2-1.
-double linear(int code) {
-    const double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 class Textured : public EveryMethod {};
 

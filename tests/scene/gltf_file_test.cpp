@@ -91,7 +91,6 @@ TEST_F(GltfFile, ExplainsWhyABufferFails) {
     directory.write("short.bin", Bytes(8, 0));
     EXPECT_THAT(problem("short.bin"), HasSubstr("'short.bin' has 8 bytes where 36 are required"));
     EXPECT_THAT(problem("."), HasSubstr("it is a directory"));
-    EXPECT_THAT(problem("/../../../../../../../../../dev/zero"), HasSubstr("cannot read"));
     EXPECT_THAT(problem("https://example.org/a.bin"), HasSubstr("neither a file nor base64 data"));
     EXPECT_THAT(problem("data:application/octet-stream;base64,AAAA"),
                 HasSubstr("Failed to decode"));
@@ -100,6 +99,38 @@ TEST_F(GltfFile, ExplainsWhyABufferFails) {
     builder.root["buffers"] = {{{"byteLength", 36}}};
     EXPECT_THAT(problem_of(directory.write("scene.gltf", builder.root.dump())),
                 HasSubstr("buffer 0 has no uri"));
+}
+
+// A scene from elsewhere must not read what it was not given.
+TEST_F(GltfFile, ReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
+    directory.write("outside/data.bin", triangle);
+    directory.write("inside/data.bin", triangle);
+    directory.write("insideout/data.bin", triangle);
+    std::filesystem::create_symlink("../outside/data.bin", directory.path() / "inside/file");
+    std::filesystem::create_directory_symlink("../outside", directory.path() / "inside/folder");
+    std::filesystem::create_symlink("data.bin", directory.path() / "inside/near");
+    const auto file = [&](const std::string& uri) {
+        return directory.write("inside/scene.gltf", text_of_triangle(uri));
+    };
+    for (const std::string uri :
+         {"../outside/data.bin", "%2e%2e/outside/data.bin", "..%2Foutside/data.bin", "file",
+          "folder/data.bin", "../insideout/data.bin", "a/../../outside/data.bin"}) {
+        const std::string problem = problem_of(file(uri));
+        EXPECT_THAT(problem, HasSubstr("outside the scene's folder; --allow-external")) << uri;
+        EXPECT_EQ(problem.find('\n'), std::string::npos);
+    }
+    for (const std::string uri : {"../outside/data.bin", "..%2Foutside/data.bin", "file"}) {
+        EXPECT_EQ(load_gltf(file(uri), {}, {.allow_external = true}).triangles.size(), 1u) << uri;
+    }
+    const std::string absolute = (directory.path() / "outside/data.bin").string();
+    EXPECT_THAT(problem_of(file(absolute)), HasSubstr("--allow-external"));
+    EXPECT_EQ(load_gltf(file(absolute), {}, {.allow_external = true}).triangles.size(), 1u);
+    for (const std::string uri : {"data.bin", "near", "../inside/data.bin", "./data.bin"}) {
+        EXPECT_EQ(load_gltf(file(uri)).triangles.size(), 1u) << uri;
+    }
+    EXPECT_THAT(problem_of(file("/../../../../../../../../../dev/zero")),
+                HasSubstr("--allow-external"));
+    EXPECT_THAT(problem_of(file("data.bin%00")), HasSubstr("not the name of a file"));
 }
 
 TEST_F(GltfFile, DoesNotLookForBuffersInTheWorkingDirectory) {

@@ -232,6 +232,75 @@ TEST(GltfTexture, TellsWhatIsWrongWithAnImage) {
     expect_problem(image(embedded(huge)), "more than 64 million");
 }
 
+TEST(GltfTexture, RefusesColoursForPrint) {
+    Bytes cmyk = jpeg();
+    for (std::size_t i = 2; i + 9 < cmyk.size(); ++i) {
+        if (cmyk[i] == 0xff && cmyk[i + 1] == 0xc0) {
+            cmyk[i + 9] = 4;
+        }
+    }
+    expect_problem(TexturedFile(embedded(cmyk, "image/jpeg")).with_coordinates(), "CMYK");
+}
+
+TEST(GltfTexture, PutsGreyInThePlaceOfAMissingImage) {
+    const TempDirectory directory;
+    TexturedFile file(json{{"uri", "missing.png"}});
+    file.builder.root["materials"][0]["normalTexture"] = {{"index", 1}};
+    file.builder.root["images"].push_back({{"uri", "missing too.png"}});
+    file.builder.root["textures"].push_back({{"source", 1}});
+    const auto path = directory.write("scene.glb", file.with_coordinates().finished().glb());
+    try {
+        load_gltf(path);
+        FAIL();
+    } catch (const Error& problem) {
+        EXPECT_NE(std::string(problem.what()).find("--missing-textures grey"), std::string::npos)
+            << problem.what();
+    }
+    const Scene scene = load_gltf(path, {}, {.grey_for_missing = true});
+    EXPECT_EQ(std::bit_cast<glm::u8vec4>(scene.images[0]->texels[0]),
+              glm::u8vec4(188, 188, 188, 255));
+    EXPECT_EQ(std::bit_cast<glm::u8vec4>(scene.images[1]->texels[0]),
+              glm::u8vec4(128, 128, 255, 255));
+    EXPECT_TRUE(has_note(scene, "2 images do not exist: grey is in their place"));
+    // Only missing files are replaced.
+    directory.write("missing.png", Bytes{1, 2, 3});
+    EXPECT_THROW(load_gltf(path, {}, {.grey_for_missing = true}), Error);
+}
+
+TEST(GltfTexture, ReadsEveryTextureOfAMaterialInTheOrderOfItsUses) {
+    TexturedFile file(embedded(two_by_one()));
+    const json info{{"index", 0}};
+    json& material = file.builder.root["materials"][0];
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = info;
+    material["emissiveTexture"] = info;
+    material["emissiveFactor"] = {1, 1, 1};
+    material["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+    material["occlusionTexture"] = info;
+    material["extensions"] = {
+        {"KHR_materials_specular", {{"specularTexture", info}, {"specularColorTexture", info}}},
+        {"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", info}}},
+        {"KHR_materials_volume", {{"thicknessFactor", 1}, {"thicknessTexture", info}}}};
+    const Scene scene = TexturedFile(file).with_coordinates().finished().load();
+    const Material& of = scene.materials[0];
+    ASSERT_EQ(of.texture_count, 8u);
+    for (std::uint32_t i = 0; i < of.texture_count; ++i) {
+        EXPECT_EQ(scene.textures[of.first_texture + i].use, TextureUse(i)) << i;
+    }
+    EXPECT_EQ(scene.textures[3].scale, 0.5f);
+    EXPECT_TRUE(scene.textures[2].srgb && scene.textures[5].srgb);
+    EXPECT_FALSE(scene.textures[3].srgb || scene.textures[4].srgb || scene.textures[6].srgb);
+    EXPECT_EQ(scene.tangents.size(), 1u);
+    for (const std::string& note : scene.notes) {
+        EXPECT_EQ(note.find("Texture"), std::string::npos) << note;
+    }
+    material["emissiveFactor"] = {0, 0, 0}; // shines nowhere
+    material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0;
+    EXPECT_EQ(TexturedFile(file).with_coordinates().finished().load().materials[0].texture_count,
+              5u);
+    material["occlusionTexture"] = {{"index", 7}}; // is not used, but must be valid
+    expect_problem(file.with_coordinates(), "occlusionTexture is texture 7, which does not exist");
+}
+
 TEST(GltfTexture, TellsWhatIsWrongWithATexture) {
     const auto info = [](json object) {
         return TexturedFile(embedded(two_by_one()), nullptr, std::move(object)).with_coordinates();

@@ -33,7 +33,7 @@ Scene sun_and_two_lamps() {
 }
 
 LightTable table_of(const Scene& scene, float scene_radius) {
-    return make_light_table(scene, triangles_of(scene, which_emit(scene)), scene_radius);
+    return make_light_table(scene, triangles_of(scene, which_emit(scene)), {}, scene_radius);
 }
 
 double sum_of(const std::vector<double>& values) {

@@ -4,6 +4,7 @@
 
 #include "device_fixture.hpp"
 #include "methods/moving_scene.hpp"
+#include "methods/textured.hpp"
 #include "scene/pose.hpp"
 #include "world/connected_triangles.hpp"
 #include "world/world.hpp"
@@ -61,7 +62,7 @@ protected:
 
 LightTable on_host(const Scene& scene) {
     const Bounds box = bounds(scene);
-    return make_light_table(scene, triangles_of(scene, which_emit(scene)),
+    return make_light_table(scene, triangles_of(scene, which_emit(scene)), {},
                             0.50001f * glm::length(box.high - box.low));
 }
 
@@ -125,6 +126,37 @@ TEST_F(EmissiveMeshes, HaveTheLightsOfTheHostsTableAtEveryMoment) {
             expect_choices(found.for_rays, host);
             expect_choices(found.for_photons, host);
         }
+    }
+}
+
+TEST_F(EmissiveMeshes, ShineByTheirTexelsAtEveryMoment) {
+    Scene scene = shining_fans(5);
+    const std::uint32_t material = scene.triangle_material[scene.motion.meshes[1].first_triangle];
+    add_texture(scene, material, material_emissive_texture, 1, {texel(188, 255, 0)}, false);
+    scene.uvs.assign(scene.positions.size(), glm::vec2(0.3f));
+    World world(open(), scene);
+    for (const double time : {0.0, 0.75}) {
+        scene.materials[material].emission = glm::vec3(3 + float(time), 2, 1);
+        move_to(time, scene);
+        world.update(scene);
+        const Lights found = on_device(world, scene);
+        LightTable host = on_host(scene); // without texels
+        ASSERT_EQ(found.lights.size(), host.lights.size());
+        int by_texels = 0;
+        for (std::size_t i = 0; i < found.lights.size(); ++i) {
+            LightRecord& expected = host.lights[i];
+            const std::uint32_t triangle = expected.triangle_and_sides / 2;
+            if (expected.kind == light_triangle && scene.triangle_material[triangle] == material) {
+                expected.r *= float(linear(188));
+                expected.b = 0;
+                EXPECT_GE(found.lights[i].cos_inner, float(srgb_codes));
+                EXPECT_FLOAT_EQ(found.lights[i].r, expected.r);
+                expected.r = found.lights[i].r;
+                ++by_texels;
+            }
+            expect_near(found.lights[i], expected);
+        }
+        EXPECT_EQ(by_texels, 5);
     }
 }
 

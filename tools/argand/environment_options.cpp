@@ -137,10 +137,10 @@ void add_environment_options(CLI::App& command, EnvironmentOptions& options) {
 }
 
 Scene load_scene(const std::string& file, const EnvironmentOptions& options,
-                 std::optional<double> seconds) {
+                 std::optional<double> seconds, const LoadOptions& load) {
     check(options);
     Sky sky = read_sky(options);
-    Scene scene = load_gltf(file, seconds);
+    Scene scene = load_gltf(file, seconds, load);
     if (sky.uniform) {
         replace_sky(scene, *sky.uniform);
     } else if (sky.environment) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/gltf.hpp"
 #include "scene/scene.hpp"
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,6 @@ void add_environment_options(CLI::App& command, EnvironmentOptions& options);
 /// Loads a scene, with the sky that the options describe, if any. Throws UsageError where they
 /// contradict each other.
 Scene load_scene(const std::string& file, const EnvironmentOptions& options,
-                 std::optional<double> seconds = {});
+                 std::optional<double> seconds = {}, const LoadOptions& load = {});
 
 } // namespace argand

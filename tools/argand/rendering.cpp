@@ -318,7 +318,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.settings.width = size.width;
     job.settings.height = size.height;
     const Clock::time_point start = Clock::now();
-    job.scene = load_scene(options.scene, options, seconds);
+    job.scene = load_scene(options.scene, options, seconds, options.load);
     job.times.load = seconds_since(start);
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);

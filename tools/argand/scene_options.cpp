@@ -13,6 +13,16 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "last one")
         ->check(number_between(-1e9, 1e9));
     add_environment_options(command, options);
+    command.add_flag("--allow-external", options.load.allow_external,
+                     "Read buffers and images that are outside the scene's folder");
+    command
+        .add_option_function<std::string>(
+            "--missing-textures",
+            [&options](const std::string& choice) {
+                options.load.grey_for_missing = choice == "grey";
+            },
+            "What to do where an image's file does not exist (default: error)")
+        ->check(CLI::IsMember({"error", "grey"}));
 }
 
 } // namespace argand

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "environment_options.hpp"
+#include "scene/gltf.hpp"
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -12,6 +13,7 @@ namespace argand {
 struct SceneOptions : EnvironmentOptions {
     std::string scene;
     std::optional<double> seconds; ///< none: nodes as they rest
+    LoadOptions load;
 };
 
 /// Adds the scene's file, --at and the options of the sky.

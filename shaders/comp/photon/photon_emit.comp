@@ -2,6 +2,7 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "scene_bindings.glsl"
+#include "texture_bindings.glsl"
 #include "shared/aim.h"
 #include "shared/differential_record.h"
 #include "shared/light_differential.h"
@@ -10,13 +11,13 @@ layout(local_size_x = 64) in;
 #include "shared/sampling.h"
 #include "shared/sky.h"
 
-layout(set = 0, binding = 7) writeonly buffer Rays { RayRecord rays[]; };
-layout(set = 0, binding = 8) writeonly buffer Photons { PhotonPathRecord paths[]; };
-layout(set = 0, binding = 9) writeonly buffer Ledgers { FluxLedger ledgers[]; };
-layout(set = 0, binding = 10) writeonly buffer Active { uint active_slots[]; };
-layout(set = 0, binding = 11) writeonly buffer Differentials { DifferentialRecord differentials[]; };
-layout(set = 0, binding = 12) readonly buffer Aims { AimNode aim_nodes[]; };
-layout(set = 0, binding = 13) readonly buffer Sky { uint sky[]; };
+layout(set = 0, binding = 10) writeonly buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 11) writeonly buffer Photons { PhotonPathRecord paths[]; };
+layout(set = 0, binding = 12) writeonly buffer Ledgers { FluxLedger ledgers[]; };
+layout(set = 0, binding = 13) writeonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 14) writeonly buffer Differentials { DifferentialRecord differentials[]; };
+layout(set = 0, binding = 15) readonly buffer Aims { AimNode aim_nodes[]; };
+layout(set = 0, binding = 16) readonly buffer Sky { uint sky[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.

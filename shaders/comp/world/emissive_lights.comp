@@ -12,6 +12,10 @@ layout(set = 0, binding = 3) readonly buffer Triangles { uvec4 triangles[]; };
 layout(set = 0, binding = 4) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 5) writeonly buffer Lights { LightRecord lights[]; };
 layout(set = 0, binding = 6) writeonly buffer Sums { EmissiveSum sums[]; };
+layout(set = 0, binding = 7) readonly buffer Means { TexelMean means[]; };
 layout(push_constant) uniform Push { EmissiveLightParams params; };
+
+// Whether some triangles shine by texels; else `means` is not read.
+layout(constant_id = 0) const bool by_texels = false;
 
 #include "shared/kernels/world/emissive_lights.h"

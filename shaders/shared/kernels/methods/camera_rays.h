@@ -1,5 +1,17 @@
 #include "shared/kernels/interleave.h"
 
+// The cone of one of a pixel's paths.
+FN uint camera_cone(CameraRecord c, vec3 direction) {
+    vec3 across = vec3(c.across_x, c.across_y, c.across_z);
+    vec3 axis = cross3(across, vec3(c.down_x, c.down_y, c.down_z)); // a pixel's area along the axis
+    real area;
+    vec3 unit = unit_and_length(axis, area);
+    // On the plane at distance 1 a pixel is as large as in the picture; rays to it are longer.
+    real width = sqrt(area / real(batch.first_sample + batch.samples));
+    real share = real(c.origin_share);
+    return pack_cone(width * share, width * (real(1.0) - share) * abs(dot3(unit, direction)));
+}
+
 // Starts the paths of a batch.
 FN void main() {
     uint slot = THREAD_INDEX;
@@ -14,7 +26,7 @@ FN void main() {
     camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, vec2(u.z, u.w), origin,
                direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
-                           direction.z, 0u);
+                           direction.z, cones ? camera_cone(camera[0], direction) : 0u);
     paths[slot] = PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index,
                              path_unscaled, 0u);
     layers[slot] = LayersRecord(real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0),

@@ -5,6 +5,9 @@
 #include "shared/kernels/sky.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/emission.h"
+#include "shared/kernels/normals.h"
+
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
 // and this one.
 struct Vertex {
@@ -13,7 +16,10 @@ struct Vertex {
     PathRecord path;
     vec3 throughput;
     vec3 direction; // of the ray that hit this vertex
+    vec3 toward;    // where it came from, or above the horizon (toward_above)
     uint triangle;
+    uint cone; // of the ray
+    real distance;
     Surface surface;
     MaterialRecord material;
     Frame frame; // of the shading normal
@@ -115,18 +121,21 @@ FN uint light_of_triangle(uint triangle) {
     return first;
 }
 
-// Solid-angle density with which shadow rays find a point on this emissive triangle; see
+// Solid-angle density with which shadow rays find this point of an emissive triangle; see
 // emitter_density.
-FN real shadow_ray_density(uint triangle, real distance, real cosine) {
-    uint index = light_of_triangle(triangle);
+FN real shadow_ray_density(HitRecord hit, real cosine) {
+    uint index = light_of_triangle(hit.triangle);
     real probability = several_lights ? light_choices[index].probability : real(1.0);
     LightRecord light = lights[index];
     real area;
     light_normal(light, area);
-    return emitter_density(probability, area, distance, cosine);
+    if (shines_by_texels(light)) {
+        probability *= density_by_texels(light, hit.u, hit.v);
+    }
+    return emitter_density(probability, area, hit.t, cosine);
 }
 
-FN void add_surface_emission(IN(Vertex) v, real distance) {
+FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
     MaterialRecord m = v.material;
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
     if (has_light(light_triangle) && max_component(emission) > real(0.0) &&
@@ -134,7 +143,7 @@ FN void add_surface_emission(IN(Vertex) v, real distance) {
         real weight = real(1.0);
         if (v.path.pdf > real(0.0)) {
             real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
-            weight = power_heuristic(v.path.pdf, shadow_ray_density(v.triangle, distance, cosine));
+            weight = power_heuristic(v.path.pdf, shadow_ray_density(hit, cosine));
         }
         add_emission(v.slot, v.path, v.throughput * emission * weight);
     }
@@ -151,7 +160,7 @@ FN real seek_probability(IN(Vertex) v) {
 // Decides which lobes scatter the path, and with which probabilities.
 FN void split_lobes(INOUT(Vertex) v) {
     v.frame = make_frame(v.surface.shading_normal);
-    v.wo = to_local(v.frame, -v.direction);
+    v.wo = to_local(v.frame, v.toward);
     v.followed = followed_paths ? followed_lobes(v.material, scene[0].follow_roughness) : 0u;
     v.estimated = bsdf_lobes(v.material) & ~v.followed;
     real followed_albedo =
@@ -195,9 +204,12 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     l.wi = vec3(real(0.0));
     l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                  surface.geometric_normal);
-    if (!light_sample(light, light_kinds, l.origin, vec2(u.y, u.z), l.s)) {
+    vec2 where = vec2(u.y, u.z);
+    real density = shines_by_texels(light) ? choose_texel(light, where) : real(1.0);
+    if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
     }
+    l.s.pdf *= density;
     l.wi = to_local(v.frame, l.s.wi);
     return dot(l.s.wi, surface.geometric_normal) > real(0.0);
 }
@@ -299,7 +311,7 @@ FN void leave_query(IN(Vertex) v) {
     }
     flags |= min(scatterings, most_scatterings_known) << query_scatterings_shift;
     flags |= v.estimated << query_lobes_shift;
-    uint direction = pack_unit(-v.direction);
+    uint direction = pack_unit(v.toward);
     uint shading_normal = pack_unit(v.surface.shading_normal);
     vec3 reflectance = vec3(INV_PI);
     if (lambertian) {
@@ -361,6 +373,11 @@ FN void continue_path(INOUT(Vertex) v) {
         return;
     }
     rays[v.slot] = make_ray(v.surface, wi, far_away);
+    if (mip_maps) {
+        rays[v.slot].pad = pack_cone(
+            cone_width(v.cone, v.distance),
+            scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
+    }
     path.throughput_r = throughput.x;
     path.throughput_g = throughput.y;
     path.throughput_b = throughput.z;
@@ -398,9 +415,13 @@ FN void main() {
         return;
     }
     v.triangle = hit.triangle;
+    v.distance = hit.t;
     v.surface = load_surface(hit, v.direction);
-    v.material = material_at(triangles[hit.triangle], hit);
-    add_surface_emission(v, hit.t);
+    v.cone = rays[v.slot].pad;
+    v.material = material_at(triangles[hit.triangle], hit, v.cone, v.direction);
+    turn_normal(v.material.textures, hit, v.direction, v.surface);
+    v.toward = toward_above(v.surface, -v.direction);
+    add_surface_emission(v, hit);
     if (seeks_emission(v.path) ||
         (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {
         return;

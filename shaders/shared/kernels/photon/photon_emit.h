@@ -1,5 +1,8 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/sky.h"
+#include "shared/kernels/texels.h"
+
+#include "shared/kernels/emission.h"
 
 // Warps the random numbers of a photon of this light by the light's tree.
 FN AimedNumbers aim(LightRecord light, vec4 u) {
@@ -13,6 +16,17 @@ FN AimedNumbers aim(LightRecord light, vec4 u) {
         index = node.child + (descend_aim(node, a) ? 1u : 0u);
     }
     return a;
+}
+
+// The cone of one of the pass's photons, as if all were of this light.
+FN uint emitted_cone(LightRecord light) {
+    real photons = real(1.0) / batch.inverse_total;
+    bool outside = ((1u << light.kind) & light_kinds_from_outside) != 0u;
+    real width = outside ? real(scene[0].radius) * sqrt(PI / photons) : real(0.0);
+    real spread = light.kind == light_directional
+                      ? real(0.0)
+                      : scattered_spread(real(0.0), photons, UNIFORM_SPHERE_PDF);
+    return pack_cone(width, spread);
 }
 
 FN void main() {
@@ -30,6 +44,13 @@ FN void main() {
     vec4 w = photon_random4(batch.seed, photon, dimension_of_choices, numbers);
     ChosenLight chosen = choose_light(vec2(v.w, w.x), true);
     LightRecord light = lights[chosen.index];
+    real density = real(1.0); // of photons that start here, over that of even ones
+    if (shines_by_texels(light)) {
+        vec2 where = vec2(u.z, u.w);
+        density = choose_texel(light, where);
+        u.z = where.x;
+        u.w = where.y;
+    }
     Sphere bounds;
     bounds.center = scene_center();
     bounds.radius = scene[0].radius;
@@ -63,12 +84,13 @@ FN void main() {
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_total;
-        differentials[slot] = differential_record(
-            light_differential(light, light_kinds, p, scene[0].radius, photons * chosen.probability,
-                               photons * chosen.emitter_probability));
+        differentials[slot] = differential_record(light_differential(
+            light, light_kinds, p, scene[0].radius, photons * chosen.probability * density,
+            photons * chosen.emitter_probability));
     }
-    rays[slot] = RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
-                           p.direction.x, p.direction.y, p.direction.z, 0u);
+    rays[slot] =
+        RayRecord(p.origin.x, p.origin.y, p.origin.z, emitted ? far_away : -real(1.0),
+                  p.direction.x, p.direction.y, p.direction.z, mip_maps ? emitted_cone(light) : 0u);
     uint state = photon_followed;
     if (emitted && ((1u << light.kind) & light_kinds_from_outside) == 0u) {
         state |= (aimed_by(p.for_targets) << photon_aimed_shift) |

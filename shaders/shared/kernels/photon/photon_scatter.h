@@ -1,6 +1,8 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/normals.h"
+
 // Whether any material of the scene has one of these lobes.
 FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
 
@@ -19,22 +21,28 @@ struct Arrival {
     Surface surface;
     Frame frame;    // about the shading normal
     vec3 direction; // in which it travels
+    vec3 wo;        // where it came from, in the frame
     vec3 flux;
     real shading; // cosine with the shading normal over that with the geometric one
     uint depth;   // number of scatterings so far
 };
 
-FN Arrival arrive(HitRecord hit, vec3 direction, PhotonPathRecord path) {
+FN Arrival arrive(HitRecord hit, vec3 direction, MaterialRecord m, PhotonPathRecord path) {
     Arrival a;
     a.hit = hit;
     a.surface = load_surface(hit, direction);
+    turn_normal(m.textures, hit, direction, a.surface);
     a.frame = make_frame(a.surface.shading_normal);
+    a.wo = to_local(a.frame, toward_above(a.surface, -direction));
     a.direction = direction;
     a.flux = vec3(path.flux_r, path.flux_g, path.flux_b);
     // Photons arrive in proportion to the cosine with the geometric normal, but the BSDF is
     // weighted by the cosine with the shading normal (Veach 1997, §5.3).
     real cosine = -dot(direction, a.surface.geometric_normal);
     a.shading = cosine > real(0.0) ? to_local(a.frame, -direction).z / cosine : real(1.0);
+    if (normal_maps && !a.surface.above_horizon && has_normal_texture(m.textures)) {
+        a.shading = real(0.0); // nothing but alpha scatters light from below the horizon
+    }
     a.depth = path.state & photon_depth_mask;
     return a;
 }
@@ -55,7 +63,7 @@ struct Departure {
 FN bool aim_at_view(Arrival a, MaterialRecord m, uint lobes, Cone view, vec2 u, real choice,
                     INOUT(Departure) d) {
     real share = real(scene[0].view_share);
-    vec3 wo = to_local(a.frame, -a.direction);
+    vec3 wo = a.wo;
     vec3 probabilities = lobe_probabilities(m, wo.z, lobes);
     bool aims = choice < share;
     if (aims) {
@@ -79,16 +87,34 @@ FN bool aim_at_view(Arrival a, MaterialRecord m, uint lobes, Cone view, vec2 u, 
 // are not aimed from here.
 FN Cone view_from(Arrival a) { return cone_of(vec4(scene[0].view), a.surface.position); }
 
+// Eyes below the horizon of a normal that a texture has turned see the surface as from the mirrored
+// direction (toward_above). So half of the photons that leave in a direction whose mirrored one is
+// above the surface go there, and all of these carry twice the flux. u: in [0,1). Returns by how
+// much to multiply the flux.
+FN real mirror_below(Arrival a, real u, INOUT(vec3) wi, INOUT(real) cosine) {
+    vec3 n = a.surface.shading_normal;
+    vec3 below = wi - n * (real(2.0) * dot3(n, wi));
+    real cosine_below = dot3(below, a.surface.geometric_normal);
+    if (!(cosine_below > real(0.0))) {
+        return real(1.0);
+    }
+    if (u < real(0.5)) {
+        wi = below;
+        cosine = cosine_below;
+    }
+    return real(2.0);
+}
+
 // Samples how the photon leaves the surface. followed, estimated: the lobes to sample from. u,
-// choice: in [0,1).
+// choice, mirrored: in [0,1).
 FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, Cone view, vec4 u,
-                    real choice) {
+                    real choice, real mirrored) {
     Departure d;
     uint lobes = followed | estimated;
     d.concentration = real(1.0);
     d.flux = vec3(real(0.0));
     d.direction = a.direction;
-    vec3 wo = to_local(a.frame, -a.direction);
+    vec3 wo = a.wo;
     bool scatters = bsdf_sample(m, wo, a.surface.front, lobes, u, d.sampled);
     if (aims_at_view && view.height > real(0.0) && (lobes & LOBE_GLOSSY & followed) == 0u &&
         (d.sampled.lobe & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
@@ -99,8 +125,12 @@ FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, 
     } else if (scatters) {
         vec3 wi = to_world(a.frame, d.sampled.wi);
         real cosine = dot(wi, a.surface.geometric_normal);
+        real factor = real(1.0);
+        if (has_normal_texture(m.textures) && d.sampled.wi.z > real(0.0) && cosine > real(0.0)) {
+            factor = mirror_below(a, mirrored, wi, cosine);
+        }
         if ((d.sampled.wi.z > real(0.0)) == (cosine > real(0.0)) && d.sampled.wi.z != real(0.0)) {
-            d.flux = a.flux * d.sampled.weight * (a.shading * cosine / d.sampled.wi.z);
+            d.flux = a.flux * d.sampled.weight * (factor * a.shading * cosine / d.sampled.wi.z);
             d.direction = wi;
         }
     }
@@ -181,11 +211,11 @@ FN vec4 scattering_random(uint slot, uint depth) {
 }
 
 // Writes the ray and the state with which a photon continues. flags: of the state.
-FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint flags) {
+FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint cone, uint flags) {
     vec3 origin = offset_ray_origin(a.surface.position, a.surface.error, a.surface.geometric_normal,
                                     direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
-                           direction.z, 0u);
+                           direction.z, cone);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, (a.depth + 1u) | flags);
 }
 
@@ -206,8 +236,9 @@ FN void main() {
         return;
     }
 
-    Arrival a = arrive(hit, direction, path);
-    MaterialRecord m = material_at(triangles[hit.triangle], hit);
+    uint cone = rays[slot].pad;
+    MaterialRecord m = material_at(triangles[hit.triangle], hit, cone, direction);
+    Arrival a = arrive(hit, direction, m, path);
     uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     uint estimated = bsdf_lobes(m) & ~followed;
     PhotonDifferential d;
@@ -239,7 +270,12 @@ FN void main() {
             photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).x;
     }
     bool is_elsewhere = view.height > real(0.0);
-    Departure out_of = depart(a, m, followed, estimated, view, u, choice);
+    real mirrored = real(0.0);
+    if (normal_maps) {
+        mirrored =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).y;
+    }
+    Departure out_of = depart(a, m, followed, estimated, view, u, choice, mirrored);
     bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
     uint for_view = (path.state >> photon_view_shift) & photon_view_mask;
     uint leaves =
@@ -258,7 +294,12 @@ FN void main() {
         differentials[slot] = differential_record(d);
     }
     uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
-    continue_path(slot, a, out_of.direction, flux,
+    if (mip_maps) {
+        cone = pack_cone(cone_width(cone, hit.t),
+                         scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
+                                          out_of.sampled.pdf));
+    }
+    continue_path(slot, a, out_of.direction, flux, cone,
                   stays_followed ? path.state & ~photon_depth_mask
                                  : next_for_view << photon_view_shift);
     alive[i] = 1u;

@@ -18,6 +18,9 @@ FN void main() {
         vec3 b = vec3(positions[t.y]);
         vec3 c = vec3(positions[t.z]);
         LightRecord light = emissive_light(shining[k], a, b, c, materials[t.w]);
+        if (by_texels) {
+            shine_by_texels(light, means[k]);
+        }
         lights[params.first_light + k] = light;
         vec3 p = light_power(light, 1u << light_triangle, real(0.0));
         add_without_loss(power.x, rest.x, p.x);

@@ -1,0 +1,47 @@
+// Normal textures. Include textures.h before.
+
+FN uint normal_texture_of(uint material_textures) {
+    return (material_textures & material_texture_mask) +
+           ((material_textures & material_base_color_texture) != 0u ? 1u : 0u) +
+           ((material_textures & material_metal_texture) != 0u ? 1u : 0u) +
+           ((material_textures & material_emissive_texture) != 0u ? 1u : 0u);
+}
+
+FN bool has_normal_texture(uint material_textures) {
+    return normal_maps && (material_textures & material_normal_texture) != 0u;
+}
+
+// Turns a surface's shading normal by the texel at its hit. Unlike an interpolated normal it may
+// face away from where the ray came from: what follows from that is the same for photons and eye
+// paths, see docs/materials.md.
+FN void turn_normal(uint material_textures, HitRecord hit, vec3 ray_direction, INOUT(Surface) s) {
+    if (!has_normal_texture(material_textures)) {
+        return;
+    }
+    uvec4 triangle = triangles[hit.triangle];
+    vec2 b = vec2(hit.u, hit.v);
+    vec3 front = s.front ? s.geometric_normal : -s.geometric_normal;
+    vec3 normal = front;
+    if (smooth_normals) {
+        vec3 n = vec3(normals[triangle.x]) * (real(1.0) - b.x - b.y) +
+                 vec3(normals[triangle.y]) * b.x + vec3(normals[triangle.z]) * b.y;
+        normal = normalize_or(n, front);
+        normal = dot3(normal, front) < real(0.0) ? -normal : normal;
+    }
+    uint index = normal_texture_of(material_textures);
+    uint at = scene[0].pad5 + 2u * hit.triangle; // behind the attributes of the vertices
+    uvec2 first = attributes[at];
+    uvec3 tangents = uvec3(first.x, first.y, attributes[at + 1u].x);
+    vec3 slope = slope_of_texel(sample_texture(index, triangle, b), real(textures[index].scale));
+    vec3 edge = vec3(positions[triangle.y]) - vec3(positions[triangle.x]);
+    normal = normal_above(turned_normal(normal, edge, tangents, b, slope), front);
+    s.shading_normal = s.front ? normal : -normal;
+    s.above_horizon = dot3(s.shading_normal, ray_direction) < real(0.0);
+}
+
+// Where a texture has turned the normal away from an eye or a photon, they see the surface as from
+// the mirrored direction, above the horizon. toward: where the ray came from.
+FN vec3 toward_above(IN(Surface) s, vec3 toward) {
+    real below = normal_maps ? min(dot3(s.shading_normal, toward), real(0.0)) : real(0.0);
+    return toward - s.shading_normal * (real(2.0) * below);
+}
