@@ -2,6 +2,8 @@
 
 #include "base/read_file.hpp"
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_compression.hpp"
+#include "scene/gltf_numbers.hpp"
 #include "scene/gltf_uri.hpp"
 #include <cstring>
 #include <deque>
@@ -204,9 +206,15 @@ std::string without_false_ones(const std::string& complaints) {
 
 void parse(const std::filesystem::path& path, GltfSource& source, std::vector<std::string>& notes) {
     const Bytes bytes = read_file(path);
-    const Container container = open_container(bytes);
+    Container container = open_container(bytes);
     source.root = parse_gltf_json(container.json);
     check_gltf_version(source.root);
+    const bool rewritten = rewrite_integers(source.root);
+    std::string text; // what tinygltf reads, if it does not understand what the file says
+    if (fill_fallback_buffers(source.root) || rewritten) {
+        text = source.root.dump();
+        container.json = text;
+    }
     check_gltf_json(source.root);
 
     ExternalFiles files = list_external_files(source.root, path, container.is_glb);
@@ -255,9 +263,11 @@ GltfSource read_gltf_file(const std::filesystem::path& path, std::vector<std::st
     source.directory = path.parent_path();
     try {
         parse(path, source, notes);
+        decompress(source);
     } catch (const Error& problem) {
         const std::string message = problem.what();
-        if (message.starts_with("cannot read '" + source.file)) {
+        if (message.starts_with("cannot read '" + source.file) ||
+            message.starts_with("cannot load '" + source.file)) {
             throw; // already a complete message
         }
         source.fail("{}", message);

@@ -59,7 +59,8 @@ Bounds bounds_to_frame(const Scene& scene) {
 
 } // namespace
 
-Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds) {
+Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds,
+                const std::string& choice) {
     Scene scene;
     const GltfSource source = read_gltf_file(path, scene.notes);
     scene.name = one_line(path.filename().string());
@@ -69,7 +70,7 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     if (seconds && scene.animations.empty()) {
         add_note(scene, "there is no animation: the scene is the same at any time");
     }
-    const std::vector<GltfNode> nodes = read_nodes(source, std::move(keys.nodes), scene);
+    const std::vector<GltfNode> nodes = read_nodes(source, choice, std::move(keys.nodes), scene);
     add_materials(source, std::move(keys.materials), scene);
     add_lights(source, nodes, std::move(keys.lights), scene);
     add_cameras(source, nodes, std::move(keys.cameras), scene);

@@ -87,7 +87,7 @@ std::string plan_text(const nlohmann::ordered_json& plan) {
 }
 
 void inspect(const InspectOptions& options) {
-    const Scene scene = load_gltf(options.scene, options.seconds);
+    const Scene scene = load_gltf(options.scene, options.seconds, options.choice);
     nlohmann::ordered_json summary = summary_json(scene);
     const nlohmann::ordered_json plan = plan_json(scene, options.methods);
     const std::string kept = kept_text(scene.motion);

@@ -12,6 +12,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "animations run at once; each stands still before its first key and after its "
                     "last one")
         ->check(number_between(-1e9, 1e9));
+    command.add_option("--scene", options.choice,
+                       "Name or index of the scene, where the file has several (default: the one "
+                       "that the file names, else the first)");
 }
 
 } // namespace argand

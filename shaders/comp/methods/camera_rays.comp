@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "shared/camera.h"
 #include "shared/geometry_records.h"
 #include "shared/path_records.h"
+#include "shared/pixel_filter.h"
 #include "shared/sampling.h"
 
 layout(set = 0, binding = 0) readonly buffer Cameras { CameraRecord camera[]; };
@@ -15,5 +16,9 @@ layout(push_constant) uniform Push { EyeBatch batch; };
 
 // Whether numbers are points of a lattice.
 layout(constant_id = 0) const bool lattice = false;
+// Whether the film is a part of the image.
+layout(constant_id = 1) const bool cropped = true;
+// Whether samples are placed by a filter, instead of evenly in their pixel.
+layout(constant_id = 2) const bool filtered = true;
 
 #include "shared/kernels/methods/camera_rays.h"
