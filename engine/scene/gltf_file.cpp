@@ -210,8 +210,9 @@ void parse(const std::filesystem::path& path, GltfSource& source, std::vector<st
     source.root = parse_gltf_json(container.json);
     check_gltf_version(source.root);
     const bool rewritten = rewrite_integers(source.root);
+    const bool filled = fill_fallback_buffers(source.root);
     std::string text; // what tinygltf reads, if it does not understand what the file says
-    if (fill_fallback_buffers(source.root) || rewritten) {
+    if (give_indices_views(source.root) || filled || rewritten) {
         text = source.root.dump();
         container.json = text;
     }

@@ -45,7 +45,44 @@ bool rewrite_in(json& value, const std::string& key, bool all) {
     return any;
 }
 
+/// Gives the indices of a compressed primitive the buffer view of their compressed data. Returns
+/// whether they had none.
+bool give_view(json& root, const json& primitive) {
+    const json* extension = find_extension(&primitive, draco_extension);
+    const json* view = find_member(extension, "bufferView");
+    const json* indices = find_member(&primitive, "indices");
+    if (!view || !view->is_number_unsigned() || !indices || !indices->is_number_unsigned() ||
+        !root.contains("accessors") || !root["accessors"].is_array()) {
+        return false;
+    }
+    json& accessors = root["accessors"];
+    const auto index = indices->get<std::size_t>();
+    if (index >= accessors.size() || !accessors[index].is_object() ||
+        accessors[index].contains("bufferView")) {
+        return false;
+    }
+    accessors[index]["bufferView"] = *view;
+    return true;
+}
+
 } // namespace
+
+bool give_indices_views(json& root) {
+    const auto meshes = root.find("meshes");
+    bool any = false;
+    if (meshes == root.end() || !meshes->is_array()) {
+        return any;
+    }
+    for (const json& mesh : *meshes) {
+        const json* primitives = find_member(&mesh, "primitives");
+        if (primitives && primitives->is_array()) {
+            for (const json& primitive : *primitives) {
+                any = give_view(root, primitive) || any;
+            }
+        }
+    }
+    return any;
+}
 
 bool rewrite_integers(json& root) { return rewrite_in(root, "", false); }
 
@@ -61,7 +98,7 @@ bool fill_fallback_buffers(json& root) {
         if (fallback && fallback->is_boolean() && fallback->get<bool>() &&
             !buffer.contains("uri")) {
             buffer["uri"] = "data:application/octet-stream;base64,AA==";
-            buffer["byteLength"] = 1;
+            buffer["byteLength"] = 1u;
             any = true;
         }
     }
