@@ -43,8 +43,8 @@ TEST(PixelFilter, OffsetsFollowTheWindow) {
 
 TEST(PixelFilter, OffsetsStayWithinTheirReachAndAreSymmetric) {
     float last = -2;
-    for (const float u : {0.0f, 0x1p-24f, 0x1p-20f, 1e-3f, 0.25f, 0.5f - 0x1p-24f, 0.5f,
-                          0.5f + 0x1p-23f, 0.75f, 1 - 1e-3f, 1 - 0x1p-20f, 1 - 0x1p-24f}) {
+    for (const float u : {0.0f, 0x1p-24f, 0x1p-20f, 0x1p-10f, 0.25f, 0.5f - 0x1p-24f, 0.5f,
+                          0.5f + 0x1p-23f, 0.75f, 1 - 0x1p-10f, 1 - 0x1p-20f, 1 - 0x1p-24f}) {
         const float offset = blackman_harris_offset(u);
         EXPECT_LE(std::abs(offset), 1.5f) << u;
         EXPECT_GE(offset, last) << u;

@@ -27,6 +27,20 @@ std::string quoted(std::string_view argument) {
     return text + "'";
 }
 
+/// Switches on the layers of these names. Returns what is wrong, or nothing.
+std::string read_layers(const std::string& names, FeatureLayers& layers) {
+    for (std::size_t at = 0; at <= names.size();) {
+        const std::size_t end = std::min(names.find(',', at), names.size());
+        const std::string name = names.substr(at, end - at);
+        if (!add_feature(name, layers)) {
+            return fmt::format("'{}' is no layer; there are albedo, normal, depth, id and variance",
+                               one_line(name, 40));
+        }
+        at = end + 1;
+    }
+    return "";
+}
+
 } // namespace
 
 void add_picture_options(CLI::App& command, PictureOptions& options) {
@@ -55,21 +69,19 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->default_str("linear")
         ->check(CLI::IsMember({"linear", "neutral", "filmic"}));
     command
-        .add_option_function<std::vector<std::string>>(
-            "--aovs",
-            [&options](const std::vector<std::string>& names) {
-                for (const std::string& name : names) {
-                    add_feature(name, options.layers);
-                }
-            },
+        .add_option_function<std::string>(
+            "--aovs", [&options](const std::string& names) { read_layers(names, options.layers); },
             "Further layers of the .exr, separated by commas: albedo (base colour), normal (X, Y, "
             "Z "
             "in world space), depth (Z, along the camera's axis), id (of the object: 1 + the index "
             "of its node in the file), variance (of the pixel's mean, from up to 64 passes)")
-        ->delimiter(',')
-        ->expected(1)
         ->type_name("TEXT")
-        ->check(CLI::IsMember({"albedo", "normal", "depth", "id", "variance"}));
+        ->check(CLI::Validator(
+            [](const std::string& names) {
+                FeatureLayers layers;
+                return read_layers(names, layers);
+            },
+            "albedo,normal,depth,id,variance"));
     command.add_option("--crop", options.crop,
                        "Render only the pixels from X0 to X1 - 1 and from Y0 to Y1 - 1 of the "
                        "picture, counted from its top left corner, written X0,Y0,X1,Y1. With path "
