@@ -44,6 +44,8 @@ PAGES = [
     ("Scenes unlike a box of two metres", "hard_scenes.md", "tools/results_hard_scenes"),
     ("Films: time and error by frame", "dynamic.md", "tools/results_dynamic"),
     ("Frames of films", "frames.md", "argand render --frames, argand bench rays, tools/results_frames"),
+    ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
+    ("Loading a large textured scene", "loading.md", "tools/results_loading"),
     ("What was wrong outside the Cornell box", "rooms.md", "argand render, argand compare, test_methods"),
     ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
 ]

@@ -134,18 +134,23 @@ Decoded layers_of(const ExrContext& context, const Layout& layout) {
     Decoded decoded;
     decoded.destinations.resize(count);
     for (const auto& [name, members] : channels) {
-        const bool color = members.contains("R") || members.contains("G") || members.contains("B");
-        if (!color && !members.contains("Y")) {
+        const auto has = [&members = members](const char* channel) {
+            return members.contains(channel);
+        };
+        const bool vector = !name.empty() && (has("X") || has("Z"));
+        const std::string letters = has("R") || has("G") || has("B") ? "RGB" : vector ? "XYZ" : "Y";
+        const bool grey = letters == "Y";
+        if (grey && !has("Y")) {
             continue;
         }
-        for (int c = 0; c < (color ? 3 : 1); ++c) {
-            if (const auto member = members.find(std::string(1, (color ? "RGB" : "Y")[c]));
-                member != members.end()) {
-                decoded.destinations[member->second] = {decoded.layers.size(), c};
+        for (std::size_t c = 0; c < letters.size(); ++c) {
+            if (const auto member = members.find(letters.substr(c, 1)); member != members.end()) {
+                decoded.destinations[member->second] = {decoded.layers.size(), static_cast<int>(c)};
             }
         }
         decoded.layers.push_back({name, Image{layout.width, layout.height, {}}});
-        decoded.grey.push_back(!color);
+        decoded.layers.back().channels = grey ? "RGB" : letters;
+        decoded.grey.push_back(grey);
     }
     if (decoded.layers.empty()) {
         fail("{}: none of its channels is R, G, B or Y; it has {}", context.task(), one_line(all));

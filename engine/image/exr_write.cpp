@@ -49,17 +49,38 @@ void check_layers(const std::filesystem::path& path, std::span<const Layer> laye
 std::map<std::string, const float*> channels_of(std::span<const Layer> layers) {
     std::map<std::string, const float*> channels;
     for (const Layer& layer : layers) {
-        for (int c = 0; c < 3; ++c) {
-            channels.emplace((layer.name.empty() ? "" : layer.name + ".") + "RGB"[c],
-                             &layer.image.pixels[0][c]);
+        for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+            channels.emplace((layer.name.empty() ? "" : layer.name + ".") + layer.channels[c],
+                             &layer.image.pixels[0][static_cast<int>(c)]);
         }
     }
     return channels;
 }
 
+exr_attr_box2i_t data_window(const CropWindow& window, int width, int height) {
+    return {{window.x, window.y}, {window.x + width - 1, window.y + height - 1}};
+}
+
+/// Writes the attributes that every file has, and the command.
+void set_attributes(const ExrContext& context, int part, const PictureSettings& settings,
+                    const exr_attr_box2i_t& window) {
+    exr_attr_box2i_t display = window;
+    if (settings.window.full_width > 0) {
+        display = {{0, 0}, {settings.window.full_width - 1, settings.window.full_height - 1}};
+    }
+    const exr_attr_v2f_t center{0, 0};
+    context.check(exr_initialize_required_attr(context, part, &display, &window, 1, &center, 1,
+                                               EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
+    if (!settings.command.empty()) {
+        context.check(exr_attr_set_string(context, part, "comments", settings.command.c_str()));
+    }
+}
+
 /// Compresses and writes all chunks of part 0, a whole number of rows each.
 void encode_rows(const ExrContext& context, const std::map<std::string, const float*>& channels,
-                 int width, int height) {
+                 const exr_attr_box2i_t& window) {
+    const std::int32_t width = window.max.x - window.min.x + 1;
+    const std::int32_t height = window.max.y - window.min.y + 1;
     struct Pipeline : exr_encode_pipeline_t {
         explicit Pipeline(exr_context_t of)
             : exr_encode_pipeline_t EXR_ENCODE_PIPELINE_INITIALIZER, owner(of) {}
@@ -73,7 +94,7 @@ void encode_rows(const ExrContext& context, const std::map<std::string, const fl
     context.check(exr_get_scanlines_per_chunk(context, 0, &rows_in_chunk));
     for (std::int32_t row = 0; row < height; row += rows_in_chunk) {
         exr_chunk_info_t chunk;
-        context.check(exr_write_scanline_chunk_info(context, 0, row, &chunk));
+        context.check(exr_write_scanline_chunk_info(context, 0, window.min.y + row, &chunk));
         context.check(row == 0 ? exr_encoding_initialize(context, 0, &chunk, &pipeline)
                                : exr_encoding_update(context, 0, &chunk, &pipeline));
         for (int c = 0; c < pipeline.channel_count; ++c) {
@@ -95,7 +116,8 @@ void encode_rows(const ExrContext& context, const std::map<std::string, const fl
 
 } // namespace
 
-void write_exr(const std::filesystem::path& path, std::span<const Layer> layers) {
+void write_exr(const std::filesystem::path& path, std::span<const Layer> layers,
+               const PictureSettings& settings) {
     check_layers(path, layers);
     const std::map<std::string, const float*> channels = channels_of(layers);
     const int width = layers[0].image.width, height = layers[0].image.height;
@@ -104,8 +126,8 @@ void write_exr(const std::filesystem::path& path, std::span<const Layer> layers)
     context.start_writing();
     int part = 0;
     context.check(exr_add_part(context, nullptr, EXR_STORAGE_SCANLINE, &part));
-    context.check(
-        exr_initialize_required_attr_simple(context, part, width, height, EXR_COMPRESSION_ZIP));
+    const exr_attr_box2i_t window = data_window(settings.window, width, height);
+    set_attributes(context, part, settings, window);
     if (std::any_of(channels.begin(), channels.end(), [](const auto& channel) {
             return channel.first.size() > longest_short_name;
         })) {
@@ -116,7 +138,7 @@ void write_exr(const std::filesystem::path& path, std::span<const Layer> layers)
                                       EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
     }
     context.check(exr_write_header(context));
-    encode_rows(context, channels, width, height);
+    encode_rows(context, channels, window);
     write_atomically(path, context.finish_writing());
 }
 

@@ -49,15 +49,15 @@ std::vector<Layer> read_image(const std::filesystem::path& path) {
 }
 
 void write_image(const std::filesystem::path& path, std::span<const Layer> layers,
-                 float exposure_ev) {
+                 const PictureSettings& settings) {
     const std::string extension = lower_extension(path);
     if (extension == ".exr") {
-        write_exr(path, layers);
+        write_exr(path, layers, settings);
     } else if (extension == ".png") {
         if (layers.empty()) {
             fail("cannot write '{}': there is no picture to write", path.string());
         }
-        write_png(path, whole_picture(layers), exposure_ev);
+        write_png(path, whole_picture(layers), settings);
     } else {
         fail_unknown("write", path, writable);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/image.hpp"
+#include "image/picture_settings.hpp"
 #include <filesystem>
 #include <span>
 #include <string>
@@ -18,10 +18,10 @@ std::string lower_extension(const std::filesystem::path& path);
 std::vector<Layer> read_image(const std::filesystem::path& path);
 
 /// Writes a file in the format that its extension names: .exr (all layers, linear) or .png (the
-/// layer "", else the first one, multiplied by 2^exposure_ev). Throws UsageError for another
-/// extension, Error if the file cannot be written.
+/// layer "", else the first one, as `display` says). Throws UsageError for another extension, Error
+/// if the file cannot be written.
 void write_image(const std::filesystem::path& path, std::span<const Layer> layers,
-                 float exposure_ev = 0);
+                 const PictureSettings& settings = {});
 
 /// Throws now what `write_image` would throw after hours of rendering: the extension is unknown, or
 /// the directory is missing or not writable.

@@ -18,6 +18,7 @@ struct Image {
 struct Layer {
     std::string name;
     Image image;
+    std::string channels = "RGB"; ///< a letter for each component that the layer has
 };
 
 } // namespace argand

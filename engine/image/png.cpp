@@ -14,6 +14,7 @@
 #include <span>
 #include <string_view>
 #include <vector>
+#include <zlib.h>
 
 // Static, so that this copy of stb does not clash with another one in the program. Only these two
 // decoders are compiled, so that a file that pretends to be a PNG reaches no other one.
@@ -68,6 +69,26 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const ch
 int is_png(const stbi_uc* bytes, int size) {
     constexpr std::uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     return size >= 8 && std::equal(std::begin(signature), std::end(signature), bytes) ? 1 : 0;
+}
+
+void append_big_endian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) {
+        bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+    }
+}
+
+/// Adds the text "Comment" behind the header of a PNG: a chunk iTXt, not compressed, in UTF-8 (PNG
+/// specification, section 11.3.3.4).
+void add_comment(std::vector<std::uint8_t>& png, const std::string& comment) {
+    using namespace std::string_literals;
+    constexpr std::ptrdiff_t behind_header = 8 + 4 + 4 + 13 + 4; // signature and chunk IHDR
+    const std::string body = "iTXtComment\0\0\0\0\0"s + comment;
+    std::vector<std::uint8_t> chunk;
+    append_big_endian(chunk, static_cast<std::uint32_t>(body.size() - 4));
+    chunk.insert(chunk.end(), body.begin(), body.end());
+    append_big_endian(chunk, static_cast<std::uint32_t>(
+                                 crc32(0, chunk.data() + 4, static_cast<uInt>(body.size()))));
+    png.insert(png.begin() + behind_header, chunk.begin(), chunk.end());
 }
 
 template <class T, class Convert>
@@ -135,22 +156,26 @@ void check_hdr(const std::filesystem::path& path, std::span<const std::uint8_t> 
 
 } // namespace
 
-std::vector<std::uint8_t> srgb_bytes(const Image& image, float exposure_ev) {
-    const double scale = std::exp2(static_cast<double>(exposure_ev));
+std::vector<std::uint8_t> srgb_bytes(const Image& image, const Display& display) {
+    const double scale = std::exp2(static_cast<double>(display.exposure_ev));
     std::vector<std::uint8_t> samples;
     samples.reserve(image.pixels.size() * rgb);
     for (const glm::vec3& pixel : image.pixels) {
+        glm::dvec3 color = glm::dvec3(pixel) * scale;
+        if (display.tone != Tone::linear) {
+            color = apply_tone(display.tone, color);
+        }
         for (int c = 0; c < rgb; ++c) {
-            samples.push_back(static_cast<std::uint8_t>(255 * srgb_encode(pixel[c] * scale) + 0.5));
+            samples.push_back(static_cast<std::uint8_t>(255 * srgb_encode(color[c]) + 0.5));
         }
     }
     return samples;
 }
 
-std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev,
+std::vector<std::uint8_t> png_bytes(const Image& image, const PictureSettings& settings,
                                     const std::filesystem::path& name) {
     check_size_to_write(name, image);
-    const std::vector<std::uint8_t> samples = srgb_bytes(image, exposure_ev);
+    const std::vector<std::uint8_t> samples = srgb_bytes(image, settings.display);
     std::vector<std::uint8_t> bytes;
     if (samples.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
         stbi_write_png_to_func(&append, &bytes, image.width, image.height, rgb, samples.data(),
@@ -158,11 +183,15 @@ std::vector<std::uint8_t> png_bytes(const Image& image, float exposure_ev,
         fail("cannot write '{}': a PNG of {} × {} pixels is too large; write an .exr",
              name.string(), image.width, image.height);
     }
+    if (!settings.command.empty()) {
+        add_comment(bytes, settings.command);
+    }
     return bytes;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image, float exposure_ev) {
-    write_atomically(path, png_bytes(image, exposure_ev, path));
+void write_png(const std::filesystem::path& path, const Image& image,
+               const PictureSettings& settings) {
+    write_atomically(path, png_bytes(image, settings, path));
 }
 
 Image read_png(const std::filesystem::path& path) try {

@@ -31,6 +31,10 @@ constexpr std::uint64_t most_samples_at_once = 1u << 14;
 // Vertices recorded before the host looks whether any path is left.
 constexpr int vertices_between_checks = 4;
 
+std::uint64_t pixels_of_image(const RenderSettings& settings) {
+    return static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+}
+
 void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const EyeBatch& batch) {
     const StageScope stage(device, "camera rays");
     const std::uint32_t slots = batch.pixels * batch.samples;
@@ -41,7 +45,10 @@ void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const Ey
                                   .layers = w.layers,
                                   .active_slots = w.active,
                                   .batch = batch,
-                                  .constants = {.lattice = w.lattice, .cones = w.cones}},
+                                  .constants = {.lattice = w.lattice,
+                                                .cones = w.cones,
+                                                .cropped = w.cropped,
+                                                .filtered = w.filtered}},
              slots);
     upload_word(device, w.counts, 0, slots);
 }
@@ -212,8 +219,11 @@ EyeBatch make_batch(const EyeWorkspace& w, const EyePass& pass, const Batching& 
     batch.first_sample = pass.first_sample + static_cast<std::uint32_t>(sample);
     batch.samples =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(most.samples, pass.samples - sample));
-    batch.width = static_cast<std::uint32_t>(w.film.width);
-    batch.height = static_cast<std::uint32_t>(w.film.height);
+    batch.width = w.image_width;
+    batch.height = w.image_height;
+    batch.crop_x = static_cast<std::uint32_t>(w.crop.x0);
+    batch.crop_y = static_cast<std::uint32_t>(w.crop.y0);
+    batch.crop_width = static_cast<std::uint32_t>(w.crop.width());
     batch.bounces = pass.bounces;
     batch.shares_queries = w.queries.sharing.cell > 0 ? 1 : 0;
     // A final gather's noise is that of the scattered directions, so all samples have queries.
@@ -263,6 +273,7 @@ EyeBatch batch_of_small_image(const EyeWorkspace& w, const RenderSettings& setti
         batch.height = pixels_along(settings.height);
         batch.pixels = batch.width * batch.height;
     } while (batch.pixels > w.slots && --longer_side > 0);
+    batch.crop_width = batch.width; // all of it
     batch.samples = 1;
     batch.bounces = settings.bounces;
     batch.query_step = 1;
@@ -286,9 +297,15 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     EyeWorkspace w;
     w.lattice = settings.deterministic;
     w.cones = plan.needs(Feature::mip_maps);
-    w.film = make_film(device, settings.width, settings.height);
+    w.image_width = static_cast<std::uint32_t>(settings.width);
+    w.image_height = static_cast<std::uint32_t>(settings.height);
+    w.crop = settings.crop.value_or(CropRectangle{0, 0, settings.width, settings.height});
+    w.cropped = settings.crop.has_value() || settings.everything;
+    w.filtered = settings.filter != PixelFilter::box;
+    w.film = make_film(device, w.crop.width(), w.crop.height());
+    // As many as the whole image has: what is learnt from the slots does not depend on the crop.
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
-                       w.film.pixels() * settings.samples);
+                       pixels_of_image(settings) * settings.samples);
     w.slots = std::min(w.slots, device.info().limits.storage_range /
                                     sizeof(GatherRecord)); // the largest per slot
     const auto per_slot = [&](const char* name, std::uint64_t bytes) {
@@ -377,8 +394,8 @@ FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace
     EyeBatch batch = batch_of_small_image(w, settings, 32);
     // These paths must not be the image's own: a choice that depends on them would bias it.
     batch.seed = pcg4d({settings.seed, 0x11947u, 0, 0}).x;
-    const std::uint64_t paths =
-        std::clamp(w.film.pixels() * settings.samples / share_of_image, least_paths, most_paths);
+    const std::uint64_t paths = std::clamp(
+        pixels_of_image(settings) * settings.samples / share_of_image, least_paths, most_paths);
     batch.samples = static_cast<std::uint32_t>(
         std::max<std::uint64_t>(std::min(paths, w.slots) / batch.pixels, 1));
     const Buffer small_image = camera_of(device, batch, camera, w.queries.view);

@@ -14,6 +14,10 @@ struct EyeWorkspace {
     std::uint64_t slots = 0;
     bool lattice = false; ///< the numbers of paths are points of a lattice
     bool cones = false;   ///< rays have cones, which choose mip levels
+    CropRectangle crop;   ///< the part of the image that the film has
+    std::uint32_t image_width = 0, image_height = 0;
+    bool cropped = false;  ///< it is not the whole image
+    bool filtered = false; ///< samples are placed by a filter
     Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows,
         occluded;
     Buffer counts;

@@ -1,7 +1,6 @@
 #include "methods/film.hpp"
 
 #include "methods/persist_buffer.hpp"
-#include "shared/path_records.h"
 
 #include <algorithm>
 
@@ -33,7 +32,7 @@ void persist_film(Archive& archive, Device& device, const Film& film) {
     }
 }
 
-std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatistics& statistics) {
+std::vector<FilmRecord> download_film(Device& device, const Film& film) {
     const auto pixels = static_cast<std::size_t>(film.pixels());
     std::vector<FilmRecord> records;
     records.reserve(pixels);
@@ -43,6 +42,17 @@ std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatisti
         const std::vector<FilmRecord> of_part = download<FilmRecord>(device, part, count);
         records.insert(records.end(), of_part.begin(), of_part.end());
     }
+    return records;
+}
+
+std::uint64_t finite_samples(const FilmRecord& record) {
+    return joined(record.samples, record.samples_high) -
+           joined(record.non_finite, record.non_finite_high);
+}
+
+std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatistics& statistics) {
+    const auto pixels = static_cast<std::size_t>(film.pixels());
+    const std::vector<FilmRecord> records = download_film(device, film);
     std::vector<Layer> layers{{"", {}}, {"direct", {}}, {"indirect", {}}, {"caustic", {}}};
     for (Layer& layer : layers) {
         layer.image.width = film.width;
@@ -53,8 +63,7 @@ std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatisti
     statistics.non_finite = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const FilmRecord& r = records[i];
-        const std::uint64_t non_finite = joined(r.non_finite, r.non_finite_high);
-        const std::uint64_t finite = joined(r.samples, r.samples_high) - non_finite;
+        const std::uint64_t finite = finite_samples(r);
         const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
         const glm::vec3 direct = glm::vec3(r.direct_r, r.direct_g, r.direct_b) * scale;
         const glm::vec3 indirect = glm::vec3(r.indirect_r, r.indirect_g, r.indirect_b) * scale;
@@ -63,7 +72,7 @@ std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatisti
         layers[1].image.pixels[i] = direct;
         layers[2].image.pixels[i] = indirect;
         layers[3].image.pixels[i] = caustic;
-        statistics.non_finite += non_finite;
+        statistics.non_finite += joined(r.non_finite, r.non_finite_high);
     }
     return layers;
 }

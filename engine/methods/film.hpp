@@ -3,6 +3,7 @@
 #include "base/archive.hpp"
 #include "device/device.hpp"
 #include "methods/render_result.hpp"
+#include "shared/path_records.h"
 
 #include <cstdint>
 #include <vector>
@@ -25,6 +26,12 @@ Film make_film(Device& device, int width, int height);
 
 /// Saves or loads the film's sums. Waits for the device.
 void persist_film(Archive& archive, Device& device, const Film& film);
+
+/// The sums of all pixels. Waits for the device.
+std::vector<FilmRecord> download_film(Device& device, const Film& film);
+
+/// Samples of a pixel that its sums hold.
+std::uint64_t finite_samples(const FilmRecord& record);
 
 /// The means over each pixel's samples, as in RenderResult::layers. Sets the statistics' numbers of
 /// samples. Waits for the device.

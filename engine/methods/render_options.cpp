@@ -185,6 +185,27 @@ Option focus_option() {
         [](RenderSettings & s) -> auto& { return s.focus; }, 1e-9, 1e9);
 }
 
+Option filter_option() {
+    constexpr const char* names[] = {"box", "blackman-harris"};
+    return {.name = "filter",
+            .help =
+                "How the samples of a pixel are placed: evenly in it (box), or by a window that "
+                "reaches 1.5 pixels from its middle, which shows edges without steps "
+                "(blackman-harris)",
+            .kind = OptionKind::choice,
+            .choices = {names[0], names[1]},
+            .report_key = "filter",
+            .get = [names](const RenderSettings& settings) -> std::string {
+                return names[static_cast<int>(settings.filter)];
+            },
+            .set =
+                [names](RenderSettings& settings, const std::string& text) {
+                    settings.filter =
+                        text == names[1] ? PixelFilter::blackman_harris : PixelFilter::box;
+                },
+            .sweep = {}};
+}
+
 std::vector<Option> photon_map_options() {
     return {photons_option(),    radius_option(),          query_cell_option(),  leaf_size_option(),
             wide_codes_option(), photon_sampling_option(), final_gather_option()};
@@ -214,8 +235,9 @@ std::vector<Option> progressive_options() {
 }
 
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {
-    std::vector<Option> options{samples_option(),  bounces_option(), follow_roughness_option(),
-                                aperture_option(), focus_option(),   deterministic_option()};
+    std::vector<Option> options{samples_option(),      bounces_option(), follow_roughness_option(),
+                                aperture_option(),     focus_option(),   filter_option(),
+                                deterministic_option()};
     for (const std::vector<Option>& more : {photon_map_options(), progressive_options(), own}) {
         options.insert(options.end(), more.begin(), more.end());
     }

@@ -12,6 +12,7 @@ Option bounces_option();
 Option follow_roughness_option();
 Option aperture_option();
 Option focus_option();
+Option filter_option();
 Option deterministic_option();
 
 /// Of methods with a photon map, in this order: photons, radius, query-cell, leaf-size, wide-codes,

@@ -46,11 +46,24 @@ enum class Sampling { sobol, random };
 /// together without one (Keller et al. 2010).
 enum class QuerySearch : std::uint8_t { automatic, tree, simultaneous };
 
+/// How the samples of a pixel are placed: evenly in it, or by a wider filter around its middle
+/// (shared/pixel_filter.h).
+enum class PixelFilter : std::uint8_t { box, blackman_harris };
+
+/// Pixels x0 <= x < x1, y0 <= y < y1 of an image, from its top left corner.
+struct CropRectangle {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+};
+
 /// A request for an image.
 struct RenderSettings {
     std::string method = default_method(); ///< a name in the method table
     int width = 512;
     int height = 512;
+    std::optional<CropRectangle> crop; ///< renders only these pixels of it; not empty
+    PixelFilter filter = PixelFilter::box;
     /// Eye paths per pixel. A photon map whose photons are spread over several passes uses at least
     /// one for each pass; RenderStatistics tells how many.
     std::uint32_t samples = 8;
@@ -87,6 +100,8 @@ struct RenderSettings {
     Sampling photon_sampling = Sampling::sobol;
     /// All paths take the points of a lattice instead, which no seed decides.
     bool deterministic = false;
+    /// Results have a layer "variance" (methods/film_variance.hpp). It needs two passes at least.
+    bool variance = false;
     bool final_gather = false; ///< the photon map is queried one bounce later, except for caustics
     bool everything = false;   ///< also code, buffers and passes that the scene does not require
     FootprintSettings footprints;

@@ -43,8 +43,9 @@ float exposure_of(const Image& image) {
 }
 
 std::string embedded(const Image& image, float exposure, const char* alt) {
-    return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", alt,
-                       base64(png_bytes(image, exposure, "tradeoff.html")));
+    return fmt::format(
+        "<img alt=\"{}\" src=\"data:image/png;base64,{}\">", alt,
+        base64(png_bytes(image, {.display = {.exposure_ev = exposure}}, "tradeoff.html")));
 }
 
 std::string figure(const std::string& pictures, const std::string& caption) {

@@ -47,7 +47,7 @@ void add_cameras(const GltfSource& source, const std::vector<GltfNode>& nodes,
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const GltfNode& node = nodes[i];
         const tinygltf::Node& carrier = source.model.nodes[std::size_t(node.index)];
-        if (carrier.camera < 0) {
+        if (carrier.camera < 0 || node.is_instance) {
             continue;
         }
         if (std::size_t(carrier.camera) >= source.model.cameras.size()) {

@@ -143,6 +143,10 @@ json parse_gltf_json(std::string_view text) {
     return root;
 }
 
+bool holds_integers(const std::string& key) {
+    return is_one_of(key, index_keys) || is_one_of(key, size_keys);
+}
+
 void check_gltf_version(const json& root) {
     const auto asset = root.find("asset");
     if (asset == root.end() || !asset->is_object() || !asset->contains("version")) {

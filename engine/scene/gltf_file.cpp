@@ -2,6 +2,8 @@
 
 #include "base/read_file.hpp"
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_compression.hpp"
+#include "scene/gltf_numbers.hpp"
 #include "scene/gltf_uri.hpp"
 #include <cstring>
 #include <deque>
@@ -205,9 +207,16 @@ std::string without_false_ones(const std::string& complaints) {
 
 void parse(const std::filesystem::path& path, GltfSource& source, std::vector<std::string>& notes) {
     const Bytes bytes = read_file(path);
-    const Container container = open_container(bytes);
+    Container container = open_container(bytes);
     source.root = parse_gltf_json(container.json);
     check_gltf_version(source.root);
+    const bool rewritten = rewrite_integers(source.root);
+    const bool filled = fill_fallback_buffers(source.root);
+    std::string text; // what tinygltf reads, if it does not understand what the file says
+    if (give_indices_views(source.root) || filled || rewritten) {
+        text = source.root.dump();
+        container.json = text;
+    }
     check_gltf_json(source.root);
 
     ExternalFiles files =
@@ -259,9 +268,11 @@ GltfSource read_gltf_file(const std::filesystem::path& path, const LoadOptions& 
     source.directory = path.parent_path();
     try {
         parse(path, source, notes);
+        decompress(source);
     } catch (const Error& problem) {
         const std::string message = problem.what();
-        if (message.starts_with("cannot read '" + source.file)) {
+        if (message.starts_with("cannot read '" + source.file) ||
+            message.starts_with("cannot load '" + source.file)) {
             throw; // already a complete message
         }
         source.fail("{}", message);

@@ -105,7 +105,7 @@ void add_lights(const GltfSource& source, const std::vector<GltfNode>& nodes,
         const GltfNode& node = nodes[i];
         const json* reference =
             find_extension(find_element(source, "nodes", std::size_t(node.index)), extension_name);
-        if (!reference) {
+        if (!reference || node.is_instance) {
             continue;
         }
         const std::string& carrier = source.model.nodes[std::size_t(node.index)].name;

@@ -70,7 +70,7 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     if (seconds && scene.animations.empty()) {
         add_note(scene, "there is no animation: the scene is the same at any time");
     }
-    const std::vector<GltfNode> nodes = read_nodes(source, std::move(keys.nodes), scene);
+    const std::vector<GltfNode> nodes = read_nodes(source, options.scene, std::move(keys.nodes), scene);
     add_materials(source, std::move(keys.materials), scene);
     add_lights(source, nodes, std::move(keys.lights), scene);
     add_cameras(source, nodes, std::move(keys.cameras), scene);

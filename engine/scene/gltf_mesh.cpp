@@ -54,7 +54,7 @@ void check_triangle_count(const GltfSource& source, const std::vector<GltfNode>&
     std::size_t total = 0;
     for (const GltfNode& node : nodes) {
         const int mesh = source.model.nodes[std::size_t(node.index)].mesh;
-        if (mesh < 0 || std::size_t(mesh) >= source.model.meshes.size()) {
+        if (mesh < 0 || node.is_instanced || std::size_t(mesh) >= source.model.meshes.size()) {
             continue;
         }
         for (const tinygltf::Primitive& primitive :
@@ -289,7 +289,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
     for (std::size_t number = 0; number < nodes.size(); ++number) {
         const GltfNode& node = nodes[number];
         const tinygltf::Node& shown = source.model.nodes[std::size_t(node.index)];
-        if (shown.mesh < 0) {
+        if (shown.mesh < 0 || node.is_instanced) {
             continue;
         }
         if (std::size_t(shown.mesh) >= source.model.meshes.size()) {
@@ -300,6 +300,7 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
         const std::string name = label("mesh", shown.mesh, mesh.name);
         const VertexTransform transform = vertex_transform(node.to_world);
         const MotionNode& motion = scene.motion.nodes[number];
+        const std::size_t first_triangle = scene.triangles.size();
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             Surface surface;
             if (!open_surface(source, primitive, name, surface, scene)) {
@@ -330,6 +331,11 @@ void add_meshes(const GltfSource& source, const std::vector<GltfNode>& nodes, Sc
             if (moves) {
                 scene.motion.meshes.push_back(std::move(moving));
             }
+        }
+        if (scene.triangles.size() > first_triangle) {
+            scene.objects.push_back({.node = static_cast<std::uint32_t>(node.index),
+                                     .name = shown.name,
+                                     .first_triangle = static_cast<std::uint32_t>(first_triangle)});
         }
     }
     adder.add_notes();

@@ -1,9 +1,13 @@
 #include "scene/gltf_node.hpp"
 
 #include "scene/direction.hpp"
+#include "scene/gltf_instances.hpp"
 #include "scene/gltf_morph.hpp"
 #include "scene/pose.hpp"
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <fmt/ranges.h>
 #include <utility>
 
 namespace argand {
@@ -50,9 +54,32 @@ LocalTransform rest_transform(const GltfSource& source, int index) {
     return local;
 }
 
-std::vector<int> root_nodes(const GltfSource& source) {
+/// The scene of this name or index.
+int find_scene(const GltfSource& source, const std::string& choice) {
+    const std::vector<tinygltf::Scene>& scenes = source.model.scenes;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (scenes[i].name == choice) {
+            return static_cast<int>(i);
+        }
+    }
+    std::size_t index = 0;
+    const char* end = choice.data() + choice.size();
+    const auto [read, error] = std::from_chars(choice.data(), end, index);
+    if (error == std::errc() && read == end && index < scenes.size()) {
+        return static_cast<int>(index);
+    }
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < std::min<std::size_t>(scenes.size(), 8); ++i) {
+        names.push_back(label("scene", static_cast<int>(i), scenes[i].name));
+    }
+    source.fail("it has no scene '{}'; it has {}{}", one_line(choice, 60),
+                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")),
+                names.size() < scenes.size() ? ", ..." : "");
+}
+
+std::vector<int> root_nodes(const GltfSource& source, const std::string& choice) {
     const tinygltf::Model& model = source.model;
-    const int scene = model.defaultScene;
+    const int scene = choice.empty() ? model.defaultScene : find_scene(source, choice);
     if (scene >= 0 && std::size_t(scene) >= model.scenes.size()) {
         source.fail("its default scene {} does not exist", scene);
     }
@@ -78,8 +105,8 @@ std::vector<int> root_nodes(const GltfSource& source) {
 
 } // namespace
 
-std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys> keys,
-                                 Scene& scene) {
+std::vector<GltfNode> read_nodes(const GltfSource& source, const std::string& choice,
+                                 std::vector<NodeKeys> keys, Scene& scene) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<GltfNode> flat;
     std::vector<bool> seen(nodes.size(), false);
@@ -92,8 +119,8 @@ std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys>
             waiting.push_back({*i, parent});
         }
     };
-    std::size_t weights_left = most_morph_weights;
-    push(root_nodes(source), -1);
+    std::size_t weights_left = most_morph_weights, instances_left = most_instances;
+    push(root_nodes(source, choice), -1);
     while (!waiting.empty()) {
         const auto [index, parent] = waiting.back();
         waiting.pop_back();
@@ -111,11 +138,24 @@ std::vector<GltfNode> read_nodes(const GltfSource& source, std::vector<NodeKeys>
         }
         std::vector<double> weights = rest_weights(source, index);
         weights_left -= weights.size();
-        flat.push_back({index, glm::dmat4(1), false});
+        const std::vector<LocalTransform> places =
+            read_instances(source, index, instances_left, scene);
+        if (weights.size() * places.size() > weights_left) {
+            source.fail("its nodes have more than {} morph weights", most_morph_weights);
+        }
+        weights_left -= weights.size() * places.size();
+        const auto number = static_cast<int>(flat.size());
+        const NodeKeys of_instances{.weights = keys[std::size_t(index)].weights};
+        flat.push_back({index, glm::dmat4(1), false, !places.empty()});
         scene.motion.nodes.push_back({.parent = parent,
                                       .rest = rest_transform(source, index),
-                                      .weights = std::move(weights),
+                                      .weights = weights,
                                       .keys = std::move(keys[std::size_t(index)])});
+        for (const LocalTransform& place : places) {
+            flat.push_back({index, glm::dmat4(1), false, false, true});
+            scene.motion.nodes.push_back(
+                {.parent = number, .rest = place, .weights = weights, .keys = of_instances});
+        }
     }
     const Pose rest = pose_at(scene.motion, {});
     const std::vector<bool> moves = moving_nodes(scene.motion);

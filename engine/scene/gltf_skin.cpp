@@ -93,7 +93,9 @@ JointWeights heaviest(std::vector<Weighted>& carried, double sum) {
 Skins::Skins(const GltfSource& source, const std::vector<GltfNode>& nodes)
     : source_(source), nodes_(nodes), number_of_node_(source.model.nodes.size(), -1) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        number_of_node_[std::size_t(nodes[i].index)] = static_cast<int>(i);
+        if (!nodes[i].is_instance) {
+            number_of_node_[std::size_t(nodes[i].index)] = static_cast<int>(i);
+        }
     }
 }
 

@@ -48,6 +48,13 @@ struct Material {
     float alpha_threshold = 0; ///< mask: the surface is absent where their product is less
 };
 
+/// A node of the file that shows triangles: those from its first one to that of the next object.
+struct SceneObject {
+    std::uint32_t node = 0; ///< index in the file
+    std::string name;
+    std::uint32_t first_triangle = 0;
+};
+
 /// An animation of the file.
 struct Animation {
     std::string name;
@@ -77,8 +84,9 @@ struct Scene {
     std::vector<glm::uvec3> tangents;
     std::vector<glm::uvec3> triangles; ///< vertex indices, counter-clockwise seen from the front
     std::vector<std::uint32_t> triangle_material; ///< one per triangle, index into materials
-    std::vector<Material> materials;              ///< at least one
-    std::vector<Texture> textures;                ///< a material's follow one another
+    std::vector<SceneObject> objects; ///< by first_triangle; those without triangles are left out
+    std::vector<Material> materials;  ///< at least one
+    std::vector<Texture> textures;    ///< a material's follow one another
     std::vector<std::shared_ptr<const TextureImage>> images; ///< used by textures
     std::vector<Light> lights;
     std::optional<glm::vec3> sky;           ///< uniform radiance from all directions [cd/m²]

@@ -115,6 +115,11 @@ std::vector<std::uint8_t> state_of(const fs::path& path, std::span<const std::ui
     return state;
 }
 
+std::string crop_text(const RenderSettings& settings) {
+    const auto& crop = settings.crop;
+    return crop ? fmt::format("{},{},{},{}", crop->x0, crop->y0, crop->x1, crop->y1) : "none";
+}
+
 } // namespace
 
 CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
@@ -124,6 +129,7 @@ CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
                                             picture_fingerprint(scene, settings.camera))},
                       {"method", settings.method},
                       {"size", fmt::format("{}x{}", settings.width, settings.height)},
+                      {"crop", crop_text(settings)},
                       {"seed", fmt::format("{}", settings.seed)},
                       {"backend", device.backend},
                       {"device", fmt::format("{}, {}", device.name, device.driver)},

@@ -23,6 +23,7 @@ void Session::prepare(std::uint32_t seed) {
     budget_ = Budget(settings_.budget);
     streams_ = Streams(seed);
     statistics_ = {};
+    variance_ = {};
     DeviceScene on_device =
         world_.on_device(scene_, plan_render(scene_, world_.surfaces(), settings_, methods_));
     if (context_ && context_->on_device.plan.required == on_device.plan.required) {
@@ -137,6 +138,9 @@ bool Session::step(const PassPlan& plan, const OnProgress& on_part) {
     const bool finished = method_->pass(pass, on_part);
     ++statistics_.passes;
     statistics_.interrupted = !finished;
+    if (settings_.variance) {
+        variance_.add_pass(context_->device, context_->eye.film);
+    }
     return finished;
 }
 
@@ -160,6 +164,9 @@ RenderResult Session::result() {
         statistics_.reduced_sky = {sky->width, sky->height};
     }
     std::vector<Layer> image = layers();
+    if (settings_.variance) {
+        image.push_back({"variance", variance_.of_mean(context_->eye.film)});
+    }
     return {.layers = std::move(image), .statistics = statistics_};
 }
 

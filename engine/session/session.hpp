@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/on_progress.hpp"
+#include "methods/film_variance.hpp"
 #include "methods/method.hpp"
 #include "methods/render_result.hpp"
 #include "session/streams.hpp"
@@ -103,6 +104,7 @@ private:
     Budget budget_;
     Streams streams_;
     RenderStatistics statistics_;
+    FilmVariance variance_; ///< if the settings ask for it
 };
 
 } // namespace argand

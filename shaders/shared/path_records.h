@@ -75,6 +75,9 @@ struct EyeBatch {
     uint query_step;
     float32 query_weight;
     uint first_film_pixel; // first pixel of this part of the film
+    // The film is this part of the image: pixels above are numbered in the film, and random numbers
+    // are those of the pixel in the image.
+    uint crop_x, crop_y, crop_width;
 };
 
 ARGAND_SHARED_END

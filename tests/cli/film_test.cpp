@@ -82,7 +82,7 @@ cat >"${last#file:}"
     std::string logged(const std::string& name) const { return read_text(log_ / name); }
     /// Three bytes for each pixel of a PNG.
     std::string pixels(const std::string& name) const {
-        const std::vector<std::uint8_t> bytes = srgb_bytes(read_png(file(name)), 0);
+        const std::vector<std::uint8_t> bytes = srgb_bytes(read_png(file(name)), {});
         return {bytes.begin(), bytes.end()};
     }
 

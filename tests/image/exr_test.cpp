@@ -3,6 +3,11 @@
 #include "image/pictures.hpp"
 #include "support/expect_error.hpp"
 #include "support/scratch_directory.hpp"
+#include <ImfBoxAttribute.h>
+#include <ImfChannelList.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfStringAttribute.h>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -85,6 +90,43 @@ TEST(Exr, KeepsLayersByName) {
         EXPECT_EQ(read[i].name, written[order[i]].name);
         EXPECT_EQ(bits(read[i].image), bits(written[order[i]].image)) << read[i].name;
     }
+}
+
+TEST(Exr, KeepsLayersOfOtherChannels) {
+    const ScratchDirectory scratch;
+    const Layer written[] = {
+        {"", noise(9, 7, 1)}, {"normal", noise(9, 7, 2), "XYZ"}, {"depth", noise(9, 7, 3), "Z"}};
+    write_exr(scratch / "a.exr", written);
+    std::vector<std::string> channels;
+    Imf::InputFile file((scratch / "a.exr").c_str());
+    for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) {
+        channels.emplace_back(c.name());
+    }
+    EXPECT_THAT(channels, ::testing::ElementsAre("B", "G", "R", "depth.Z", "normal.X", "normal.Y",
+                                                 "normal.Z"));
+    const std::vector<Layer> read = read_exr(scratch / "a.exr");
+    ASSERT_EQ(read.size(), 3u);
+    EXPECT_EQ(bits(read[2].image), bits(written[1].image));
+    for (std::size_t i = 0; i < 9 * 7; ++i) {
+        EXPECT_EQ(read[1].image.pixels[i].z, written[2].image.pixels[i].x);
+        EXPECT_EQ(read[1].image.pixels[i].x, 0);
+    }
+}
+
+// OpenEXR's own library reads the attributes.
+TEST(Exr, SaysHowItWasMadeAndWhereItLies) {
+    const ScratchDirectory scratch;
+    const Layer layers[] = {{"", noise(9, 7, 1)}};
+    write_exr(scratch / "a.exr", layers,
+              {.display = {},
+               .window = {.x = 3, .y = 5, .full_width = 20, .full_height = 30},
+               .command = "argand render 'a ü.glb'"});
+    const Imf::InputFile file((scratch / "a.exr").c_str());
+    EXPECT_EQ(file.header().typedAttribute<Imf::StringAttribute>("comments").value(),
+              "argand render 'a ü.glb'");
+    EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({3, 5}, {11, 11}));
+    EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {19, 29}));
+    EXPECT_EQ(bits(read_exr(scratch / "a.exr")[0].image), bits(layers[0].image));
 }
 
 TEST(Exr, WritesTheSameBytesTwice) {

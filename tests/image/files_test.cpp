@@ -14,14 +14,14 @@ TEST(ImageFiles, ChoosesTheFormatByExtension) {
     const ScratchDirectory scratch;
     const Layer layers[] = {{"direct", constant(3, 2, {1, 0, 0})},
                             {"", constant(3, 2, {0, 0.25f, 0})}};
-    write_image(scratch / "a.EXR", layers, 3);
+    write_image(scratch / "a.EXR", layers, {.display = {.exposure_ev = 3}});
     const std::vector<Layer> exr = read_image(scratch / "a.EXR");
     ASSERT_EQ(exr.size(), 2u);
     EXPECT_EQ(exr[0].image.pixels[0], glm::vec3(0, 0.25f, 0)) << "an .exr takes no exposure";
     EXPECT_EQ(find_layer(exr, "direct")->pixels[5], glm::vec3(1, 0, 0));
     EXPECT_EQ(find_layer(exr, "other"), nullptr);
 
-    write_image(scratch / "a.png", layers, 2);
+    write_image(scratch / "a.png", layers, {.display = {.exposure_ev = 2}});
     const std::vector<Layer> png = read_image(scratch / "a.png");
     ASSERT_EQ(png.size(), 1u);
     EXPECT_EQ(png[0].name, "");

@@ -51,7 +51,7 @@ std::string png(std::uint32_t width, std::uint32_t height, int depth, int color_
 
 Image read_back(const Image& image, float exposure = 0) {
     const ScratchDirectory scratch;
-    write_png(scratch / "a.png", image, exposure);
+    write_png(scratch / "a.png", image, {.display = {.exposure_ev = exposure}});
     return read_png(scratch / "a.png");
 }
 
@@ -172,6 +172,20 @@ TEST(PngHostile, NamesTheProblem) {
     EXPECT_THAT(error(png(2, 2, 8, 2, "x")), HasSubstr("damaged"));
     EXPECT_THAT(error_of([&] { read_png(scratch / "none.png"); }), HasSubstr("no such file"));
     EXPECT_THAT(error_of([&] { read_png(scratch.path()); }), HasSubstr("directory"));
+}
+
+TEST(Png, SaysHowItWasMade) {
+    const ScratchDirectory scratch;
+    const std::string command = "argand render 'a ü.glb' --tone neutral";
+    const Image image = noise(13, 9, 3);
+    write_png(scratch / "plain.png", image);
+    write_png(scratch / "a.png", image, {.display = {}, .window = {}, .command = command});
+    const std::string plain = read_text(scratch / "plain.png"),
+                      bytes = read_text(scratch / "a.png");
+    const std::string comment = chunk("iTXt", std::string("Comment\0\0\0\0\0", 12) + command);
+    constexpr std::size_t behind_header = 33;
+    EXPECT_EQ(bytes, plain.substr(0, behind_header) + comment + plain.substr(behind_header));
+    EXPECT_EQ(read_png(scratch / "a.png").pixels, read_png(scratch / "plain.png").pixels);
 }
 
 TEST(PngHostile, SurvivesTruncationAndDamage) {

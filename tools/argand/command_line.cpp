@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "device/validation.hpp"
+#include "picture_options.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -66,7 +67,7 @@ int parse_and_run(int argc, const char* const* argv, MethodTable methods) {
     app.require_subcommand(1);
     app.footer("Example:\n  argand render assets/cornell_glass.glb -o picture.png\n\n"
                "`argand COMMAND --help` describes each command.");
-    add_render_command(app, methods);
+    add_render_command(app, methods, command_text(argc, argv));
     add_compare_command(app);
     add_compare_backends_command(app, methods);
     add_tradeoff_command(app, methods);

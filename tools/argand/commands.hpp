@@ -3,12 +3,14 @@
 #include "methods/table.hpp"
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 namespace argand {
 
 /// Each adds a subcommand to the command line, which runs when that is parsed. `methods` are those
 /// that the user may choose from.
-void add_render_command(CLI::App& app, MethodTable methods);
+/// command_line: what the user typed, for the files.
+void add_render_command(CLI::App& app, MethodTable methods, const std::string& command_line);
 void add_compare_command(CLI::App& app);
 void add_compare_backends_command(CLI::App& app, MethodTable methods);
 void add_tradeoff_command(CLI::App& app, MethodTable methods);

@@ -9,10 +9,21 @@
 
 namespace argand {
 
+namespace {
+
+/// The size of a picture, or of the part of it that is rendered.
+PictureSize size_to_write(const RenderOptions& options) {
+    const PictureSize size = parse_picture_size(options.size);
+    const std::optional<CropRectangle> crop = parse_crop(options.picture.crop, size);
+    return crop ? PictureSize{crop->width(), crop->height()} : size;
+}
+
+} // namespace
+
 FrameOutputs::FrameOutputs(const RenderOptions& options) : outputs_(options.outputs) {
     for (const std::string& output : outputs_) {
         if (is_film(output)) {
-            films_.push_back(std::make_unique<FilmWriter>(output, parse_picture_size(options.size),
+            films_.push_back(std::make_unique<FilmWriter>(output, size_to_write(options),
                                                           options.frames_per_second));
         }
     }
@@ -46,7 +57,7 @@ void FrameOutputs::write(RenderJob& job, const Rendered& rendered, std::uint64_t
     }
     const Clock::time_point start = Clock::now();
     const std::vector<std::uint8_t> pixels =
-        srgb_bytes(whole_picture(rendered.result.layers), job.options.exposure);
+        srgb_bytes(whole_picture(rendered.result.layers), file_settings(job, rendered).display);
     for (const std::unique_ptr<FilmWriter>& film : films_) {
         film->add(pixels);
     }

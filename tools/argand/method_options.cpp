@@ -33,13 +33,6 @@ CLI::Validator accepted_values(const Option& option) {
     }
 }
 
-/// The same, and `auto`: the method chooses.
-CLI::Validator or_auto(const CLI::Validator& accepted) {
-    return CLI::Validator(
-        [accepted](std::string& text) { return text == "auto" ? std::string() : accepted(text); },
-        accepted.get_description() + ", or auto");
-}
-
 void add_option(CLI::App& command, RenderSettings& settings, const Option& option) {
     const std::string name = "--" + option.name;
     if (option.kind == OptionKind::flag) {

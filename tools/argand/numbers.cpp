@@ -34,4 +34,10 @@ CLI::Validator integer_between(std::uint64_t low, std::uint64_t high) {
 
 CLI::Validator number_between(double low, double high) { return between(low, high, "a number"); }
 
+CLI::Validator or_auto(const CLI::Validator& accepted) {
+    return CLI::Validator(
+        [accepted](std::string& text) { return text == "auto" ? std::string() : accepted(text); },
+        accepted.get_description() + ", or auto");
+}
+
 } // namespace argand

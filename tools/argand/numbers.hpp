@@ -23,4 +23,7 @@ CLI::Validator integer_between(std::uint64_t low, std::uint64_t high);
 /// Accepts decimal numbers in [low, high], so neither not-a-number nor infinity.
 CLI::Validator number_between(double low, double high);
 
+/// The same, and `auto`.
+CLI::Validator or_auto(const CLI::Validator& accepted);
+
 } // namespace argand

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
+#include "image/files.hpp"
 #include "method_options.hpp"
 #include "numbers.hpp"
 #include "overwriting.hpp"
@@ -13,6 +14,7 @@
 #include "rendering.hpp"
 #include "session/checkpoint.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -138,8 +140,35 @@ void check_lens(const RenderOptions& options) {
     }
 }
 
+/// Throws UsageError on layers that no file would have, or that cannot be found.
+void check_layers(const RenderOptions& options, const CLI::App& command) {
+    const FeatureLayers& layers = options.picture.layers;
+    if (!is_given(command, "--aovs")) {
+        return;
+    }
+    if (std::none_of(options.outputs.begin(), options.outputs.end(),
+                     [](const std::string& name) { return lower_extension(name) == ".exr"; })) {
+        throw UsageError("reading --aovs: only .exr files have further layers; add -o FILE.exr");
+    }
+    if (!layers.variance) {
+        return;
+    }
+    if (has_checkpoints(options)) {
+        throw UsageError("reading --aovs variance: checkpoints do not save it; leave it out, or "
+                         "--checkpoint and --resume");
+    }
+    if (is_autotuned(options, command)) {
+        throw UsageError("reading --aovs variance: it needs passes that are known; leave out "
+                         "--target-error, and give --method with --budget");
+    }
+    if (options.settings.samples < 2 && !options.settings.budget) {
+        throw UsageError("reading --aovs variance: one sample does not vary; give --spp 2 or more");
+    }
+}
+
 void check(const RenderOptions& options, const CLI::App& command) {
     check_lens(options);
+    check_layers(options, command);
     check_query(options, command);
     check_deterministic(options, command);
     check_tracer(options, command);
@@ -151,6 +180,7 @@ void check(const RenderOptions& options, const CLI::App& command) {
     check_method_options(command, options.method(), options.methods);
     check_progressive(options, command);
     check_frames(options, command);
+    parse_crop(options.picture.crop, parse_picture_size(options.size));
     std::vector<std::string> files{options.scene};
     if (!options.env.empty()) {
         files.push_back(options.env);
@@ -210,11 +240,12 @@ void run(RenderOptions& options, const CLI::App& command) {
 
 } // namespace
 
-void add_render_command(CLI::App& app, MethodTable methods) {
+void add_render_command(CLI::App& app, MethodTable methods, const std::string& command_line) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures and films");
     auto options = std::make_shared<RenderOptions>(RenderOptions{SceneOptions(), methods});
     RenderSettings& settings = options->settings;
     settings.method = methods.begin()->name;
+    options->picture.command = command_line;
     add_scene_options(*command, *options);
     command
         ->add_option(
@@ -246,9 +277,7 @@ void add_render_command(CLI::App& app, MethodTable methods) {
         ->check(integer_between(0, 0xffffffff));
     command->add_option("--camera", options->camera,
                         "Name or index of the camera (default: the first)");
-    command->add_option("--exposure", options->exposure, "Exposure of the PNG in stops")
-        ->capture_default_str()
-        ->check(number_between(-100, 100));
+    add_picture_options(*command, options->picture);
     command->add_flag("--everything", settings.everything,
                       "Also compile and run code that the scene does not require: the picture is "
                       "the same; measures the cost");

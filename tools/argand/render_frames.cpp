@@ -79,6 +79,10 @@ void check_frames(const RenderOptions& options, const CLI::App& command) {
         throw UsageError("reading --at: with --frames, frame k is at k / --fps seconds; leave one "
                          "of the two out");
     }
+    if (options.picture.automatic) {
+        throw UsageError("reading --exposure auto: with --frames each frame would have an exposure "
+                         "of its own, and the film would flicker; give stops");
+    }
     for (const std::string& output : options.outputs) {
         if (!is_film(output)) {
             check_frame_pattern(output);

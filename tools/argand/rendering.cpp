@@ -55,6 +55,14 @@ void choose_method(RenderSettings& settings, const RenderOptions& options, const
     }
 }
 
+/// Asks for the variance, and for passes from which it can be told.
+RenderSettings with_variance(RenderSettings settings) {
+    constexpr std::uint32_t most = 64;
+    settings.variance = true;
+    settings.least_passes = std::max(settings.least_passes, std::min(settings.samples, most));
+    return settings;
+}
+
 /// Samples of a pass of few enough paths that it ends now and then: passes can be saved, and end
 /// near a budget.
 std::uint32_t samples_per_pass(const PictureSize& size) {
@@ -132,8 +140,10 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         if (shows && can_show) { // the picture of a render that may have no end
             try {
                 const std::vector<Layer> layers = session.layers();
+                const PictureSettings file =
+                    picture_settings(options.picture, job.settings, whole_picture(layers));
                 for (const std::string& output : options.outputs) {
-                    write_image(output, layers, options.exposure);
+                    write_image(output, layers, file);
                 }
             } catch (const DeviceFault&) {
                 throw;
@@ -317,6 +327,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     const PictureSize size = parse_picture_size(options.size);
     job.settings.width = size.width;
     job.settings.height = size.height;
+    job.settings.crop = parse_crop(options.picture.crop, size);
     const Clock::time_point start = Clock::now();
     job.scene = load_scene(options.scene, options, seconds, options.load);
     job.times.load = seconds_since(start);
@@ -327,6 +338,9 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     }
     if (!is_autotuned(options, command)) {
         job.settings.samples_per_pass = samples_per_pass(size);
+    }
+    if (options.picture.layers.variance) {
+        job.settings = with_variance(job.settings);
     }
     print_notes(options, job.scene.notes);
     const Clock::time_point opened = Clock::now();
@@ -356,6 +370,10 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
         start = Clock::now();
         rendered = render_on(job, work);
     }
+    for (Layer& layer :
+         render_features(*job.world, job.scene, rendered.settings, options.picture.layers)) {
+        rendered.result.layers.push_back(std::move(layer));
+    }
     job.times.render = seconds_since(start);
     const KdTree& kdtree = job.world->tree().kdtree;
     if (kdtree.stopped) {
@@ -366,14 +384,24 @@ Rendered render_picture(RenderJob& job, const std::string& work) {
     for (std::string& note : notes_on(rendered, options.methods, job.times.render)) {
         rendered.notes.push_back(std::move(note));
     }
+    if (options.picture.automatic) {
+        rendered.notes.push_back(fmt::format("--exposure auto is {:.2f} stops for this picture",
+                                             file_settings(job, rendered).display.exposure_ev));
+    }
     return rendered;
+}
+
+PictureSettings file_settings(const RenderJob& job, const Rendered& rendered) {
+    return picture_settings(job.options.picture, job.settings,
+                            whole_picture(rendered.result.layers));
 }
 
 void write_picture(RenderJob& job, const Rendered& rendered,
                    const std::vector<std::string>& outputs) {
     const Clock::time_point start = Clock::now();
+    const PictureSettings file = file_settings(job, rendered);
     for (const std::string& output : outputs) {
-        write_image(output, rendered.result.layers, job.options.exposure);
+        write_image(output, rendered.result.layers, file);
     }
     job.times.write = seconds_since(start);
 }
@@ -385,12 +413,17 @@ nlohmann::ordered_json report_on(const RenderJob& job, const Rendered& rendered,
                        .scene = job.scene,
                        .method = job.options.methods.at(rendered.settings.method),
                        .settings = rendered.settings,
-                       .exposure = job.options.exposure,
+                       .display = file_settings(job, rendered).display,
                        .outputs = outputs,
                        .statistics = rendered.result.statistics,
                        .times = job.times});
     for (const std::string& note : rendered.notes) {
         report["notes"].push_back(note);
+    }
+    if (job.options.picture.layers.id) {
+        for (const SceneObject& object : job.scene.objects) {
+            report["objects"].push_back({{"id", object.node + 1}, {"name", object.name}});
+        }
     }
     if (job.options.tracer.kdtree) {
         const KdTree& tree = job.world->tree().kdtree;
@@ -416,10 +449,10 @@ void tell_of(const RenderJob& job, const Rendered& rendered,
     }
     print_notes(job.options, rendered.notes);
     if (!job.options.quiet) {
+        const Image& picture = whole_picture(rendered.result.layers);
         fmt::print("{}: {} {}x{} on {} in {:.2f} s{}\n", fmt::join(outputs, ", "),
-                   rendered.settings.method, rendered.settings.width, rendered.settings.height,
-                   job.device->info().name, seconds,
-                   statistics.interrupted ? " (interrupted: the passes so far)" : "");
+                   rendered.settings.method, picture.width, picture.height, job.device->info().name,
+                   seconds, statistics.interrupted ? " (interrupted: the passes so far)" : "");
     }
 }
 

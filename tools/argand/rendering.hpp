@@ -1,6 +1,7 @@
 #pragma once
 
 #include "autotune/autotune.hpp"
+#include "picture_options.hpp"
 #include "report.hpp"
 #include "scene_options.hpp"
 #include "session/shutter.hpp"
@@ -23,7 +24,7 @@ struct RenderOptions : SceneOptions {
     std::string backend = "auto";
     std::string device;
     std::string report;
-    float exposure = 0;
+    PictureOptions picture;
     bool quiet = false;
     std::optional<double> target_error;
     std::string frames; ///< "A:B"; empty: one picture
@@ -75,6 +76,9 @@ struct Rendered {
 /// Renders the scene as it is, in a world that follows it; adds the time for that to
 /// job.times.update. work: shown while it runs.
 Rendered render_picture(RenderJob& job, const std::string& work);
+
+/// How the files of a picture are to be written.
+PictureSettings file_settings(const RenderJob& job, const Rendered& rendered);
 
 /// Writes the picture to each output.
 void write_picture(RenderJob& job, const Rendered& rendered,

@@ -81,7 +81,11 @@ Json parameters_json(const RenderReport& render) {
         {"seed", settings.seed},
         {"camera", render.scene.cameras[settings.camera].name},
         {"at", render.scene.seconds ? Json(*render.scene.seconds) : Json()},
-        {"exposure", render.exposure}};
+        {"exposure", render.display.exposure_ev},
+        {"tone", name_of(render.display.tone)},
+        {"crop", settings.crop ? Json{settings.crop->x0, settings.crop->y0, settings.crop->x1,
+                                      settings.crop->y1}
+                               : Json()}};
     if (statistics.footprint_scale) {
         parameters.update(footprints_json(settings.footprints, *statistics.footprint_scale));
     }

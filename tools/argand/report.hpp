@@ -2,6 +2,7 @@
 
 #include "autotune/autotune.hpp"
 #include "device/device.hpp"
+#include "image/picture_settings.hpp"
 #include "methods/method_info.hpp"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +20,7 @@ struct RenderReport {
     const Scene& scene;
     const MethodInfo& method;
     const RenderSettings& settings;
-    float exposure = 0;
+    Display display;
     const std::vector<std::string>& outputs;
     const RenderStatistics& statistics;
     const ReportTimes& times;

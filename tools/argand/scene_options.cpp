@@ -23,6 +23,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
             },
             "What to do where an image's file does not exist (default: error)")
         ->check(CLI::IsMember({"error", "grey"}));
+    command.add_option("--scene", options.load.scene,
+                       "Name or index of the scene, where the file has several (default: the one "
+                       "that the file names, else the first)");
 }
 
 } // namespace argand

@@ -16,7 +16,7 @@ struct SceneOptions : EnvironmentOptions {
     LoadOptions load;
 };
 
-/// Adds the scene's file, --at and the options of the sky.
+/// Adds the scene's file, --at, --scene and the options of the sky and of what may be read.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 } // namespace argand

@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "shared/camera.h"
 #include "shared/geometry_records.h"
 #include "shared/path_records.h"
+#include "shared/pixel_filter.h"
 #include "shared/ray_cone.h"
 #include "shared/sampling.h"
 
@@ -18,5 +19,9 @@ layout(push_constant) uniform Push { EyeBatch batch; };
 layout(constant_id = 0) const bool lattice = false;
 // Whether rays have cones; else theirs are 0.
 layout(constant_id = 1) const bool cones = false;
+// Whether the film is a part of the image.
+layout(constant_id = 2) const bool cropped = true;
+// Whether samples are placed by a filter, instead of evenly in their pixel.
+layout(constant_id = 3) const bool filtered = true;
 
 #include "shared/kernels/methods/camera_rays.h"

@@ -1,4 +1,5 @@
 #include "shared/kernels/interleave.h"
+#include "shared/kernels/pixel.h"
 
 // The cone of one of a pixel's paths.
 FN uint camera_cone(CameraRecord c, vec3 direction) {
@@ -18,13 +19,18 @@ FN void main() {
     if (slot >= batch.pixels * batch.samples) {
         return;
     }
-    uint pixel = batch.first_pixel + interleave(slot / batch.samples, batch.pixels);
+    uint pixel = pixel_in_image(batch.first_pixel + interleave(slot / batch.samples, batch.pixels));
     uint sample_index = batch.first_sample + slot % batch.samples;
     vec4 u = eye_random4(batch.seed, pixel, sample_index, 0u, lattice);
     uint row = pixel / batch.width;
+    vec2 in_pixel = vec2(u.x, u.y);
+    if (filtered) {
+        in_pixel =
+            vec2(real(0.5) + blackman_harris_offset(u.x), real(0.5) + blackman_harris_offset(u.y));
+    }
     vec3 origin, direction;
-    camera_ray(camera[0], real(pixel % batch.width) + u.x, real(row) + u.y, vec2(u.z, u.w), origin,
-               direction);
+    camera_ray(camera[0], real(pixel % batch.width) + in_pixel.x, real(row) + in_pixel.y,
+               vec2(u.z, u.w), origin, direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, cones ? camera_cone(camera[0], direction) : 0u);
     paths[slot] = PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index,

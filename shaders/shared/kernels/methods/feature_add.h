@@ -1,0 +1,30 @@
+#include "shared/kernels/interleave.h"
+#include "shared/kernels/scene.h"
+#include "shared/kernels/textures.h"
+
+// Adds what the samples of a batch hit first to the sums of their pixels. An invocation adds the
+// samples of one pixel in their order. What hits nothing adds nothing.
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= batch.pixels || unfinished[0] > 0u) {
+        return;
+    }
+    uint pixel = batch.first_pixel + interleave(i, batch.pixels);
+    FeatureRecord f = features[pixel];
+    vec3 albedo = vec3(f.albedo_r, f.albedo_g, f.albedo_b);
+    vec3 normal = vec3(f.normal_x, f.normal_y, f.normal_z);
+    for (uint s = 0u; s < batch.samples; ++s) {
+        uint slot = i * batch.samples + s;
+        HitRecord hit = hits[slot];
+        if (hit.triangle == no_triangle) {
+            continue;
+        }
+        RayRecord ray = rays[slot];
+        vec3 direction = vec3(ray.direction_x, ray.direction_y, ray.direction_z);
+        MaterialRecord m = material_at(triangles[hit.triangle], hit);
+        albedo += vec3(m.base_r, m.base_g, m.base_b);
+        normal += load_surface(hit, direction).shading_normal;
+    }
+    features[pixel] = FeatureRecord(albedo.x, albedo.y, albedo.z, real(0.0), normal.x, normal.y,
+                                    normal.z, real(0.0));
+}
