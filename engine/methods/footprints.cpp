@@ -1,3 +1,4 @@
+#include "methods/footprint_estimation.hpp"
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
 #include "methods/search_options.hpp"
@@ -62,6 +63,10 @@ Option caustic_smoothing_option() {
     return option;
 }
 
+} // namespace
+
+std::unique_ptr<EstimationStrategy> make_footprints() { return std::make_unique<Footprints>(); }
+
 std::vector<Option> footprint_options() {
     Option largest = member_option(
         "max-footprint",
@@ -88,32 +93,30 @@ std::vector<Option> footprint_options() {
         "paper-reemission",
         "Space photons evenly over the sphere after diffuse reflection, not as they are sampled",
         [](RenderSettings & s) -> auto& { return s.footprints.paper_reemission; });
-    std::vector<Option> options{smoothing_option(),
-                                caustic_smoothing_option(),
-                                largest,
-                                swept(flatness, {"0.1", "1"}),
-                                swept(uniform, {"on"}),
-                                fixed,
-                                swept(axes, {"on"}),
-                                swept(reemission, {"on"})};
+    return {smoothing_option(),
+            caustic_smoothing_option(),
+            largest,
+            swept(flatness, {"0.1", "1"}),
+            swept(uniform, {"on"}),
+            fixed,
+            swept(axes, {"on"}),
+            swept(reemission, {"on"})};
+}
+
+MethodInfo footprints_method() {
+    std::vector<Option> options = footprint_options();
     for (const Option& option : search_options()) {
         options.push_back(option);
     }
-    return options;
-}
-
-} // namespace
-
-MethodInfo footprints_method() {
     return {.name = "footprints",
             .summary = "photon mapping, density over each photon's footprint",
             .paper = "Fabianowski and Dingliana 2009",
             .abilities = {.photon_map = true, .footprints = true},
             .law = photon_mapping_law,
             .trial = TrialOrder::later,
-            .options = all_photon_map_options(footprint_options()),
+            .options = all_photon_map_options(options),
             .make = [](RenderContext& context) {
-                return make_photon_mapping(context, std::make_unique<Footprints>());
+                return make_photon_mapping(context, make_footprints());
             }};
 }
 

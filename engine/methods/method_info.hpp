@@ -62,6 +62,9 @@ struct MethodInfo {
     TrialOrder trial = TrialOrder::never;
     std::vector<Option> options; ///< in the order in which settings are listed
     std::unique_ptr<Method> (*make)(RenderContext& context) = nullptr;
+    /// Whether photons carry ray differentials with these settings, where that depends on an
+    /// option; null: abilities.footprints tells.
+    bool (*wants_footprints)(const RenderSettings& settings) = nullptr;
 
     /// Null if the method does not have the option.
     const Option* option(std::string_view option_name) const;

@@ -63,6 +63,7 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
     archive.value(q.crowded);
     archive.value(q.crowded_when_divided);
     archive.value(q.divided_for);
+    archive.value(q.area_scale);
     if (archive.loads()) {
         const std::uint64_t most = max_stored_photons(device);
         check(is_tree(tree) && (!parts_caustics || tree.cells > 1) &&
@@ -86,6 +87,8 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
     const auto cells = persist_elements<std::uint32_t>(archive, device, q.cell_of_entry, q.entries);
     persist_elements<PhotonRecord>(archive, device, q.stored,
                                    q.window * q.block_room + q.area_room);
+    persist_elements<glm::uvec4>(archive, device, q.offsets,
+                                 q.footprints ? q.window * q.block_room + q.area_room : 0);
     check(std::is_sorted(starts.begin(), starts.end()) && starts.back() == q.entries &&
           std::all_of(cells.begin(), cells.end(),
                       [&](std::uint32_t cell) { return cell < q.cells; }) &&

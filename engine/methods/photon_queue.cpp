@@ -1,16 +1,17 @@
 #include "photon/photon_queue.hpp"
 
 #include "base/error.hpp"
-#include "device/copy_elements.hpp"
 #include "methods/bandwidth.hpp"
 #include "methods/fixed_radius.hpp"
+#include "methods/footprint_estimation.hpp"
 #include "methods/light_change.hpp"
 #include "methods/nearest_photons.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/persist_queue.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
-#include "methods/queue_options.hpp"
+#include "methods/queue_ages.hpp"
+#include "methods/queue_maps.hpp"
 #include "methods/render_options.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
@@ -32,19 +33,25 @@ constexpr double most_change = 0.5;
 // Moved boxes reach so many radii of estimation farther.
 constexpr double reach_of_moved = 1;
 
-/// A block of the queue: its photons, and how much older they are than those of the last frame, in
-/// half-lives.
-struct BlockAge {
-    std::uint64_t emitted = 0;
-    double half_lives = 0;
-};
+std::unique_ptr<EstimationStrategy> make_strategy(QueueEstimator estimator) {
+    switch (estimator) {
+    case QueueEstimator::nearest:
+        return make_nearest();
+    case QueueEstimator::footprints:
+        return make_footprints();
+    default:
+        return make_fixed_radius();
+    }
+}
 
 /// What belongs to one image.
 struct QueueImage {
     std::uint64_t blocks = 0, emitted = 0, stored = 0; ///< traced for it
     std::uint64_t passes = 0;
     double flux_unit = 0;
-    double in_view = 0;  ///< photons stored in view per photon emitted
+    double in_view = 0;                            ///< photons stored in view per photon emitted
+    std::optional<FootprintScale> footprint_scale; ///< of the last pass
+    double mean_footprints = 0;
     bool traced = false; ///< the photons of the next pass are in the queue already
 };
 
@@ -54,8 +61,7 @@ class QueueMethod : public Method {
 public:
     explicit QueueMethod(RenderContext& context)
         : c_(context), options_(options_of(context.settings)),
-          strategy_(options_.estimator == QueueEstimator::nearest ? make_nearest()
-                                                                  : make_fixed_radius()) {}
+          strategy_(make_strategy(options_.estimator)) {}
 
     void begin_frame(Budget& budget) override;
     std::uint64_t passes() const override {
@@ -82,9 +88,11 @@ private:
         return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
     }
     void make_room();
+    PhotonQueue empty_queue() const;
     void count_all_photons(double whole);
     double learn(const PassNumbers& numbers, std::span<const glm::vec4> queries);
-    StoredPhotons trace_part(const PassNumbers& numbers, std::uint64_t first, std::uint64_t count);
+    StoredPhotons trace_part(const PassNumbers& numbers, std::uint64_t first, std::uint64_t count,
+                             std::uint64_t spread);
     StoredPhotons trace(const PassNumbers& numbers, std::uint32_t block);
     void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
     void refill(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
@@ -93,18 +101,17 @@ private:
     void update(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
     double age();
     void add_areas(const PassNumbers& numbers, const StoredPhotons& stored);
-    void weigh();
     Bandwidth bandwidth() const;
-    PhotonMap make_map();
-    PhotonMap rebuilt(const PhotonMap& map);
+    void size_areas(const FootprintScale& scale);
+    PhotonMap make_map(const Bandwidth& widths);
     const std::vector<CellNode>& planes();
 
     RenderContext& c_;
     QueueOptions options_;
     std::unique_ptr<EstimationStrategy> strategy_;
     PhotonWorkspace photons_;
-    PhotonWorkspace rebuild_; ///< with --rebuild
-    std::uint64_t room_ = 0;  ///< photons of a block for which the workspace was made
+    PhotonWorkspace workspace_; ///< for maps: with --rebuild, or with footprints
+    std::uint64_t room_ = 0;    ///< photons of a block for which the workspace was made
 
     std::optional<std::vector<CellNode>> planes_; ///< none: not known yet
     PhotonQueue queue_;
@@ -116,8 +123,9 @@ private:
     SeenScene seen_;
     Bandwidth learnt_;
     double view_reach_ = 0;
-    SampledPart sampled_;     ///< where the area samples lie
-    bool areas_moved_ = true; ///< they have to be sampled anew
+    SampledPart sampled_;            ///< where the area samples lie
+    bool areas_moved_ = true;        ///< they have to be sampled anew
+    std::uint32_t sized_blocks_ = 0; ///< blocks of which photons made area samples' footprints
     QueueImage image_;
 };
 
@@ -158,6 +166,7 @@ void QueueMethod::make_room() {
     photons_ =
         make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
     photons_.numbers = kind_of_photon_numbers(c_.settings);
+    photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     room_ = room;
 }
 
@@ -173,17 +182,33 @@ void QueueMethod::count_all_photons(double whole) {
     if (!c_.settings.caustic_neighbours) {
         scale(learnt_.caustic_neighbours);
     }
+    // Footprints of all photons are made as if one pass had traced them. Their size, which falls
+    // by itself with the photons of a pass, was learnt for these photons in many passes.
+    if (!c_.settings.footprints.fixed_smoothing) {
+        learnt_.smoothing *= std::pow(whole, 1.0 / 6);
+        learnt_.caustic_smoothing *= std::pow(whole, 1.0 / 6);
+    } else if (!c_.settings.footprints.smoothing) {
+        learnt_.smoothing *= std::sqrt(whole);
+    }
+}
+
+PhotonQueue QueueMethod::empty_queue() const {
+    PhotonQueue queue = make_photon_queue(options_.window, leaf_size(),
+                                          options_.estimator == QueueEstimator::footprints);
+    queue.leaves_test = options_.classify == QueueClassify::leaves;
+    return queue;
 }
 
 /// Traces photons of the window's sequence, from number `first` on. It goes on with each pass of an
-/// image, and begins anew with each image.
+/// image, and begins anew with each image. spread: PhotonPass::spread.
 StoredPhotons QueueMethod::trace_part(const PassNumbers& numbers, std::uint64_t first,
-                                      std::uint64_t count) {
+                                      std::uint64_t count, std::uint64_t spread) {
     const bool light = c_.on_device.record.light_count > 0;
     const PhotonPass emission{.seed = numbers.seed,
                               .first = photons() * numbers.index + first,
                               .count = light ? count : 0,
-                              .bounces = c_.settings.bounces};
+                              .bounces = c_.settings.bounces,
+                              .spread = spread};
     const std::optional<StoredPhotons> stored = trace_photons(
         c_.device, c_.on_device, photons_, emission, static_cast<float>(image_.flux_unit));
     if (!stored) {
@@ -197,7 +222,7 @@ StoredPhotons QueueMethod::trace_part(const PassNumbers& numbers, std::uint64_t 
 /// Traces a block.
 StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block) {
     const StoredPhotons stored =
-        trace_part(numbers, photons() * block / options_.window, photons_of(block));
+        trace_part(numbers, photons() * block / options_.window, photons_of(block), photons());
     ++image_.blocks;
     image_.emitted += stored.emitted;
     image_.stored += stored.photons;
@@ -210,7 +235,7 @@ void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
         add_areas(numbers, stored);
     }
     replace_block(c_.device, queue_, block, moment_,
-                  {photons_.photons, 0, stored.slots, stored.photons});
+                  {photons_.photons, 0, stored.slots, stored.photons, photons_.offsets});
     ages_[block] = {stored.emitted, 0};
     next_ = (block + 1) % options_.window;
     ++still_;
@@ -234,7 +259,8 @@ void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& sto
                                                        .seed = area_seed(numbers)});
     sampled_ = c_.on_device.areas.part;
     replace_block(c_.device, queue_, options_.window, queue_always,
-                  {photons_.photons, stored.slots, samples, samples});
+                  {photons_.photons, stored.slots, samples, samples, photons_.offsets});
+    sized_blocks_ = 0;
     areas_moved_ = samples == 0 && stored.photons == 0; // no photon: a later block may have some
 }
 
@@ -258,7 +284,7 @@ void QueueMethod::divide_if_crowded() {
 /// block may have too few photons to learn from: as many as there is room for are traced.
 double QueueMethod::learn(const PassNumbers& numbers, std::span<const glm::vec4> queries) {
     const std::uint64_t count = std::min(photons(), room_);
-    const StoredPhotons stored = trace_part(numbers, 0, count);
+    const StoredPhotons stored = trace_part(numbers, 0, count, count);
     const double whole =
         static_cast<double>(photons()) / static_cast<double>(std::max<std::uint64_t>(count, 1));
     const SortedPhotons sorted = sort_photons(c_.device, photons_, stored);
@@ -281,7 +307,7 @@ double QueueMethod::learn(const PassNumbers& numbers, std::span<const glm::vec4>
 /// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
 void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> queries,
                          Budget* budget) {
-    queue_ = make_photon_queue(options_.window, leaf_size());
+    queue_ = empty_queue();
     ages_.assign(options_.window, {});
     areas_moved_ = true;
     still_ = 0;
@@ -382,61 +408,43 @@ void QueueMethod::begin_frame(Budget& budget) {
     image_.traced = true;
 }
 
-/// Sets the weights of the blocks, which sum to 1.
-void QueueMethod::weigh() {
-    const auto weight = [&](std::uint32_t b) {
-        return queue_.blocks[b].moment > 0
-                   ? static_cast<double>(ages_[b].emitted) * std::exp2(-ages_[b].half_lives)
-                   : 0;
-    };
-    double sum = 0;
-    for (std::uint32_t b = 0; b < options_.window; ++b) {
-        sum += weight(b);
-    }
-    for (std::uint32_t b = 0; b < options_.window; ++b) {
-        queue_.blocks[b].weight = static_cast<float>(sum > 0 ? weight(b) / sum : 0);
-    }
-}
-
 /// The bandwidth for the photons in the queue as they count: uneven weights have the noise of fewer
-/// photons, and each disc holds the more of them. Kish's effective number, (sum w)^2 / sum w^2.
+/// photons, and each disc holds the more of them.
 Bandwidth QueueMethod::bandwidth() const {
-    double noise = 0;
-    for (std::uint32_t b = 0; b < options_.window; ++b) {
-        const double weight = static_cast<double>(queue_.blocks[b].weight);
-        noise += weight > 0 ? weight * weight / static_cast<double>(ages_[b].emitted) : 0;
-    }
-    const double all = static_cast<double>(photons());
     constexpr double nearly_all = 0.999;
-    const double share = noise > 0 && all > 0 ? 1 / (noise * all) : 1;
+    const double all = static_cast<double>(photons());
+    const double even = effective_photons(queue_, ages_);
+    const double share = even > 0 && all > 0 ? even / all : 1;
     return share < nearly_all ? for_passes(learnt_, 1, share, c_.settings) : learnt_;
 }
 
-/// The map over the same records with a tree of its own, as other methods build it.
-PhotonMap QueueMethod::rebuilt(const PhotonMap& map) {
-    const std::uint64_t records = queue_.entries;
-    if (rebuild_.capacity < records) {
-        rebuild_ = make_photon_workspace(c_.device, records);
+/// Makes the footprints of the area samples if there are new ones, or more blocks to make them by.
+void QueueMethod::size_areas(const FootprintScale& scale) {
+    const auto traced = static_cast<std::uint32_t>(
+        std::count_if(queue_.blocks.begin(), queue_.blocks.end(),
+                      [](const QueueBlock& block) { return block.moment > 0; }));
+    if (traced > sized_blocks_) {
+        size_area_footprints(c_.device, queue_, workspace_, {c_.on_device, scale});
+        sized_blocks_ = traced;
     }
-    copy_elements(c_.device, map.photons, 0, rebuild_.photons, 0, records, sizeof(PhotonRecord));
-    c_.device.fill(rebuild_.counters, 0);
-    upload_word(c_.device, rebuild_.counters, counter_stored_slots,
-                static_cast<std::uint32_t>(records));
-    PhotonMap result =
-        build_photon_map(c_.device, c_.on_device, rebuild_, {.slots = records, .photons = records},
-                         {.leaf_size = c_.settings.leaf_size});
-    result.area_samples = map.area_samples;
-    result.corrected = map.corrected;
-    return result;
 }
 
-PhotonMap QueueMethod::make_map() {
-    weigh();
+PhotonMap QueueMethod::make_map(const Bandwidth& widths) {
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
-    const PhotonMap map =
-        map_of_queue(c_.device, queue_, {sampled_.center, inner_share * sampled_.reach});
-    return options_.rebuild ? rebuilt(map) : map;
+    const QueueMapSettings settings{.rebuild = options_.rebuild,
+                                    .corrected = {sampled_.center, inner_share * sampled_.reach},
+                                    .reach = strategy_->typical_radius(widths),
+                                    .scale = strategy_->footprints(widths, c_.settings.footprints,
+                                                                   static_cast<double>(photons()),
+                                                                   c_.on_device.record)};
+    if (settings.scale) {
+        size_areas(*settings.scale);
+    }
+    const PhotonMap map = make_queue_map(c_, queue_, workspace_, settings);
+    image_.footprint_scale = settings.scale;
+    image_.mean_footprints = map.mean_footprints;
+    return map;
 }
 
 bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
@@ -444,8 +452,9 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
         update(pass.numbers, {}, nullptr);
     }
     image_.traced = false;
-    const PhotonMap map = make_map();
+    weigh_blocks(queue_, ages_);
     const Bandwidth widths = bandwidth();
+    const PhotonMap map = make_map(widths);
     const double cell = c_.settings.query_cell * strategy_->typical_radius(widths);
     c_.eye.queries.sharing = {
         .cell = cell,
@@ -470,6 +479,8 @@ void QueueMethod::persist(Archive& archive) {
     archive.value(image_.passes);
     archive.value(image_.flux_unit);
     archive.value(image_.in_view);
+    archive.optional(image_.footprint_scale);
+    archive.value(image_.mean_footprints);
     archive.flag(image_.traced);
     archive.values(ages_);
     archive.value(moment_);
@@ -480,13 +491,14 @@ void QueueMethod::persist(Archive& archive) {
     archive.value(view_reach_);
     archive.value(sampled_);
     archive.flag(areas_moved_);
+    archive.value(sized_blocks_);
     if (ages_.size() != options_.window || next_ >= options_.window || moment_ == 0) {
         fail("loading a saved state: it is not one of a photons queue of {} blocks",
              options_.window);
     }
     if (archive.loads()) {
         make_room();
-        queue_ = make_photon_queue(options_.window, leaf_size());
+        queue_ = empty_queue();
         seen_ = seen_of(c_.on_device);
     }
     persist_queue(archive, c_.device, queue_);
@@ -499,6 +511,8 @@ void QueueMethod::report(RenderStatistics& statistics) const {
     statistics.photons_in_view = image_.in_view * static_cast<double>(image_.emitted);
     report_bandwidth(bandwidth(), statistics);
     statistics.leaf_size = queue_.leaf_size;
+    statistics.footprint_scale = image_.footprint_scale;
+    statistics.mean_footprints = image_.mean_footprints;
     if (image_.blocks > 0) {
         // Every block emits all of the lights' power.
         statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, flux_words),
@@ -517,7 +531,11 @@ MethodInfo photon_queue_method() {
             .options = all_queue_options(),
             .make = [](RenderContext& context) -> std::unique_ptr<Method> {
                 return std::make_unique<QueueMethod>(context);
-            }};
+            },
+            .wants_footprints =
+                [](const RenderSettings& settings) {
+                    return queue_options_of(settings).estimator == QueueEstimator::footprints;
+                }};
 }
 
 } // namespace argand

@@ -7,10 +7,12 @@ namespace argand {
 namespace {
 
 PlanRequest request_of(const RenderSettings& settings, MethodTable methods) {
-    const Abilities& abilities = methods.at(settings.method).abilities;
+    const MethodInfo& method = methods.at(settings.method);
+    const Abilities& abilities = method.abilities;
     return {.follow_roughness = settings.follow_roughness,
             .photon_map = abilities.photon_map,
-            .footprints = abilities.footprints,
+            .footprints =
+                method.wants_footprints ? method.wants_footprints(settings) : abilities.footprints,
             .final_gather = settings.final_gather,
             .everything = settings.everything};
 }

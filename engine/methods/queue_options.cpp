@@ -1,6 +1,7 @@
 #include "methods/queue_options.hpp"
 
 #include "methods/fixed_radius.hpp"
+#include "methods/footprint_estimation.hpp"
 #include "methods/nearest_photons.hpp"
 #include "methods/render_options.hpp"
 
@@ -54,14 +55,23 @@ Option fill_option() {
 Option estimator_option() {
     return choice_option("estimator",
                          "Photons that each estimate takes: those within one radius, as photons "
-                         "does, or the k nearest, as knn does",
-                         {"radius", "knn"});
+                         "does, the k nearest, as knn does, or those whose footprints it lies in, "
+                         "as footprints does",
+                         {"radius", "knn", "footprints"});
 }
 
 Option rebuild_option() {
     return choice_option("rebuild",
-                         "For comparison: build a tree over all photons of the queue in each frame",
-                         {"off", "lbvh"});
+                         "For comparison: build a tree over all photons of the queue in each "
+                         "frame, that of other methods, or a kd-tree over photons",
+                         {"off", "lbvh", "kdtree"});
+}
+
+Option classify_option() {
+    return choice_option("classify",
+                         "How new photons find their cells: each descends to its cell, or, for "
+                         "comparison, each cell tests all photons",
+                         {"descent", "leaves"});
 }
 
 Option cells_option() {
@@ -80,18 +90,25 @@ QueueOptions queue_options_of(const RenderSettings& settings) {
         options.half_life = own_number(settings, half_life_option());
     }
     options.fills = fill_option().get(settings) == "all";
-    options.rebuild = rebuild_option().get(settings) == "lbvh";
+    const std::string rebuild = rebuild_option().get(settings);
+    options.rebuild = rebuild == "lbvh"     ? QueueRebuild::lbvh
+                      : rebuild == "kdtree" ? QueueRebuild::kdtree
+                                            : QueueRebuild::none;
+    options.classify = classify_option().get(settings) == "leaves" ? QueueClassify::leaves
+                                                                   : QueueClassify::descent;
     options.cells =
         cells_option().get(settings) == "photons" ? QueueCells::photons : QueueCells::triangles;
-    options.estimator = estimator_option().get(settings) == "knn" ? QueueEstimator::nearest
-                                                                  : QueueEstimator::radius;
+    const std::string estimator = estimator_option().get(settings);
+    options.estimator = estimator == "knn"          ? QueueEstimator::nearest
+                        : estimator == "footprints" ? QueueEstimator::footprints
+                                                    : QueueEstimator::radius;
     return options;
 }
 
 std::vector<Option> all_queue_options() {
-    std::vector<Option> options =
-        all_photon_map_options({window_option(), half_life_option(), fill_option(),
-                                estimator_option(), rebuild_option(), cells_option()});
+    std::vector<Option> options = all_photon_map_options(
+        {window_option(), half_life_option(), fill_option(), estimator_option(), rebuild_option(),
+         classify_option(), cells_option()});
     // Widths do not fall from frame to frame, and no photon is sorted by a code.
     constexpr std::array<std::string_view, 5> without{"progressive", "passes", "r1",
                                                       "radius-exponent", "wide-codes"};
@@ -100,6 +117,10 @@ std::vector<Option> all_queue_options() {
     });
     for (const Option& option : nearest_options()) {
         options.push_back(option);
+    }
+    for (Option option : footprint_options()) {
+        option.sweep = {}; // they matter to one estimator only
+        options.push_back(std::move(option));
     }
     for (const Option& option : fixed_radius_options()) {
         if (option.name == "kernel" || option.name == "support") {

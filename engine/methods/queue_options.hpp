@@ -13,15 +13,24 @@ namespace argand {
 enum class QueueCells : std::uint8_t { triangles, photons };
 
 /// How densities are estimated from the photons of a queue.
-enum class QueueEstimator : std::uint8_t { radius, nearest };
+enum class QueueEstimator : std::uint8_t { radius, nearest, footprints };
+
+/// The tree that is built for each frame over all photons of the window, for comparison: none, that
+/// of other methods, or a kd-tree of the photons' own (Shi 2012, §4.1).
+enum class QueueRebuild : std::uint8_t { none, lbvh, kdtree };
+
+/// How new photons are sorted into cells: each descends to its cell, or each cell tests all of them
+/// (Shi 2012, algorithm 1).
+enum class QueueClassify : std::uint8_t { descent, leaves };
 
 /// Options of the method `photon-queue` (docs/methods/photon-queue.md).
 struct QueueOptions {
     std::uint32_t window = 10;       ///< frames in which all photons are replaced
     std::optional<double> half_life; ///< of photons where light moves, in frames; none: from the
                                      ///< motion
-    bool fills = true;    ///< an empty queue is filled at once; else by a block in each frame
-    bool rebuild = false; ///< a tree over the photons is built for each frame
+    bool fills = true; ///< an empty queue is filled at once; else by a block in each frame
+    QueueRebuild rebuild = QueueRebuild::none;
+    QueueClassify classify = QueueClassify::descent;
     QueueCells cells = QueueCells::triangles;
     QueueEstimator estimator = QueueEstimator::radius;
 };

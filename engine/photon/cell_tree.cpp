@@ -3,6 +3,7 @@
 #include "shared/kdtree.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace argand {
@@ -113,6 +114,29 @@ std::uint32_t cell_of(const CellTree& tree, const glm::vec3& point) {
         node = point[static_cast<int>(axis_of(n))] < n.split ? node + 1 : n.link & cell_link_mask;
     }
     return tree.nodes[node].link & cell_link_mask;
+}
+
+std::vector<BoxRecord> cell_extents(const CellTree& tree) {
+    constexpr float end = std::numeric_limits<float>::max();
+    struct Extent {
+        glm::vec3 low{-end}, high{end};
+    };
+    std::vector<Extent> of_nodes(tree.nodes.size());
+    std::vector<BoxRecord> extents(tree.cells);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) { // children lie behind their parents
+        const Extent e = of_nodes[i];
+        const CellNode& node = tree.nodes[i];
+        const std::uint32_t link = node.link & cell_link_mask;
+        if (axis_of(node) == cell_is_leaf) {
+            extents[link] = {e.low.x, e.low.y, e.low.z, 0, e.high.x, e.high.y, e.high.z, 0};
+            continue;
+        }
+        const int axis = static_cast<int>(axis_of(node));
+        of_nodes[i + 1] = of_nodes[link] = e;
+        of_nodes[i + 1].high[axis] = std::min(e.high[axis], node.split);
+        of_nodes[link].low[axis] = std::max(e.low[axis], node.split);
+    }
+    return extents;
 }
 
 std::vector<CellNode> planes_of(std::span<const std::uint32_t> words) {

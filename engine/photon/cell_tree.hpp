@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shared/geometry_records.h"
 #include "shared/queue_records.h"
 
 #include <cstdint>
@@ -21,6 +22,10 @@ struct CellTree {
 
 /// The cell that a point lies in.
 std::uint32_t cell_of(const CellTree& tree, const glm::vec3& point);
+
+/// The box of each cell, half open, which reaches as far as there are numbers where no plane ends
+/// it.
+std::vector<BoxRecord> cell_extents(const CellTree& tree);
 
 /// The planes of a kd-tree (accel/kdtree_host.hpp), without its elements.
 std::vector<CellNode> planes_of(std::span<const std::uint32_t> kd_tree_words);

@@ -219,44 +219,6 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     return samples;
 }
 
-/// Computes the footprints of the map's records. Waits for the device.
-void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
-                     const FootprintScale& scale, PhotonMap& map) {
-    map.footprints =
-        unshared(device, w.last_footprints, "photon footprints", w.capacity * sizeof(glm::uvec4));
-    map.flatness = scale.flatness;
-    FootprintParams params{.scale = scale};
-    params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
-    constexpr double least_overlap = 4;
-    params.least_area_radius = static_cast<float>(std::sqrt(
-        least_overlap * scene.areas.area / (std::numbers::pi * std::max(map.area_samples, 1u))));
-    upload_word(device, w.counters, counter_area_places, 0);
-    const Buffer area_places =
-        device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
-    const Count stored(w.counters, counter_stored, w.capacity);
-    // `heads` is free until the tree's leaves are marked.
-    dispatch(device,
-             kernels::photon_footprints{.photons = w.photons,
-                                        .order = w.order,
-                                        .counters = w.counters,
-                                        .offsets = w.offsets,
-                                        .footprints = map.footprints,
-                                        .shares = w.heads,
-                                        .area_places = area_places,
-                                        .params = params},
-             stored);
-    dispatch_indirect(device,
-                      kernels::area_footprints{.photons = map.photons,
-                                               .area_places = area_places,
-                                               .counters = w.counters,
-                                               .footprints = map.footprints,
-                                               .params = params},
-                      w.counters, counter_area_places);
-    reduce_sum(device, w.heads, w.counters, counter_footprints, stored);
-    map.mean_footprints =
-        double(download_word(device, w.counters, counter_footprints)) / area_shares;
-}
-
 /// Builds the tree over the sorted records. Waits for the device.
 void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& map) {
     const Count photons(w.counters, counter_stored, w.capacity);
@@ -340,6 +302,9 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         batch.first = static_cast<std::uint32_t>(pass.first + first);
         batch.count = static_cast<std::uint32_t>(std::min(w.slots, pass.count - first));
         batch.inverse_total = static_cast<float>(1.0 / static_cast<double>(pass.count));
+        batch.inverse_spread = pass.spread > 0
+                                   ? static_cast<float>(1.0 / static_cast<double>(pass.spread))
+                                   : batch.inverse_total;
         batch.bounces = pass.bounces;
         batch.flux_unit = flux_unit;
         for (;;) {
@@ -373,6 +338,49 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
     const std::vector<std::uint32_t> counters =
         download<std::uint32_t>(device, w.counters, counter_count);
     return StoredPhotons{counters[counter_stored_slots], counters[counter_photons], pass.count};
+}
+
+FootprintParams footprint_params(const DeviceScene& scene, const FootprintScale& scale,
+                                 std::uint32_t area_samples) {
+    FootprintParams params{.scale = scale};
+    params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
+    constexpr double least_overlap = 4;
+    params.least_area_radius = static_cast<float>(std::sqrt(
+        least_overlap * scene.areas.area / (std::numbers::pi * std::max(area_samples, 1u))));
+    return params;
+}
+
+void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                     const FootprintScale& scale, PhotonMap& map) {
+    map.footprints =
+        unshared(device, w.last_footprints, "photon footprints", w.capacity * sizeof(glm::uvec4));
+    map.flatness = scale.flatness;
+    const FootprintParams params = footprint_params(scene, scale, map.area_samples);
+    upload_word(device, w.counters, counter_area_places, 0);
+    const Buffer area_places =
+        device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
+    const Count stored(w.counters, counter_stored, w.capacity);
+    // `heads` is free until the tree's leaves are marked.
+    dispatch(device,
+             kernels::photon_footprints{.photons = w.photons,
+                                        .order = w.order,
+                                        .counters = w.counters,
+                                        .offsets = w.offsets,
+                                        .footprints = map.footprints,
+                                        .shares = w.heads,
+                                        .area_places = area_places,
+                                        .params = params},
+             stored);
+    dispatch_indirect(device,
+                      kernels::area_footprints{.photons = map.photons,
+                                               .area_places = area_places,
+                                               .counters = w.counters,
+                                               .footprints = map.footprints,
+                                               .params = params},
+                      w.counters, counter_area_places);
+    reduce_sum(device, w.heads, w.counters, counter_footprints, stored);
+    map.mean_footprints =
+        double(download_word(device, w.counters, counter_footprints)) / area_shares;
 }
 
 std::uint32_t append_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,

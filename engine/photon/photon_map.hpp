@@ -37,6 +37,8 @@ struct PhotonPass {
     std::uint64_t first = 0;   ///< number of the pass's first photon in the whole picture
     std::uint64_t count = 0;   ///< photons emitted; they share each light's power
     std::uint32_t bounces = 0; ///< scatterings at most of a stored photon
+    /// Photons of all passes whose photons are in one map, for their spacing; 0: `count`.
+    std::uint64_t spread = 0;
 };
 
 /// The photons that a pass has stored.
@@ -99,6 +101,15 @@ struct PhotonMapSettings {
 std::uint32_t append_area_samples(Device& device, const DeviceScene& scene,
                                   PhotonWorkspace& workspace, const StoredPhotons& stored,
                                   const PhotonMapSettings& settings);
+
+/// How footprints of this scale are made.
+FootprintParams footprint_params(const DeviceScene& scene, const FootprintScale& scale,
+                                 std::uint32_t area_samples);
+
+/// Computes the footprints of the records that lie in workspace.order, and in this order in
+/// map.photons. Waits for the device.
+void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                     const FootprintScale& scale, PhotonMap& map);
 
 /// Builds the map over the stored photons and over samples of the surfaces' area, which tell a
 /// query how much of its disc lies on surfaces. Waits for the device.

@@ -17,34 +17,46 @@ namespace argand {
 struct PhotonQueue {
     std::uint32_t window = 1; ///< blocks of photons; the area samples are the one behind them
     std::uint32_t leaf_size = 16;
-    CellTree tree;             ///< without nodes before the first block
-    std::uint32_t cells = 0;   ///< twice those of the tree if caustic photons lie apart
-    std::uint32_t caustic = 0; ///< the first cell of caustic photons; 0: none
-    std::uint64_t entries = 0; ///< records that are in the queue
-    std::uint64_t crowded = 0; ///< records in cells that hold more than twice leaf_size
+    bool footprints = false;  ///< estimates are those of footprints
+    bool leaves_test = false; ///< each cell tests all new photons (Shi 2012, algorithm 1), instead
+                              ///< of each photon descending to its cell
+    const char* stage = "update queue"; ///< in which it is updated, and its maps are made
+    CellTree tree;                      ///< without nodes before the first block
+    std::uint32_t cells = 0;            ///< twice those of the tree if caustic photons lie apart
+    std::uint32_t caustic = 0;          ///< the first cell of caustic photons; 0: none
+    std::uint64_t entries = 0;          ///< records that are in the queue
+    std::uint64_t crowded = 0;          ///< records in cells that hold more than twice leaf_size
     std::uint64_t crowded_when_divided = 0;
     std::uint64_t divided_for = 0;  ///< records for which space was divided
     std::vector<QueueBlock> blocks; ///< window + 1
     std::uint64_t block_room = 0, area_room = 0;
 
-    Buffer nodes;     ///< CellNode
+    Buffer nodes;     ///< CellNode; empty: the cells are the leaves of a kd-tree
+    Buffer kd_words;  ///< of this kd-tree
+    Buffer extents;   ///< BoxRecord of each of the tree's cells, if leaves_test
     Buffer distances; ///< of cells from the next, for lbvh_fit
     Buffer boxes;     ///< see queue_box.h
     Buffer emptied;   ///< uint per cell: blocks up to this moment do not count there
     Buffer stored;    ///< PhotonRecord, by block
+    /// uvec4 for each of these, if there are footprints: differentials of photons
+    /// (PhotonWorkspace::offsets), and dual axes of area samples (queue_footprints.hpp).
+    Buffer offsets;
+    double area_scale = 0; ///< FootprintScale::diffuse for which the latter were made; 0: not yet
     Buffer of_entry, cell_of_entry, starts;                ///< see queue_move.h
     Buffer next_of_entry, next_cell_of_entry, next_starts; ///< memory for the next ones
-    Buffer last_sorted;                                    ///< of the last map
+    Buffer last_sorted, last_footprints;                   ///< of the last map
 };
 
 /// An empty queue.
-PhotonQueue make_photon_queue(std::uint32_t window, std::uint32_t leaf_size);
+PhotonQueue make_photon_queue(std::uint32_t window, std::uint32_t leaf_size,
+                              bool footprints = false);
 
 /// Records to add to a queue, some of which may be empty slots.
 struct QueueRecords {
     const Buffer& photons;
     std::uint64_t first = 0, slots = 0;
     std::uint64_t records = 0; ///< that are not empty
+    Buffer offsets;            ///< of photons with footprints: PhotonWorkspace::offsets
 };
 
 /// Empties the queue, and divides space into cells for these records, of whose photons there will
@@ -72,12 +84,11 @@ void replace_block(Device& device, PhotonQueue& queue, std::uint32_t block, std:
 void empty_near(Device& device, PhotonQueue& queue, const std::vector<BoxRecord>& moved,
                 double reach, std::uint32_t moment);
 
-/// The photon map of what is in the queue, with the photons' flux times the weights of their
-/// blocks. Waits for the device.
-PhotonMap map_of_queue(Device& device, PhotonQueue& queue, const SampledPart& corrected);
-
 /// Sets the cells of an empty queue. Records only.
 void set_queue_cells(Device& device, PhotonQueue& queue, CellTree tree, bool parts_caustics);
+
+/// Makes the memory of so many cells, which are empty. Records only.
+void make_cell_memory(Device& device, PhotonQueue& queue, std::uint32_t cells);
 
 /// Makes memory of the queue's room, and keeps what is in the queue. before: the blocks where they
 /// lie in the old memory. Throws Error if the device cannot address so much.

@@ -51,7 +51,9 @@ struct PhotonBatch {
     uint bounces;          // most scatterings of a stored photon
     uint capacity;         // slots for stored photons
     float32 flux_unit;     // flux of one unit of the fixed-point sums
-    uint pad;
+    // 1 / photons that cover the scene together, for the spacing between them: those of the pass,
+    // and of others that count with it.
+    float32 inverse_spread;
 };
 
 struct PhotonAdvanceParams {

@@ -1,7 +1,7 @@
 #ifndef ARGAND_SHARED_QUEUE_RECORDS_H
 #define ARGAND_SHARED_QUEUE_RECORDS_H
 
-#include "shared/prelude.h"
+#include "shared/footprint_records.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -47,6 +47,14 @@ struct QueueParams {
     uint leaf_size; // records that a cell should hold at most
     float32 reach;  // about moved boxes
     uint pad0, pad1, pad2;
+};
+
+struct QueueFootprintParams {
+    FootprintScale scale;
+    float32 inverse_surface_area; // of the scene
+    float32 area_widening;        // of area samples' footprints since they were made
+    uint count;                   // records in the queue
+    uint pad;
 };
 
 ARGAND_SHARED_END

@@ -59,8 +59,10 @@ TEST_F(PhotonQueueFrames, FullQueueIsTheMapOfAllItsPhotons) {
         rebuilt.method = "photons";
         const RenderResult expected = render(scene, rebuilt);
         expect_equal_to_rounding(render(scene, settings), expected);
-        settings.own["rebuild"] = "lbvh";
-        expect_equal_to_rounding(render(scene, settings), expected);
+        for (const char* tree : {"lbvh", "kdtree"}) {
+            settings.own["rebuild"] = tree;
+            expect_equal_to_rounding(render(scene, settings), expected);
+        }
         // One block in each frame: after the last of the window, and long after.
         RenderSettings gradual = queue_settings(window, false);
         gradual.radius = 0.4;
@@ -87,6 +89,84 @@ TEST_F(PhotonQueueFrames, FindsTheNearestPhotonsOfAllBlocks) {
     const RenderResult found = render(lit_room(), settings);
     expect_equal_to_rounding(found, render(lit_room(), rebuilt));
     EXPECT_EQ(found.statistics.neighbours, 60u);
+}
+
+TEST_F(PhotonQueueFrames, FindsTheFootprintsOfAllBlocks) {
+    const Scene scene = lit_room();
+    World world(device(), scene);
+    RenderSettings rebuilt = queue_settings(4);
+    rebuilt.radius = 0.4;
+    rebuilt.footprints.smoothing = 0.3;
+    rebuilt.method = "footprints";
+    rebuilt.wide_codes =
+        true; // no two photons have one code: area samples have the same neighbours
+    const RenderResult expected = render(scene, rebuilt);
+    for (const std::uint32_t window : {1u, 4u}) {
+        RenderSettings settings = queue_settings(window);
+        settings.radius = rebuilt.radius;
+        settings.footprints = rebuilt.footprints;
+        settings.own["estimator"] = "footprints";
+        const RenderResult found = render(scene, settings);
+        expect_equal_to_rounding(found, expected);
+        EXPECT_EQ(found.statistics.smoothing, expected.statistics.smoothing);
+        EXPECT_RELATIVE(found.statistics.mean_footprints, expected.statistics.mean_footprints,
+                        1e-5);
+        settings.own["rebuild"] = "kdtree";
+        expect_equal_to_rounding(render(scene, settings), expected);
+        // One block in each frame: when the window is full, and long after.
+        settings.own["rebuild"] = "off";
+        settings.own["queue-fill"] = "gradual";
+        Session session(world, scene, settings);
+        RenderResult last;
+        for (std::uint32_t i = 0; i < window; ++i) {
+            last = frame(session);
+        }
+        expect_equal_to_rounding(last, expected);
+        expect_equal_to_rounding(frame(session), expected);
+    }
+}
+
+TEST_F(PhotonQueueFrames, LearnsFootprintsAsLargeAsThoseOfTheMethod) {
+    RenderSettings settings = queue_settings(4);
+    settings.own["estimator"] = "footprints";
+    RenderSettings rebuilt = settings;
+    rebuilt.method = "footprints";
+    const RenderResult found = render(lit_room(), settings);
+    const RenderResult expected = render(lit_room(), rebuilt);
+    EXPECT_RELATIVE(found.statistics.smoothing, expected.statistics.smoothing, 1e-6);
+    EXPECT_RELATIVE(found.statistics.mean_footprints, expected.statistics.mean_footprints, 1e-4);
+}
+
+TEST_F(PhotonQueueFrames, FootprintsOfAMovingLightAreNotFarBehind) {
+    Scene scene = lit_room();
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(8);
+    settings.photons = 80'000;
+    settings.own["estimator"] = "footprints";
+    Session session(world, scene, settings);
+    const float end = scene.lights[0].position.x;
+    for (int i = 8; i >= 0; --i) {
+        scene.lights[0].position.x = end - 0.03f * static_cast<float>(i);
+        frame(session);
+    }
+    scene.lights[0].position.x = end + 0.03f;
+    const RenderResult moving = frame(session);
+    EXPECT_EQ(moving.statistics.non_finite, 0u);
+    const Image truth = layer(render(scene, settings), "");
+    EXPECT_LT(compare(layer(moving, ""), truth).rel_mse, 0.02);
+}
+
+TEST_F(PhotonQueueFrames, CellsMayTestAllPhotons) {
+    const Scene scene = lit_room();
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(3);
+    RenderSettings tests = settings;
+    tests.own["classify"] = "leaves";
+    Session session(world, scene, settings);
+    Session other(world, scene, tests);
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_TRUE(same_bits(frame(other), frame(session)));
+    }
 }
 
 TEST_F(PhotonQueueFrames, SlowFirstFramesAreAsBrightAsTheOthers) {

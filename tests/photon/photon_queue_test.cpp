@@ -1,7 +1,8 @@
 // The photons queue against a model on the host: what is in it, in which cells, and what estimates
 // find there.
 #include "photon/map_queries.hpp"
-#include "photon/photon_queue.hpp"
+#include "photon/queue_kdtree.hpp"
+#include "photon/queue_map.hpp"
 #include "shared/photon.h"
 #include "world/world.hpp"
 
@@ -149,7 +150,12 @@ protected:
     }
 
     void expect_estimates(PhotonQueue& queue, const std::vector<PhotonRecord>& photons) {
-        const PhotonMap map = map_of_queue(device(), queue, {});
+        expect_estimates(map_of_queue(device(), queue, {}), photons, queue.caustic > 0);
+    }
+
+    /// has_caustic_part: whether caustic photons lie in a part of their own.
+    void expect_estimates(const PhotonMap& map, const std::vector<PhotonRecord>& photons,
+                          bool has_caustic_part) {
         const Plan plan = make_plan({}, {.everything = true});
         RadiusEstimator estimator(device(), plan, {queue_radius, queue_radius}, gather_budget,
                                   {.uniform_kernel = true, .ball = true});
@@ -159,7 +165,7 @@ protected:
             queries.push_back({{place(random_), place(random_), place(random_)}});
         }
         for (const std::uint32_t part : {map_whole, map_indirect, map_caustic}) {
-            if (part != map_whole && queue.caustic == 0) {
+            if (part != map_whole && !has_caustic_part) {
                 continue;
             }
             bool finished = false;
@@ -250,6 +256,66 @@ TEST_F(PhotonQueues, EstimatesFindThePhotonsOfAllBlocks) {
             p.flux_b *= 0.25f;
         }
         expect_estimates(queue, all);
+    }
+}
+
+TEST_F(PhotonQueues, CellsThatTestAllPhotonsListThoseThatDescend) {
+    for (const bool caustics : {false, true}) {
+        PhotonQueue found = make_photon_queue(3, 100);
+        found.leaves_test = true;
+        PhotonQueue expected = make_photon_queue(3, 100);
+        const std::vector<PhotonRecord> first = random_photons(20'000, caustics);
+        divide(found, first, caustics);
+        divide(expected, first, caustics);
+        // More than a cell tests in one dispatch, a few, one and none.
+        for (std::uint32_t i = 0; const std::size_t count : {20'000u, 3u, 1u, 0u, 700u}) {
+            std::vector<PhotonRecord> photons = random_photons(count, caustics);
+            for (const BoxRecord& box : boxes_of(expected.tree)) { // on planes between cells
+                if (count == 700 && std::isfinite(box.low_x) && std::isfinite(box.high_y)) {
+                    photons.push_back(photon_at({box.low_x, box.high_y, 0.5f}));
+                }
+            }
+            replace(found, i % 3, i + 1, photons);
+            replace(expected, i % 3, i + 1, photons);
+            ++i;
+            ASSERT_EQ(found.entries, expected.entries);
+            const auto words = [&](const Buffer& buffer, std::uint64_t size) {
+                return download<std::uint32_t>(device(), buffer, size);
+            };
+            EXPECT_EQ(words(found.of_entry, found.entries),
+                      words(expected.of_entry, found.entries));
+            EXPECT_EQ(words(found.cell_of_entry, found.entries),
+                      words(expected.cell_of_entry, found.entries));
+            EXPECT_EQ(words(found.starts, found.cells + 1ull),
+                      words(expected.starts, found.cells + 1ull));
+        }
+    }
+}
+
+TEST_F(PhotonQueues, LeavesOfTheirOwnKdTreeHoldAllPhotons) {
+    std::vector<PhotonRecord> in_one_place;
+    for (int i = 0; i < 1'500; ++i) {
+        in_one_place.push_back(photon_at({0.25f, 0.5f, -0.25f}, i % 2 == 0));
+    }
+    for (const bool caustics : {false, true}) {
+        for (const std::uint32_t leaf_size : {1u, 16u}) {
+            std::vector<std::vector<PhotonRecord>> sets{in_one_place};
+            for (const std::size_t count : {0u, 1u, 2u, 31u, 33u, 3'000u}) {
+                sets.push_back(random_photons(count, caustics));
+            }
+            for (const std::vector<PhotonRecord>& photons : sets) {
+                SCOPED_TRACE(::testing::Message() << photons.size() << caustics << leaf_size);
+                PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
+                if (!photons.empty()) {
+                    device().upload(workspace.photons, 0, std::as_bytes(std::span(photons)));
+                }
+                PhotonQueue queue =
+                    sort_by_kdtree(device(), workspace, photons.size(), 0.1, leaf_size, caustics);
+                EXPECT_EQ(queue.entries, photons.size());
+                const PhotonMap map = map_of_queue(device(), queue, {});
+                expect_estimates(map, photons, caustics);
+            }
+        }
     }
 }
 

@@ -10,6 +10,11 @@ layout(set = 0, binding = 2) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 3) readonly buffer Blocks { QueueBlock blocks[]; };
 layout(set = 0, binding = 4) buffer Boxes { uint boxes[]; };
 layout(set = 0, binding = 5) writeonly buffer Stored { PhotonRecord stored[]; };
+layout(set = 0, binding = 6) readonly buffer Offsets { uvec4 offsets[]; };
+layout(set = 0, binding = 7) writeonly buffer StoredOffsets { uvec4 stored_offsets[]; };
 layout(push_constant) uniform Push { QueueParams params; };
+
+// Whether photons carry differentials.
+layout(constant_id = 0) const bool footprints = false;
 
 #include "shared/kernels/photon/queue_store.h"

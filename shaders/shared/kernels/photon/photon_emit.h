@@ -83,7 +83,7 @@ FN void main() {
     }
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
-        real photons = real(1.0) / batch.inverse_total;
+        real photons = real(1.0) / batch.inverse_spread;
         differentials[slot] = differential_record(light_differential(
             light, light_kinds, p, scene[0].radius, photons * chosen.probability * density,
             photons * chosen.emitter_probability));

@@ -154,7 +154,7 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
                              real survival) {
     BsdfSample s = out_of.sampled;
     roulette_differential(d, s.probability * survival * out_of.concentration);
-    real emitted = out_of.concentration / batch.inverse_total;
+    real emitted = out_of.concentration / batch.inverse_spread;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
     } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {

@@ -1,5 +1,3 @@
-// Finds the cell of each record by a descent through the tree of cells. Empty slots get the number
-// behind all cells.
 FN uint cell_at(vec3 p) {
     uint node = 0u;
     uint link = nodes[0].link;
@@ -12,17 +10,4 @@ FN uint cell_at(vec3 p) {
     return link & cell_link_mask;
 }
 
-FN void main() {
-    uint i = THREAD_INDEX;
-    if (i >= params.count) {
-        return;
-    }
-    PhotonRecord p = photons[params.first + i];
-    uint cell = params.cells;
-    if (p.normal != no_photon) {
-        bool apart = photon_is_caustic(p.normal) && (p.normal & area_sample_bit) == 0u;
-        cell = cell_at(vec3(p.x, p.y, p.z)) + (apart ? params.caustic : 0u);
-    }
-    cells[i] = cell;
-    order[i] = i;
-}
+#include "shared/kernels/photon/queue_sort.h"

@@ -7,7 +7,12 @@ FN void main() {
     if (i >= params.count || cells[i] >= params.cells) {
         return;
     }
-    PhotonRecord p = photons[params.first + order[i]];
-    stored[blocks[params.block].first + i] = p;
+    uint slot = params.first + order[i];
+    uint place = blocks[params.block].first + i;
+    PhotonRecord p = photons[slot];
+    stored[place] = p;
+    if (footprints) {
+        stored_offsets[place] = offsets[slot];
+    }
     grow(cells[i], vec3(p.x, p.y, p.z), vec3(p.x, p.y, p.z));
 }

@@ -1,0 +1,13 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/geometry_records.h"
+#include "shared/photon.h"
+#include "shared/queue_records.h"
+
+layout(set = 0, binding = 0) readonly buffer Extents { BoxRecord extents[]; };
+layout(set = 0, binding = 1) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 2) buffer Counts { uint counts[]; };
+layout(push_constant) uniform Push { QueueParams params; };
+
+#include "shared/kernels/photon/queue_leaf_count.h"

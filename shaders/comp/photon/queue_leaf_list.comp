@@ -1,0 +1,15 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/geometry_records.h"
+#include "shared/photon.h"
+#include "shared/queue_records.h"
+
+layout(set = 0, binding = 0) readonly buffer Extents { BoxRecord extents[]; };
+layout(set = 0, binding = 1) readonly buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 2) buffer Places { uint places[]; };
+layout(set = 0, binding = 3) writeonly buffer Cells { uint cells[]; };
+layout(set = 0, binding = 4) writeonly buffer Order { uint order[]; };
+layout(push_constant) uniform Push { QueueParams params; };
+
+#include "shared/kernels/photon/queue_leaf_list.h"
