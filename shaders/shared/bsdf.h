@@ -6,22 +6,20 @@
 // The BSDF is a sum of lobes. All but `pass` are scaled by the surface's alpha (coverage):
 // - diffuse: Lambertian, under the specular layer of a dielectric or beside the specular lobe of
 //   modified Phong.
-// - glossy: GGX reflection by metal and by the dielectric's layer, or the specular lobe of modified
-//   Phong.
+// - glossy: GGX reflection by metal and by the dielectric's layer, with what microfacets reflect
+//   more than once, or the specular lobe of modified Phong.
 // - mirror: the same reflection where the surface is smooth, and reflection at the interface of a
 //   solid dielectric.
 // - transmit: straight through a thin wall, or refracted at the interface of a solid dielectric;
 //   tinted by the base colour; always smooth.
 // - pass: straight through and untinted, where the surface is absent (a share of 1 - alpha).
 //
-// The BSDF is reciprocal except for refraction's factor eta_scale. As in glTF, Fresnel's factor at
-// the half vector mixes layer and base, so a bright dielectric seen at a grazing angle may reflect
-// more than it receives.
+// The BSDF is reciprocal except for refraction's factor eta_scale.
 #ifndef ARGAND_SHARED_BSDF_H
 #define ARGAND_SHARED_BSDF_H
 
 #include "shared/fresnel.h"
-#include "shared/ggx.h"
+#include "shared/ggx_energy.h"
 #include "shared/material_record.h"
 #include "shared/phong.h"
 
@@ -169,6 +167,43 @@ FN vec3 layer_reflectance(IN(ReflectionParameters) r, real cosine) {
            dielectric_fresnel(r, cosine) * r.layer_share;
 }
 
+// Whether metal and layer are GGX lobes, which reflect some light more than once.
+FN bool layer_is_rough(IN(ReflectionParameters) r) {
+    return may_have(r.absent, LOBE_GLOSSY) && may_have(r.absent, MATERIAL_GGX) && !is_phong(r) &&
+           !alpha_is_delta(r.absent, r.alpha);
+}
+
+// What metal and layer return of the light that microfacets reflect more than once.
+FN vec3 repeated_color(IN(ReflectionParameters) r, real lost_average) {
+    return ggx_repeated_color(r.base_color, real(1.0), lost_average) * r.metal_share +
+           ggx_repeated_color(r.f0, r.f90, lost_average) * r.layer_share;
+}
+
+// Albedo of the glossy or mirror lobe of metal and layer for light from a direction of this cosine;
+// of a rough one within 0.01.
+FN vec3 layer_albedo(IN(ReflectionParameters) r, real cosine) {
+    if (!layer_is_rough(r)) {
+        return layer_reflectance(r, cosine);
+    }
+    real lost = ggx_lost(r.alpha, cosine);
+    real grazing = ggx_grazing(r.alpha, cosine, lost);
+    real inner = real(1.0) - lost - grazing; // weight of the reflectance at normal incidence
+    return (r.base_color * inner + vec3(grazing)) * r.metal_share +
+           (r.f0 * inner + vec3(r.f90 * grazing)) * r.layer_share +
+           repeated_color(r, ggx_lost_average(r.alpha)) * lost;
+}
+
+// Probability with which a sample of the rough layer is one of repeated reflection: its share of
+// the albedo, as far as Fresnel's factor is the same at all angles.
+FN real repeated_share(IN(ReflectionParameters) r, real lost, vec3 repeated) {
+    vec3 once =
+        (r.base_color + (vec3(real(1.0)) - r.base_color) * real(1.0 / 21.0)) * r.metal_share +
+        (r.f0 + (vec3(r.f90) - r.f0) * real(1.0 / 21.0)) * r.layer_share;
+    real more = lost * mean_component(repeated);
+    // The sum is 0 only where nothing is reflected.
+    return more / max(more + (real(1.0) - lost) * mean_component(once), real(1.0e-30));
+}
+
 // Part of the light that passes the layer: 1 less Schlick's approximation. grazing_less: 1 less its
 // weight of f90. No difference of nearly equal numbers is taken.
 FN real passes_layer(IN(ReflectionParameters) r, real grazing_less) {
@@ -178,8 +213,22 @@ FN real passes_layer(IN(ReflectionParameters) r, real grazing_less) {
     return (real(1.0) - r.f90) + (r.f90 - max_component(r.f0)) * grazing_less;
 }
 
-// The same at a cosine to the normal: 1 - (1 - c)^5, expanded.
+// Part of the light that passes a rough layer, given the means of what single reflection loses and
+// of its weight of f90: 1 less its albedo.
+FN real passes_rough_layer(IN(ReflectionParameters) r, real lost, real grazing) {
+    real f0 = max_component(r.f0);
+    real average = ggx_lost_average(r.alpha);
+    real repeated = ggx_repeated_color(vec3(f0), r.f90, average).x;
+    return max(passes_layer(r, real(1.0) - grazing) + lost * (f0 - repeated), real(0.0));
+}
+
+// Part of the light that passes the layer at a cosine to the normal. For a smooth one 1 - (1 -
+// c)^5, expanded.
 FN real passes_layer_at(IN(ReflectionParameters) r, real cosine) {
+    if (layer_is_rough(r)) {
+        real lost = ggx_lost(r.alpha, cosine);
+        return passes_rough_layer(r, lost, ggx_grazing(r.alpha, cosine, lost));
+    }
     real c = clamp(cosine, real(0.0), real(1.0));
     real less = c * (real(5.0) + c * (real(-10.0) + c * (real(10.0) + c * (real(-5.0) + c))));
     return passes_layer(r, less);
@@ -203,6 +252,9 @@ FN vec3 diffuse_reflectance(IN(ReflectionParameters) r, real cosine_o, real cosi
     }
     // The mean of (1 - c)^5 over the hemisphere is 1/21.
     real average = passes_layer(r, real(20.0 / 21.0));
+    if (layer_is_rough(r)) {
+        average = passes_rough_layer(r, ggx_lost_average(r.alpha), ggx_grazing_average(r.alpha));
+    }
     return reflectance * (passes_layer_at(r, cosine_i) / max(average, real(1.0e-6)));
 }
 
@@ -228,9 +280,10 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
         return delta;
     }
     if (!is_solid(m)) {
-        delta.transmitted =
-            base_color(m) *
-            (clear_share(m) * (real(1.0) - max_component(dielectric_fresnel(reflection, cosine))));
+        real passed = layer_is_rough(reflection)
+                          ? passes_layer_at(reflection, cosine)
+                          : real(1.0) - max_component(dielectric_fresnel(reflection, cosine));
+        delta.transmitted = base_color(m) * (clear_share(m) * passed);
         return delta;
     }
     vec3 reflectance = vec3(real(1.0));
@@ -286,7 +339,7 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
         albedo += diffuse_albedo(reflection, wo.z);
     }
     if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
-        albedo += layer_reflectance(reflection, wo.z);
+        albedo += layer_albedo(reflection, wo.z);
     }
     if (wants_lobe(m, lobes, LOBES_DELTA)) {
         DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
@@ -304,7 +357,7 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec3 p = vec3(real(0.0));
     ReflectionParameters reflection = reflection_parameters(m);
-    vec3 layer = layer_reflectance(reflection, cosine);
+    vec3 layer = layer_albedo(reflection, cosine);
     if (wants_lobe(m, present, LOBE_DIFFUSE)) {
         p.x = mean_component(diffuse_albedo(reflection, cosine));
     }
@@ -323,6 +376,32 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     }
     real sum = p.x + p.y + p.z;
     return sum > real(0.0) ? p / sum : p;
+}
+
+// Value of the reflection by a rough layer without the cosine [1/sr], and the density of wi. h: sum
+// of wo and wi, h2: its squared length, cosine: half its length.
+FN vec3 rough_layer_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, vec3 h, real h2,
+                                 real cosine, OUT(real) pdf) {
+    real distribution = ggx_distribution(r.alpha, h, h2);
+    vec3 once = layer_reflectance(r, cosine) * (distribution * ggx_visibility(r.alpha, wo.z, wi.z));
+    real lost = ggx_lost(r.alpha, wo.z);
+    real average = ggx_lost_average(r.alpha);
+    vec3 repeated = repeated_color(r, average);
+    real share = repeated_share(r, lost, repeated);
+    pdf = (real(1.0) - share) * ggx_reflection_pdf(r.alpha, distribution, wo.z) +
+          share * ggx_repeated_pdf(r.alpha, wi.z);
+    return once + repeated * (INV_PI * lost * (ggx_lost(r.alpha, wi.z) / average));
+}
+
+// Samples a direction from a rough layer; it may be below the surface. choice and u: in [0, 1).
+FN vec3 rough_layer_sample(IN(ReflectionParameters) r, vec3 wo, real choice, vec2 u) {
+    real lost = ggx_lost(r.alpha, wo.z);
+    vec3 repeated = repeated_color(r, ggx_lost_average(r.alpha));
+    if (choice < repeated_share(r, lost, repeated)) {
+        return ggx_sample_repeated(r.alpha, u);
+    }
+    vec3 h = ggx_sample_normal(r.alpha, wo, u);
+    return h * (real(2.0) * dot3(wo, h)) - wo;
 }
 
 // Value of the masked diffuse and glossy lobes without the cosine [1/sr], and the solid-angle
@@ -348,9 +427,9 @@ FN vec3 bsdf_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, uint lob
             pdf += probabilities.y * phong_pdf(r.exponent, power);
             return f + r.f0 * phong_lobe(r.exponent, power);
         }
-        real distribution = ggx_distribution(r.alpha, h, h2);
-        f += layer_reflectance(r, cosine) * (distribution * ggx_visibility(r.alpha, wo.z, wi.z));
-        pdf += probabilities.y * ggx_reflection_pdf(r.alpha, distribution, wo.z);
+        real density;
+        f += rough_layer_eval_and_pdf(r, wo, wi, h, h2, cosine, density);
+        pdf += probabilities.y * density;
     }
     return f;
 }
@@ -442,8 +521,9 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         if (!may_have(m, MATERIAL_GGX) || is_phong(m)) {
             s.wi = phong_sample(real(m.exponent), wo, vec2(u.y, u.z));
         } else {
-            vec3 h = ggx_sample_normal(ggx_alpha(m), wo, vec2(u.y, u.z));
-            s.wi = h * (real(2.0) * dot3(wo, h)) - wo;
+            // The remainder of u.x is uniform again.
+            s.wi =
+                rough_layer_sample(reflection_parameters(m), wo, (u.x - p.x) / p.y, vec2(u.y, u.z));
         }
     }
     if (!(s.wi.z > real(0.0))) {

@@ -37,11 +37,13 @@ public:
     /// Integrates f(wi) over each cell by the midpoint rule.
     template <class F> std::vector<double> integrate(const F& f) const {
         std::vector<double> integrals(count());
-        const int steps = 8;
+        const int steps = 16;
         for (std::size_t cell = 0; cell < count(); ++cell) {
             for (int i = 0; i < steps * steps; ++i) {
-                const double rest =
-                    1 - (double(cell / columns) + (i / steps + 0.5) / steps) / rows; // 1 - q
+                // The square gathers points at the far end of the row, which in the last one takes
+                // in half the hemisphere.
+                const double root = (i / steps + 0.5) / steps;
+                const double rest = 1 - (double(cell / columns) + 1 - root * root) / rows; // 1 - q
                 const double turn = (double(cell % columns) + (i % steps + 0.5) / steps) / columns;
                 const double tan2 = alpha_ * alpha_ * (1 / (rest * rest) - 1);
                 const double z = 1 / std::sqrt(1 + tan2);
@@ -55,8 +57,8 @@ public:
                 }
                 // d tan² / dq, solid angle of h by tan² and azimuth, solid angle of wi over that of
                 // h
-                const double measure =
-                    2 * alpha_ * alpha_ / (rest * rest * rest) * z * z * z / 2 * 4 * cosine;
+                const double measure = 2 * root * 2 * alpha_ * alpha_ / (rest * rest * rest) * z *
+                                       z * z / 2 * 4 * cosine;
                 integrals[cell] +=
                     f(rounded(wi)) * measure * 2 * pi / double(count() * steps * steps);
             }
@@ -216,49 +218,6 @@ TEST(Furnace, WhiteLambertianMirrorAndGlassReturnAllLight) {
                                             random4(13, uint(i), 0, 0), s));
                     ASSERT_NEAR(s.weight.x, 1, 1e-6); // each sample, not only their mean
                 }
-            }
-        }
-    }
-}
-
-TEST(Furnace, MetalNeverAddsLight) {
-    for (const float roughness : {0.04f, 0.2f, 0.5f, 1.0f}) {
-        for (const double angle : {0.0, 60.0, 85.0, 89.9}) {
-            for (uint i = 0; i < 5000; ++i) {
-                BsdfSample s;
-                if (bsdf_sample(metal(vec3(1), roughness), at_angle(angle), true, LOBES_ALL,
-                                random4(14, i, 0, 0), s)) {
-                    ASSERT_LE(s.weight.x, 1.00001f); // masking can only reduce the weight
-                }
-            }
-        }
-    }
-}
-
-// Single scattering loses little on smooth metal. On the roughest, with alpha = 1, the distribution
-// is constant, and the integral for wo along the normal is that of cos / (1 + cos): 1 - ln 2.
-TEST(Furnace, MetalLosesTheLightThatMaskingBlocks) {
-    const auto mean_of = [](float roughness) {
-        return mean_weights(metal(vec3(1), roughness), at_angle(0), true, LOBES_ALL, 40'000)[1];
-    };
-    EXPECT_GT(mean_of(0.05f).value(), 0.99);
-    EXPECT_GT(mean_of(0.3f).value(), 0.98);
-    EXPECT_NEAR(mean_of(1.0f).value(), 1 - std::log(2.0), 5 * mean_of(1.0f).deviation());
-}
-
-TEST(Furnace, WhiteDielectricReturnsNearlyAllLight) {
-    for (const float roughness : {0.0f, 0.05f, 0.2f, 0.3f, 0.6f, 1.0f}) {
-        for (const double angle : {0.0, 20.0, 45.0, 60.0, 75.0, 85.0, 89.5}) {
-            SCOPED_TRACE(::testing::Message() << "roughness " << roughness << ", " << angle);
-            MaterialRecord m = white_dielectric();
-            m.roughness = roughness;
-            const auto means = mean_weights(m, at_angle(angle), true, LOBES_ALL, 50'000);
-            const double sum = means[0].value() + means[1].value() + means[2].value();
-            const double noise = means[0].deviation() + means[1].deviation() + means[2].deviation();
-            EXPECT_LT(sum, 1.003 + 5 * noise);
-            // At grazing angles single scattering loses some of what the layer reflects.
-            if (angle <= 20 || roughness == 0) {
-                EXPECT_GT(sum, 0.95);
             }
         }
     }

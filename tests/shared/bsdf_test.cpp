@@ -1,4 +1,5 @@
 #include "materials.hpp"
+#include "microfacets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -143,32 +144,56 @@ TEST(Bsdf, LobesAddUp) {
     }
 }
 
-// The glossy lobe of glTF's appendix B and the diffuse lobe of Shirley et al. 1997, implemented
-// independently for one pair of directions.
+/// Shares of light that microfacets with Schlick's reflectance return by single reflection, by
+/// quadrature.
+struct Albedos {
+    double once, layer;
+};
+Albedos albedos(double alpha, double cosine, double f0) {
+    return {
+        appendix_b::albedo(
+            alpha, cosine, [](double) { return 1.0; }, 300, 100),
+        appendix_b::albedo(
+            alpha, cosine, [&](double c) { return f0 + (1 - f0) * std::pow(1 - c, 5); }, 300, 100)};
+}
+Albedos mean_albedos(double alpha, double f0) {
+    Albedos mean{};
+    const int steps = 40;
+    for (int i = 0; i < steps; ++i) {
+        const double root = (i + 0.5) / steps;
+        const Albedos a = albedos(alpha, root * root, f0);
+        mean.once += a.once * 4 * root * root * root / steps;
+        mean.layer += a.layer * 4 * root * root * root / steps;
+    }
+    return mean;
+}
+
+// GGX of glTF's appendix B, repeated reflection by Kulla and Conty 2017, and the diffuse lobe of
+// Shirley et al. 1997, implemented independently for one pair of directions.
 TEST(Bsdf, DielectricAgreesWithItsFormulas) {
     for (const double roughness : {0.1, 0.5, 1.0}) {
+        const MaterialRecord m = glossy_dielectric(float(roughness));
+        const double alpha = roughness * roughness, f0 = 0.04;
+        const Albedos mean = mean_albedos(alpha, f0);
+        const double schlick = f0 + (1 - f0) / 21;
+        const double color = schlick * schlick * mean.once / (1 - schlick * (1 - mean.once));
+        const auto reflected = [&](const Albedos& a) { return a.layer + color * (1 - a.once); };
         for (const double angle : {0.0, 30.0, 80.0}) {
-            const MaterialRecord m = glossy_dielectric(float(roughness));
-            const vec3 wo = at_angle(angle);
-            const vec3 wi = at_angle(55, 20);
-            const glm::dvec3 v(wo);
-            const glm::dvec3 l(wi);
+            const vec3 wo = at_angle(angle), wi = at_angle(55, 20);
+            const glm::dvec3 v(wo), l(wi);
             const glm::dvec3 h = glm::normalize(v + l);
-            const double a2 = std::pow(double(m.roughness), 4);
-            const double d = a2 / (3.14159265358979 * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
-            const double visibility = 1 /
-                                      (l.z * std::sqrt(v.z * v.z * (1 - a2) + a2) +
-                                       v.z * std::sqrt(l.z * l.z * (1 - a2) + a2)) /
-                                      2;
-            const auto fresnel = [](double cosine) {
-                return 0.04 + 0.96 * std::pow(1 - cosine, 5);
-            };
+            const Albedos o = albedos(alpha, v.z, f0), i = albedos(alpha, l.z, f0);
+            const double single = (f0 + (1 - f0) * std::pow(1 - glm::dot(v, h), 5)) *
+                                  appendix_b::distribution(alpha, h.z) *
+                                  appendix_b::visibility(alpha, v.z, l.z);
+            const double repeated =
+                color * (1 - o.once) * (1 - i.once) / (1 - mean.once) / appendix_b::pi;
             const glm::dvec3 base(m.base_r, m.base_g, m.base_b);
-            const double mean_fresnel = 0.04 + 0.96 / 21;
-            const glm::dvec3 diffuse = base / 3.14159265358979 * (1 - fresnel(v.z)) *
-                                       (1 - fresnel(l.z)) / (1 - mean_fresnel);
-            const glm::dvec3 f = diffuse + fresnel(glm::dot(v, h)) * d * visibility;
-            expect_near(bsdf_eval(m, wo, wi, LOBES_ALL), f, 1e-5 * f.x);
+            const glm::dvec3 diffuse = base / appendix_b::pi * (1 - reflected(o)) *
+                                       (1 - reflected(i)) / (1 - reflected(mean));
+            expect_near(bsdf_eval(m, wo, wi, LOBE_DIFFUSE), diffuse, 0.01 * diffuse.x);
+            expect_near(bsdf_eval(m, wo, wi, LOBE_GLOSSY), glm::dvec3(single + repeated),
+                        0.002 * (single + diffuse.x));
         }
     }
 }
