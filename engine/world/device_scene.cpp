@@ -30,7 +30,7 @@ SceneRecord scene_record(const Scene& scene, const LightTable& lights, glm::vec3
     record.emitter_count = lights.triangle_count;
     record.attributes = attributes_of_vertex(scene);
     record.color_attribute = scene.uv_sets;
-    record.pad5 = first_tangent(scene);
+    record.first_tangent = first_tangent(scene);
     record.triangle_count = static_cast<std::uint32_t>(scene.triangles.size());
     return record;
 }

@@ -29,7 +29,9 @@ struct SceneRecord {
     float32 target_share;
     float32 view_share; // of the photons emitted or scattered outside `view` that are aimed at it
     uint sky_columns;   // of texels in the sky's picture; 0: there is none
-    lane4 view;         // sphere (center, radius) around most of what is in view
+    uint first_tangent; // among the vertices' attributes: the first triangle's tangents
+    uint pad0, pad1, pad2;
+    lane4 view; // sphere (center, radius) around most of what is in view
 };
 
 // A row of the table that chooses a light, by inversion of the cumulative probabilities: that keeps

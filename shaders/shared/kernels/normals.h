@@ -29,7 +29,7 @@ FN void turn_normal(uint material_textures, HitRecord hit, vec3 ray_direction, I
         normal = dot3(normal, front) < real(0.0) ? -normal : normal;
     }
     uint index = normal_texture_of(material_textures);
-    uint at = scene[0].pad5 + 2u * hit.triangle; // behind the attributes of the vertices
+    uint at = scene[0].first_tangent + 2u * hit.triangle;
     uvec2 first = attributes[at];
     uvec3 tangents = uvec3(first.x, first.y, attributes[at + 1u].x);
     vec3 slope = slope_of_texel(sample_texture(index, triangle, b), real(textures[index].scale));

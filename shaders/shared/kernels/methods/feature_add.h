@@ -2,6 +2,8 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/normals.h"
+
 // Adds what the samples of a batch hit first to the sums of their pixels. An invocation adds the
 // samples of one pixel in their order. What hits nothing adds nothing.
 FN void main() {
@@ -21,9 +23,11 @@ FN void main() {
         }
         RayRecord ray = rays[slot];
         vec3 direction = vec3(ray.direction_x, ray.direction_y, ray.direction_z);
-        MaterialRecord m = material_at(triangles[hit.triangle], hit);
+        MaterialRecord m = material_at(triangles[hit.triangle], hit, ray.pad, direction);
         albedo += vec3(m.base_r, m.base_g, m.base_b);
-        normal += load_surface(hit, direction).shading_normal;
+        Surface surface = load_surface(hit, direction);
+        turn_normal(m.textures, hit, direction, surface);
+        normal += surface.shading_normal;
     }
     features[pixel] = FeatureRecord(albedo.x, albedo.y, albedo.z, real(0.0), normal.x, normal.y,
                                     normal.z, real(0.0));
