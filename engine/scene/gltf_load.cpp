@@ -1,3 +1,4 @@
+#include "base/clock.hpp"
 #include "scene/framing.hpp"
 #include "scene/gltf.hpp"
 #include "scene/gltf_animation.hpp"
@@ -62,7 +63,13 @@ Bounds bounds_to_frame(const Scene& scene) {
 Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds,
                 const LoadOptions& options) {
     Scene scene;
+    Clock::time_point start = Clock::now();
+    const auto end_step = [&](const char* name) {
+        scene.load_seconds.emplace_back(name, seconds_since(start));
+        start = Clock::now();
+    };
     const GltfSource source = read_gltf_file(path, options, scene.notes);
+    end_step("file");
     scene.name = one_line(path.filename().string());
     scene.seconds = seconds;
     add_extensions(source, scene);
@@ -70,11 +77,14 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     if (seconds && scene.animations.empty()) {
         add_note(scene, "there is no animation: the scene is the same at any time");
     }
-    const std::vector<GltfNode> nodes = read_nodes(source, options.scene, std::move(keys.nodes), scene);
+    const std::vector<GltfNode> nodes =
+        read_nodes(source, options.scene, std::move(keys.nodes), scene);
     add_materials(source, std::move(keys.materials), scene);
+    end_step("materials and images");
     add_lights(source, nodes, std::move(keys.lights), scene);
     add_cameras(source, nodes, std::move(keys.cameras), scene);
     add_meshes(source, nodes, scene);
+    end_step("meshes");
     add_missing_light(scene);
     forget_what_rests(scene);
     const Bounds to_frame = scene.cameras.empty() ? bounds_to_frame(scene) : Bounds();

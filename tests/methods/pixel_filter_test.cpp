@@ -38,7 +38,8 @@ TEST_P(PixelFilters, WhiteStaysWhite) {
     RenderSettings settings = settings_of(GetParam(), 9, 4);
     settings.photons = 0;
     settings.filter = PixelFilter::blackman_harris;
-    for (const glm::vec3& pixel : layer(render(half_lit(4), settings), "").pixels) {
+    const RenderResult result = render(half_lit(4), settings);
+    for (const glm::vec3& pixel : layer(result, "").pixels) {
         EXPECT_EQ(pixel, glm::vec3(1));
     }
 }

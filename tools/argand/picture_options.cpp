@@ -82,10 +82,16 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
                 return read_layers(names, layers);
             },
             "albedo,normal,depth,id,variance"));
-    command.add_option("--crop", options.crop,
-                       "Render only the pixels from X0 to X1 - 1 and from Y0 to Y1 - 1 of the "
-                       "picture, counted from its top left corner, written X0,Y0,X1,Y1. With path "
-                       "they have the bits of the whole picture");
+    command
+        .add_option("--crop", options.crop,
+                    "Render only the pixels from X0 to X1 - 1 and from Y0 to Y1 - 1 of the "
+                    "picture, counted from its top left corner, written X0,Y0,X1,Y1. With path "
+                    "they have the bits of the whole picture")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                return text.empty() ? "'' is not X0,Y0,X1,Y1" : std::string();
+            },
+            "X0,Y0,X1,Y1"));
 }
 
 std::optional<CropRectangle> parse_crop(const std::string& crop, const PictureSize& size) {

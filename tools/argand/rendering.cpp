@@ -198,7 +198,9 @@ RenderResult render_image(RenderJob& job, const OnProgress& on_progress, Watched
 Rendered render_on(RenderJob& job, const std::string& work) {
     const RenderOptions& options = job.options;
     if (!job.world) {
+        const Clock::time_point start = Clock::now();
         job.world = std::make_unique<World>(*job.device, job.scene, options.tracer);
+        job.times.upload = seconds_since(start);
     }
     World& world = *job.world;
     std::optional<Progress> progress;

@@ -109,6 +109,10 @@ Json render_report(const RenderReport& render) {
                           {"gpu_seconds", info.features.timestamps ? Json(stage.seconds) : Json()},
                           {"runs", stage.runs}});
     }
+    Json steps = Json::object();
+    for (const auto& [name, seconds] : render.scene.load_seconds) {
+        steps[name] = seconds;
+    }
     Json report = {{"scene", render.scene.name},
                    {"outputs", render.outputs},
                    {"parameters", parameters_json(render)},
@@ -121,6 +125,8 @@ Json render_report(const RenderReport& render) {
                      {"subgroup_size", info.subgroup_size}}},
                    {"wall_seconds",
                     {{"load", render.times.load},
+                     {"load_steps", steps},
+                     {"upload", render.times.upload},
                      {"open_device", render.times.open},
                      {"update", render.times.update},
                      {"render", render.times.render},

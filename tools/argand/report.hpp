@@ -12,6 +12,8 @@ namespace argand {
 /// Wall-clock seconds of the parts of `argand render`.
 struct ReportTimes {
     double load = 0, open = 0, update = 0, render = 0, write = 0;
+    double upload = 0; ///< of the first picture's geometry, until the tree's first kernel is
+                       ///< recorded and those after it; part of render
 };
 
 /// A finished render.
