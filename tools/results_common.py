@@ -30,6 +30,7 @@ PAGES = [
     ("Error at equal time", "budgets.md", "a script outside the repository"),
     ("Fabianowski and Dingliana 2009", "fd09.md", "argand bench --paper fd09"),
     ("Keller et al. 2010: simultaneous queries", "kdgs10.md", "argand bench --paper kdgs10"),
+    ("Shi 2012: a photons queue", "shi12.md", "argand bench --paper shi12"),
     ("Bandwidth", "bandwidth.md", "a script outside the repository"),
     ("Footprints: choices", "footprints.md", "argand render, argand compare"),
     ("Widths that fall from pass to pass", "progressive.md", "tools/results_progressive"),

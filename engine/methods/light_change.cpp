@@ -46,13 +46,31 @@ double change_of(const LightRecord& a, const LightRecord& b, double distance) {
 
 } // namespace
 
+std::vector<double> light_changes(const LightTable& before, const LightTable& now,
+                                  double distance) {
+    std::vector<double> changes;
+    changes.reserve(now.lights.size());
+    for (std::size_t i = 0; i < now.lights.size(); ++i) {
+        changes.push_back(change_of(before.lights[i], now.lights[i], distance));
+    }
+    return changes;
+}
+
 double light_change(const LightTable& before, const LightTable& now, double distance) {
     if (before.lights.size() != now.lights.size()) {
         return infinity_of_change;
     }
     double change = 0;
-    for (std::size_t i = 0; i < now.lights.size(); ++i) {
-        change = std::max(change, change_of(before.lights[i], now.lights[i], distance));
+    for (const double of_light : light_changes(before, now, distance)) {
+        change = std::max(change, of_light);
+    }
+    return change;
+}
+
+double SceneChange::most() const {
+    double change = of_all;
+    for (const double of_light : of_lights) {
+        change = std::max(change, of_light);
     }
     return change;
 }
@@ -61,16 +79,21 @@ SeenScene seen_of(const DeviceScene& scene) {
     return {scene.light_table, scene.meshes, scene.last_material_change};
 }
 
-double scene_change(const SeenScene& seen, const DeviceScene& now, std::vector<BoxRecord>& moved) {
+SceneChange scene_change(const SeenScene& seen, const DeviceScene& now) {
     const double distance = now.record.radius;
-    double change = light_change(seen.lights, now.light_table, distance);
+    SceneChange change;
+    if (seen.lights.lights.size() == now.light_table.lights.size()) {
+        change.of_lights = light_changes(seen.lights, now.light_table, distance);
+    } else {
+        change.of_all = infinity_of_change;
+    }
     if (seen.last_material_change != now.last_material_change) {
-        change = infinity_of_change;
+        change.of_all = infinity_of_change;
     }
     const auto add_box = [&](const Bounds& b) {
-        moved.push_back({b.low.x, b.low.y, b.low.z, 0, b.high.x, b.high.y, b.high.z, 0});
+        change.moved.push_back({b.low.x, b.low.y, b.low.z, 0, b.high.x, b.high.y, b.high.z, 0});
     };
-    moved.reserve(2 * now.meshes.size());
+    change.moved.reserve(2 * now.meshes.size());
     for (std::size_t i = 0; i < now.meshes.size(); ++i) {
         if (now.meshes[i].last_moved == seen.meshes[i].last_moved) {
             continue;
@@ -81,7 +104,7 @@ double scene_change(const SeenScene& seen, const DeviceScene& now, std::vector<B
         add_box(to);
         const double step =
             std::max(glm::distance(from.low, to.low), glm::distance(from.high, to.high));
-        change = std::max(change, std::min(step / distance, most_by_meshes));
+        change.of_all = std::max(change.of_all, std::min(step / distance, most_by_meshes));
     }
     return change;
 }

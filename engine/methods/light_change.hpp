@@ -14,6 +14,9 @@ namespace argand {
 /// or vanishes. distance: a typical one between lights and surfaces.
 double light_change(const LightTable& before, const LightTable& now, double distance);
 
+/// The change of each light alone. Requires as many lights as before.
+std::vector<double> light_changes(const LightTable& before, const LightTable& now, double distance);
+
 /// What photons have seen of a scene that changes.
 struct SeenScene {
     LightTable lights;
@@ -23,10 +26,19 @@ struct SeenScene {
 
 SeenScene seen_of(const DeviceScene& scene);
 
-/// How much the light has changed since: light_change(), infinity where materials have changed, and
-/// where meshes have moved at least the distance over the scene's radius, up to a quarter. Adds the
-/// boxes that these meshes have left and entered.
-double scene_change(const SeenScene& seen, const DeviceScene& now, std::vector<BoxRecord>& moved);
+/// How much light has changed since.
+struct SceneChange {
+    /// Of all lights: infinity where materials have changed or the number of lights has; where
+    /// meshes have moved the distance over the scene's radius, up to a quarter.
+    double of_all = 0;
+    std::vector<double> of_lights; ///< light_changes(); empty if their number has changed
+    std::vector<BoxRecord> moved;  ///< boxes that meshes have left and entered
+
+    /// That of what changes most.
+    double most() const;
+};
+
+SceneChange scene_change(const SeenScene& seen, const DeviceScene& now);
 
 /// How much faster than 2^-1 per half-life photons of an earlier moment have to lose weight: the
 /// half-life, in frames, that balances the lag of their light, which changes by this much in a

@@ -89,6 +89,8 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
                                    q.window * q.block_room + q.area_room);
     persist_elements<glm::uvec4>(archive, device, q.offsets,
                                  q.footprints ? q.window * q.block_room + q.area_room : 0);
+    const auto lights = persist_elements<std::uint32_t>(
+        archive, device, q.light_indices, q.lights > 1 ? q.window * q.block_room + q.area_room : 0);
     check(std::is_sorted(starts.begin(), starts.end()) && starts.back() == q.entries &&
           std::all_of(cells.begin(), cells.end(),
                       [&](std::uint32_t cell) { return cell < q.cells; }) &&

@@ -8,11 +8,12 @@
 #include "methods/nearest_photons.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/persist_queue.hpp"
-#include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
 #include "methods/queue_ages.hpp"
 #include "methods/queue_maps.hpp"
+#include "methods/queue_photons.hpp"
 #include "methods/render_options.hpp"
+#include "methods/show_photons.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
 #include "photon/radius.hpp"
@@ -61,7 +62,8 @@ class QueueMethod : public Method {
 public:
     explicit QueueMethod(RenderContext& context)
         : c_(context), options_(options_of(context.settings)),
-          strategy_(make_strategy(options_.estimator)) {}
+          strategy_(make_strategy(options_.estimator)),
+          photons_(context, options_, std::max<std::uint64_t>(context.settings.least_passes, 1)) {}
 
     void begin_frame(Budget& budget) override;
     std::uint64_t passes() const override {
@@ -71,15 +73,13 @@ public:
     bool is_settled() const override { return still_ >= options_.window; }
     std::uint64_t passes_per_seed() const override {
         return numbers_of_seed /
-               std::max<std::uint64_t>({photons(), samples_per_pass(), std::uint64_t(1)});
+               std::max<std::uint64_t>({photons_.all(), samples_per_pass(), std::uint64_t(1)});
     }
     void persist(Archive& archive) override;
     void report(RenderStatistics& statistics) const override;
 
 private:
     static QueueOptions options_of(const RenderSettings& settings);
-    std::uint64_t photons() const;
-    std::uint64_t photons_of(std::uint32_t block) const;
     std::uint32_t leaf_size() const {
         constexpr std::uint32_t automatic = 16; // as that of photon_map.cpp
         return c_.settings.leaf_size > 0 ? c_.settings.leaf_size : automatic;
@@ -87,12 +87,8 @@ private:
     std::uint32_t samples_per_pass() const {
         return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
     }
-    void make_room();
     PhotonQueue empty_queue() const;
-    void count_all_photons(double whole);
     double learn(const PassNumbers& numbers, std::span<const glm::vec4> queries);
-    StoredPhotons trace_part(const PassNumbers& numbers, std::uint64_t first, std::uint64_t count,
-                             std::uint64_t spread);
     StoredPhotons trace(const PassNumbers& numbers, std::uint32_t block);
     void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
     void refill(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
@@ -104,22 +100,22 @@ private:
     Bandwidth bandwidth() const;
     void size_areas(const FootprintScale& scale);
     PhotonMap make_map(const Bandwidth& widths);
+    bool trace_eyes(const EyePass& eye, const PhotonLookup& lookup, const OnProgress& on_part);
     const std::vector<CellNode>& planes();
 
     RenderContext& c_;
     QueueOptions options_;
     std::unique_ptr<EstimationStrategy> strategy_;
-    PhotonWorkspace photons_;
+    QueuePhotons photons_;
     PhotonWorkspace workspace_; ///< for maps: with --rebuild, or with footprints
-    std::uint64_t room_ = 0;    ///< photons of a block for which the workspace was made
 
     std::optional<std::vector<CellNode>> planes_; ///< none: not known yet
     PhotonQueue queue_;
-    std::vector<BlockAge> ages_; ///< of the blocks
-    std::uint32_t moment_ = 0;   ///< of the last update, from 1; 0: there is no queue
-    std::uint32_t next_ = 0;     ///< the block to trace next
-    std::uint32_t emptied_ = 0;  ///< moment at which cells were emptied last
-    std::uint32_t still_ = 0;    ///< blocks traced since anything changed
+    QueueAges ages_;
+    std::uint32_t moment_ = 0;  ///< of the last update, from 1; 0: there is no queue
+    std::uint32_t next_ = 0;    ///< the block to trace next
+    std::uint32_t emptied_ = 0; ///< moment at which cells were emptied last
+    std::uint32_t still_ = 0;   ///< blocks traced since anything changed
     SeenScene seen_;
     Bandwidth learnt_;
     double view_reach_ = 0;
@@ -138,91 +134,19 @@ QueueOptions QueueMethod::options_of(const RenderSettings& settings) {
     return options;
 }
 
-/// Photons in the queue once it is full.
-std::uint64_t QueueMethod::photons() const {
-    // Without bounces no photon is ever looked up.
-    return c_.settings.bounces > 0 ? (c_.settings.photons + passes() - 1) / passes() : 0;
-}
-
-std::uint64_t QueueMethod::photons_of(std::uint32_t block) const {
-    const std::uint64_t window = options_.window;
-    return photons() * (block + 1ull) / window - photons() * block / window;
-}
-
-void QueueMethod::make_room() {
-    // Rays that find covered areas go through the same slots: few would take many dispatches.
-    constexpr std::uint64_t least_room = 1 << 14;
-    const std::uint64_t most = max_photons_per_pass(c_.device);
-    const std::uint64_t room =
-        std::max(photons_of(options_.window - 1), std::min(least_room, most));
-    if (room_ == room) {
-        return;
-    }
-    if (room > most) {
-        fail("rendering '{}': '{}' cannot trace {} photons at once, as many as a frame has; use "
-             "fewer photons or a larger window",
-             c_.scene.name, c_.device.info().name, room);
-    }
-    photons_ =
-        make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
-    photons_.numbers = kind_of_photon_numbers(c_.settings);
-    photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
-    room_ = room;
-}
-
-/// An estimate finds the photons of all blocks, but k was learnt for a part of them. whole: all
-/// photons over those of the part.
-void QueueMethod::count_all_photons(double whole) {
-    const auto scale = [&](std::uint32_t& k) {
-        k = static_cast<std::uint32_t>(std::lround(whole * static_cast<double>(k)));
-    };
-    if (!c_.settings.neighbours) {
-        scale(learnt_.neighbours);
-    }
-    if (!c_.settings.caustic_neighbours) {
-        scale(learnt_.caustic_neighbours);
-    }
-    // Footprints of all photons are made as if one pass had traced them. Their size, which falls
-    // by itself with the photons of a pass, was learnt for these photons in many passes.
-    if (!c_.settings.footprints.fixed_smoothing) {
-        learnt_.smoothing *= std::pow(whole, 1.0 / 6);
-        learnt_.caustic_smoothing *= std::pow(whole, 1.0 / 6);
-    } else if (!c_.settings.footprints.smoothing) {
-        learnt_.smoothing *= std::sqrt(whole);
-    }
-}
-
 PhotonQueue QueueMethod::empty_queue() const {
     PhotonQueue queue = make_photon_queue(options_.window, leaf_size(),
                                           options_.estimator == QueueEstimator::footprints);
     queue.leaves_test = options_.classify == QueueClassify::leaves;
+    queue.lights = photons_.lights();
     return queue;
-}
-
-/// Traces photons of the window's sequence, from number `first` on. It goes on with each pass of an
-/// image, and begins anew with each image. spread: PhotonPass::spread.
-StoredPhotons QueueMethod::trace_part(const PassNumbers& numbers, std::uint64_t first,
-                                      std::uint64_t count, std::uint64_t spread) {
-    const bool light = c_.on_device.record.light_count > 0;
-    const PhotonPass emission{.seed = numbers.seed,
-                              .first = photons() * numbers.index + first,
-                              .count = light ? count : 0,
-                              .bounces = c_.settings.bounces,
-                              .spread = spread};
-    const std::optional<StoredPhotons> stored = trace_photons(
-        c_.device, c_.on_device, photons_, emission, static_cast<float>(image_.flux_unit));
-    if (!stored) {
-        fail("rendering '{}': the photons that are stored exceed what '{}' can address; use fewer "
-             "bounces or photons",
-             c_.scene.name, c_.device.info().name);
-    }
-    return *stored;
 }
 
 /// Traces a block.
 StoredPhotons QueueMethod::trace(const PassNumbers& numbers, std::uint32_t block) {
     const StoredPhotons stored =
-        trace_part(numbers, photons() * block / options_.window, photons_of(block), photons());
+        photons_.trace(numbers, photons_.all() * block / options_.window, photons_.of(block),
+                       photons_.all(), image_.flux_unit);
     ++image_.blocks;
     image_.emitted += stored.emitted;
     image_.stored += stored.photons;
@@ -235,8 +159,9 @@ void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
         add_areas(numbers, stored);
     }
     replace_block(c_.device, queue_, block, moment_,
-                  {photons_.photons, 0, stored.slots, stored.photons, photons_.offsets});
-    ages_[block] = {stored.emitted, 0};
+                  {photons_.workspace().photons, 0, stored.slots, stored.photons,
+                   photons_.workspace().offsets, photons_.workspace().lights});
+    renew(ages_, block, stored.emitted);
     next_ = (block + 1) % options_.window;
     ++still_;
 }
@@ -253,20 +178,22 @@ void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& sto
     const std::uint64_t room = max_stored_photons(c_.device);
     const std::uint64_t most = room - std::min(room / 2, 2 * options_.window * stored.photons);
     const std::uint64_t wanted = area_samples(c_.on_device.areas.area, radius, 1);
-    const std::uint32_t samples = append_area_samples(c_.device, c_.on_device, photons_, stored,
-                                                      {.area_samples = std::min(wanted, most),
-                                                       .cover_height = disc_half_height * radius,
-                                                       .seed = area_seed(numbers)});
+    const std::uint32_t samples =
+        append_area_samples(c_.device, c_.on_device, photons_.workspace(), stored,
+                            {.area_samples = std::min(wanted, most),
+                             .cover_height = disc_half_height * radius,
+                             .seed = area_seed(numbers)});
     sampled_ = c_.on_device.areas.part;
     replace_block(c_.device, queue_, options_.window, queue_always,
-                  {photons_.photons, stored.slots, samples, samples, photons_.offsets});
+                  {photons_.workspace().photons, stored.slots, samples, samples,
+                   photons_.workspace().offsets, photons_.workspace().lights});
     sized_blocks_ = 0;
     areas_moved_ = samples == 0 && stored.photons == 0; // no photon: a later block may have some
 }
 
 const std::vector<CellNode>& QueueMethod::planes() {
     if (!planes_) {
-        const double records = static_cast<double>(photons());
+        const double records = static_cast<double>(photons_.all());
         planes_ = options_.cells == QueueCells::photons
                       ? std::vector<CellNode>()
                       : triangle_planes(c_.scene, records / leaf_size());
@@ -283,32 +210,33 @@ void QueueMethod::divide_if_crowded() {
 /// Learns the bandwidth of an image, and returns the photons in view for each that is emitted. A
 /// block may have too few photons to learn from: as many as there is room for are traced.
 double QueueMethod::learn(const PassNumbers& numbers, std::span<const glm::vec4> queries) {
-    const std::uint64_t count = std::min(photons(), room_);
-    const StoredPhotons stored = trace_part(numbers, 0, count, count);
-    const double whole =
-        static_cast<double>(photons()) / static_cast<double>(std::max<std::uint64_t>(count, 1));
-    const SortedPhotons sorted = sort_photons(c_.device, photons_, stored);
+    const std::uint64_t count = std::min(photons_.all(), photons_.room());
+    const StoredPhotons stored = photons_.trace(numbers, 0, count, count, image_.flux_unit);
+    const double whole = static_cast<double>(photons_.all()) /
+                         static_cast<double>(std::max<std::uint64_t>(count, 1));
+    const SortedPhotons sorted = sort_photons(c_.device, photons_.workspace(), stored);
     learnt_ = strategy_->learn({.device = c_.device,
                                 .scene = c_.on_device,
-                                .workspace = photons_,
+                                .workspace = photons_.workspace(),
                                 .stored = stored,
                                 .photons = sorted,
                                 .queries = queries,
                                 .passes = whole * static_cast<double>(passes()),
-                                .evenness = evenness_in_view(c_, photons_, stored)},
+                                .evenness = evenness_in_view(c_, photons_.workspace(), stored)},
                                c_.settings);
-    count_all_photons(whole);
+    learnt_ = for_all_photons(learnt_, whole, c_.settings);
     view_reach_ = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
-    const double in_view = in_view_per_emitted(c_, photons_, stored, queries);
-    c_.device.fill(photons_.flux_sums, 0); // these photons are traced again
+    const double in_view = in_view_per_emitted(c_, photons_.workspace(), stored, queries);
+    c_.device.fill(photons_.workspace().flux_sums, 0); // these photons are traced again
     return in_view;
 }
 
 /// Empties the queue and fills it with photons of this moment: all blocks, or the first one only.
 void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> queries,
                          Budget* budget) {
+    photons_.make_room(); // photons may tell other lights apart than before
     queue_ = empty_queue();
-    ages_.assign(options_.window, {});
+    ages_ = make_ages(options_.window, queue_.lights);
     areas_moved_ = true;
     still_ = 0;
     emptied_ = 0;
@@ -317,12 +245,13 @@ void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> 
     }
     const StoredPhotons stored = trace(numbers, 0);
     const StoredPhotons both{.slots = stored.slots, .photons = stored.photons};
-    divide_queue(c_.device, queue_, planes(), {photons_.photons, 0, both.slots, both.photons},
-                 options_.window, c_.on_device.plan.needs(Feature::followed_paths));
+    divide_queue(c_.device, queue_, planes(),
+                 {photons_.workspace().photons, 0, both.slots, both.photons}, options_.window,
+                 c_.on_device.plan.needs(Feature::followed_paths));
     add(numbers, 0, stored);
     for (std::uint32_t block = 1; block < options_.window; ++block) {
         const bool has_photons = image_.emitted > 0;
-        if (options_.fills || (!has_photons && photons() > 0)) {
+        if (options_.fills || (!has_photons && photons_.all() > 0)) {
             add(numbers, block, trace(numbers, block));
         }
     }
@@ -338,29 +267,34 @@ void QueueMethod::add_next(const PassNumbers& numbers) {
 /// Lets the photons in the queue grow older by what has changed since the last update, and drops
 /// those near surfaces that have moved. Returns how much the light has changed.
 double QueueMethod::age() {
-    std::vector<BoxRecord> moved;
-    const double change = scene_change(seen_, c_.on_device, moved);
+    const SceneChange change = scene_change(seen_, c_.on_device);
     seen_ = seen_of(c_.on_device);
-    if (!(change > 0) && moved.empty()) {
+    const double most = change.most();
+    if (!(most > 0) && change.moved.empty()) {
         return 0;
     }
     still_ = 0;
-    if (change > most_change) {
-        return change;
+    if (most > most_change) {
+        return most;
     }
-    if (!moved.empty()) {
+    if (!change.moved.empty()) {
         emptied_ = moment_;
-        empty_near(c_.device, queue_, moved, reach_of_moved * strategy_->typical_radius(learnt_),
-                   moment_);
+        empty_near(c_.device, queue_, change.moved,
+                   reach_of_moved * strategy_->typical_radius(learnt_), moment_);
         areas_moved_ = true;
     }
     const double in_disc = photons_in_disc(static_cast<double>(queue_.entries));
-    const double half_life =
-        options_.half_life.value_or(balanced_half_life(change, options_.window, in_disc));
-    for (BlockAge& block : ages_) {
-        block.half_lives += 1 / half_life;
+    const std::vector<double> shares = photons_.light_shares();
+    for (std::uint32_t light = 0; light < ages_.lights; ++light) {
+        const double of_light =
+            ages_.lights > 1 ? std::max(change.of_all, change.of_lights[light]) : most;
+        if (of_light > 0) {
+            const double half_life = options_.half_life.value_or(
+                balanced_half_life(of_light, options_.window, in_disc * shares[light]));
+            grow_older(ages_, light, 1 / half_life);
+        }
     }
-    return change;
+    return most;
 }
 
 /// Brings the queue to the scene as it is.
@@ -390,12 +324,12 @@ void QueueMethod::update(const PassNumbers& numbers, std::span<const glm::vec4> 
 
 void QueueMethod::begin_frame(Budget& budget) {
     image_ = {};
-    make_room();
-    c_.device.fill(photons_.flux_sums, 0);
+    photons_.make_room();
+    c_.device.fill(photons_.workspace().flux_sums, 0);
     const auto& power = c_.on_device.light_table.power;
     const double most = std::max({power.r, power.g, power.b});
     image_.flux_unit = (most > 0 ? most : 1) /
-                       static_cast<double>(std::max<std::uint64_t>(photons_of(0), 1)) /
+                       static_cast<double>(std::max<std::uint64_t>(photons_.of(0), 1)) /
                        units_per_photon;
     const std::vector<glm::vec4> queries = sample_queries(
         c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
@@ -412,8 +346,8 @@ void QueueMethod::begin_frame(Budget& budget) {
 /// photons, and each disc holds the more of them.
 Bandwidth QueueMethod::bandwidth() const {
     constexpr double nearly_all = 0.999;
-    const double all = static_cast<double>(photons());
-    const double even = effective_photons(queue_, ages_);
+    const double all = static_cast<double>(photons_.all());
+    const double even = effective_photons(queue_, ages_, photons_.light_shares());
     const double share = even > 0 && all > 0 ? even / all : 1;
     return share < nearly_all ? for_passes(learnt_, 1, share, c_.settings) : learnt_;
 }
@@ -432,12 +366,12 @@ void QueueMethod::size_areas(const FootprintScale& scale) {
 PhotonMap QueueMethod::make_map(const Bandwidth& widths) {
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
-    const QueueMapSettings settings{.rebuild = options_.rebuild,
-                                    .corrected = {sampled_.center, inner_share * sampled_.reach},
-                                    .reach = strategy_->typical_radius(widths),
-                                    .scale = strategy_->footprints(widths, c_.settings.footprints,
-                                                                   static_cast<double>(photons()),
-                                                                   c_.on_device.record)};
+    const QueueMapSettings settings{
+        .rebuild = options_.rebuild,
+        .corrected = {sampled_.center, inner_share * sampled_.reach},
+        .reach = strategy_->typical_radius(widths),
+        .scale = strategy_->footprints(widths, c_.settings.footprints,
+                                       static_cast<double>(photons_.all()), c_.on_device.record)};
     if (settings.scale) {
         size_areas(*settings.scale);
     }
@@ -445,6 +379,18 @@ PhotonMap QueueMethod::make_map(const Bandwidth& widths) {
     image_.footprint_scale = settings.scale;
     image_.mean_footprints = map.mean_footprints;
     return map;
+}
+
+/// Traces the eye paths of a pass. Where photons account for direct light, there are no shadow rays
+/// and no rays that seek emitters.
+bool QueueMethod::trace_eyes(const EyePass& eye, const PhotonLookup& lookup,
+                             const OnProgress& on_part) {
+    if (!options_.direct) {
+        return trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
+    }
+    DeviceScene without_rays = c_.on_device;
+    without_rays.plan.required.erase(Feature::direct_light);
+    return trace_eye_paths(c_.device, without_rays, c_.eye, eye, &lookup, on_part);
 }
 
 bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
@@ -455,6 +401,11 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
     weigh_blocks(queue_, ages_);
     const Bandwidth widths = bandwidth();
     const PhotonMap map = make_map(widths);
+    if (options_.shows_photons) {
+        draw_photons(c_, map);
+        ++image_.passes;
+        return on_part(1);
+    }
     const double cell = c_.settings.query_cell * strategy_->typical_radius(widths);
     c_.eye.queries.sharing = {
         .cell = cell,
@@ -467,7 +418,7 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
                           static_cast<std::uint32_t>(pass.numbers.index * samples_per_pass()),
                       .samples = samples_per_pass(),
                       .bounces = c_.settings.bounces};
-    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
+    const bool finished = trace_eyes(eye, lookup, on_part);
     ++image_.passes;
     return finished;
 }
@@ -482,7 +433,7 @@ void QueueMethod::persist(Archive& archive) {
     archive.optional(image_.footprint_scale);
     archive.value(image_.mean_footprints);
     archive.flag(image_.traced);
-    archive.values(ages_);
+    persist_ages(archive, ages_);
     archive.value(moment_);
     archive.value(next_);
     archive.value(emptied_);
@@ -492,17 +443,20 @@ void QueueMethod::persist(Archive& archive) {
     archive.value(sampled_);
     archive.flag(areas_moved_);
     archive.value(sized_blocks_);
-    if (ages_.size() != options_.window || next_ >= options_.window || moment_ == 0) {
+    if (ages_.emitted.size() != options_.window || ages_.lights != photons_.lights() ||
+        ages_.half_lives.size() != std::size_t(options_.window) * ages_.lights ||
+        next_ >= options_.window || moment_ == 0) {
         fail("loading a saved state: it is not one of a photons queue of {} blocks",
              options_.window);
     }
     if (archive.loads()) {
-        make_room();
+        photons_.make_room();
         queue_ = empty_queue();
         seen_ = seen_of(c_.on_device);
     }
     persist_queue(archive, c_.device, queue_);
-    persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));
+    persist_buffer(archive, c_.device, photons_.workspace().flux_sums,
+                   flux_words * sizeof(std::int64_t));
 }
 
 void QueueMethod::report(RenderStatistics& statistics) const {
@@ -515,8 +469,9 @@ void QueueMethod::report(RenderStatistics& statistics) const {
     statistics.mean_footprints = image_.mean_footprints;
     if (image_.blocks > 0) {
         // Every block emits all of the lights' power.
-        statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, flux_words),
-                                  image_.flux_unit / static_cast<double>(image_.blocks));
+        statistics.flux =
+            flux_of(download<std::int64_t>(c_.device, photons_.workspace().flux_sums, flux_words),
+                    image_.flux_unit / static_cast<double>(image_.blocks));
     }
 }
 

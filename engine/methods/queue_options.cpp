@@ -1,5 +1,6 @@
 #include "methods/queue_options.hpp"
 
+#include "base/error.hpp"
 #include "methods/fixed_radius.hpp"
 #include "methods/footprint_estimation.hpp"
 #include "methods/nearest_photons.hpp"
@@ -74,6 +75,18 @@ Option classify_option() {
                          {"descent", "leaves"});
 }
 
+Option direct_option() {
+    return choice_option("direct",
+                         "Where direct light comes from: shadow rays, or, for comparison, photons "
+                         "that are stored where they are scattered first",
+                         {"rays", "photons"});
+}
+
+Option show_option() {
+    return choice_option("show", "The picture, or the photons in the map as points of their colour",
+                         {"picture", "photons"});
+}
+
 Option cells_option() {
     return choice_option("queue-cells",
                          "What divides space into the queue's cells first: the kd-tree of the "
@@ -96,6 +109,12 @@ QueueOptions queue_options_of(const RenderSettings& settings) {
                                             : QueueRebuild::none;
     options.classify = classify_option().get(settings) == "leaves" ? QueueClassify::leaves
                                                                    : QueueClassify::descent;
+    options.direct = direct_option().get(settings) == "photons";
+    options.shows_photons = show_option().get(settings) == "photons";
+    if (options.direct && settings.final_gather) {
+        throw UsageError("rendering by photon-queue: --direct photons leaves the nearest surface "
+                         "to photons, and --final-gather does not; leave out one of them");
+    }
     options.cells =
         cells_option().get(settings) == "photons" ? QueueCells::photons : QueueCells::triangles;
     const std::string estimator = estimator_option().get(settings);
@@ -108,7 +127,7 @@ QueueOptions queue_options_of(const RenderSettings& settings) {
 std::vector<Option> all_queue_options() {
     std::vector<Option> options = all_photon_map_options(
         {window_option(), half_life_option(), fill_option(), estimator_option(), rebuild_option(),
-         classify_option(), cells_option()});
+         classify_option(), direct_option(), show_option(), cells_option()});
     // Widths do not fall from frame to frame, and no photon is sorted by a code.
     constexpr std::array<std::string_view, 5> without{"progressive", "passes", "r1",
                                                       "radius-exponent", "wide-codes"};

@@ -31,10 +31,13 @@ struct QueueOptions {
     bool fills = true; ///< an empty queue is filled at once; else by a block in each frame
     QueueRebuild rebuild = QueueRebuild::none;
     QueueClassify classify = QueueClassify::descent;
+    bool direct = false; ///< photons account for direct light too, in the place of shadow rays
+    bool shows_photons = false; ///< the picture shows photons as points
     QueueCells cells = QueueCells::triangles;
     QueueEstimator estimator = QueueEstimator::radius;
 };
 
+/// Throws UsageError if options contradict one another.
 QueueOptions queue_options_of(const RenderSettings& settings);
 
 /// The method's options: its own, and those that it shares.

@@ -47,6 +47,7 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
     w.offsets = device.allocate("photon differentials, stored",
                                 w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
+    w.lights = device.allocate("photons' lights", (w.keeps_lights ? capacity : 1) * 4);
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
@@ -61,9 +62,11 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     }
     const Buffer photons = w.photons;
     const Buffer offsets = w.offsets;
+    const Buffer lights = w.lights;
     allocate_stored(device, w, capacity);
     copy_elements(device, photons, 0, w.photons, 0, stored, sizeof(PhotonRecord));
     copy_elements(device, offsets, 0, w.offsets, 0, w.footprints ? stored : 0, sizeof(glm::uvec4));
+    copy_elements(device, lights, 0, w.lights, 0, w.keeps_lights ? stored : 0, 4);
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -83,9 +86,11 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                       .differentials = w.differentials,
                                       .aim_nodes = scene.aim_nodes,
                                       .sky = scene.sky,
+                                      .path_lights = w.path_lights,
                                       .batch = batch,
                                       .constants = {.footprints = w.footprints,
                                                     .numbers = w.numbers,
+                                                    .keeps_lights = w.keeps_lights,
                                                     .scene = scene.constants(),
                                                     .texture = scene.texture_constants()}},
                  batch.count);
@@ -112,12 +117,15 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                      .alive = w.alive,
                      .differentials = w.differentials,
                      .offsets = w.offsets,
+                     .path_lights = w.path_lights,
+                     .photon_lights = w.lights,
                      .batch = batch,
                      .constants = {.footprints = w.footprints,
                                    .reemission = w.reemission,
                                    .numbers = w.numbers,
                                    .followed_paths = plan.needs(Feature::followed_paths),
                                    .aims_at_view = scene.record.view_share > 0,
+                                   .keeps_lights = w.keeps_lights,
                                    .scene = scene.constants(),
                                    .material_features = plan.material_features(),
                                    .texture = scene.texture_constants()}},
@@ -125,7 +133,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
                 active);
         std::swap(w.active, w.next_active);
-        const bool stored = bounce > 0 && bounce <= batch.bounces;
+        const bool stored = bounce >= batch.least_scatterings && bounce <= batch.bounces;
         dispatch(device,
                  kernels::photon_advance{
                      .counters = w.counters,
@@ -266,9 +274,10 @@ std::uint64_t max_photons_per_pass(const Device& device) {
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints) {
+                                      bool footprints, bool keeps_lights) {
     PhotonWorkspace w;
     w.footprints = footprints;
+    w.keeps_lights = keeps_lights;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
                        std::max<std::uint64_t>(photons_per_pass, 1));
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(FluxLedger));
@@ -284,6 +293,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.alive = per_slot("photon flags", 4);
     w.differentials = device.allocate("photon differentials",
                                       (footprints ? w.slots : 1) * sizeof(DifferentialRecord));
+    w.path_lights = device.allocate("photon paths' lights", (keeps_lights ? w.slots : 1) * 4);
     w.counters = device.allocate("photon counters", counter_count * 4);
     w.flux_sums = device.allocate("flux sums", 12 * 8);
     device.fill(w.flux_sums, 0);
@@ -306,6 +316,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
                                    ? static_cast<float>(1.0 / static_cast<double>(pass.spread))
                                    : batch.inverse_total;
         batch.bounces = pass.bounces;
+        batch.least_scatterings = pass.first_hits ? 0 : 1;
         batch.flux_unit = flux_unit;
         for (;;) {
             batch.capacity = static_cast<std::uint32_t>(w.capacity);

@@ -39,6 +39,8 @@ struct PhotonPass {
     std::uint32_t bounces = 0; ///< scatterings at most of a stored photon
     /// Photons of all passes whose photons are in one map, for their spacing; 0: `count`.
     std::uint64_t spread = 0;
+    bool first_hits = false; ///< photons are stored where they are scattered first, too, so that
+                             ///< they account for direct light
 };
 
 /// The photons that a pass has stored.
@@ -60,14 +62,17 @@ struct PhotonWorkspace {
     Buffer differentials; ///< DifferentialRecord per slot
     Buffer offsets;       ///< uvec4 per stored photon: its positional differentials, pack_dual of
                           ///< shared/footprint.h
-    Buffer flux_sums;     ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
+    bool keeps_lights = false; ///< whether photons keep the indices of their lights
+    Buffer path_lights;        ///< uint per slot: the photon's light
+    Buffer lights;             ///< uint per stored photon: its light
+    Buffer flux_sums; ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
     Traversal traversal;
     Buffer last_sorted, last_footprints; ///< of the map that was built last: the next map takes
                                          ///< this memory if nobody holds that map any more
 };
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints = false);
+                                      bool footprints = false, bool keeps_lights = false);
 
 /// The most photons that a map may hold on this device.
 std::uint64_t max_stored_photons(const Device& device);

@@ -168,8 +168,9 @@ void add_points(Device& device, const QueueRecords& records, double photon_weigh
     }
 }
 
-QueueRecords records_of(const QueueBlock& block, const Buffer& stored, const Buffer& offsets) {
-    return {stored, block.first, block.records, block.records, offsets};
+QueueRecords records_of(const QueueBlock& block, const PhotonQueue& memory) {
+    return {memory.stored, block.first,    block.records,
+            block.records, memory.offsets, memory.light_indices};
 }
 
 } // namespace
@@ -235,14 +236,17 @@ void allocate_queue(Device& device, PhotonQueue& q, const std::vector<QueueBlock
         copy_elements(device, old, before[b].first, q.stored, q.blocks[b].first, before[b].records,
                       sizeof(PhotonRecord));
     }
-    const Buffer old_offsets = q.offsets;
-    q.offsets =
-        device.allocate("queue: differentials",
-                        q.footprints ? queue_room(q) * sizeof(glm::uvec4) : sizeof(glm::uvec4));
-    for (std::size_t b = 0; q.footprints && b < q.blocks.size(); ++b) {
-        copy_elements(device, old_offsets, before[b].first, q.offsets, q.blocks[b].first,
-                      before[b].records, sizeof(glm::uvec4));
-    }
+    // What is kept beside each record, if it is.
+    const auto beside = [&](const char* name, Buffer& buffer, bool kept, std::uint64_t bytes) {
+        const Buffer last = buffer;
+        buffer = device.allocate(name, (kept ? queue_room(q) : 1) * bytes);
+        for (std::size_t b = 0; kept && b < q.blocks.size(); ++b) {
+            copy_elements(device, last, before[b].first, buffer, q.blocks[b].first,
+                          before[b].records, bytes);
+        }
+    };
+    beside("queue: differentials", q.offsets, q.footprints, sizeof(glm::uvec4));
+    beside("queue: lights", q.light_indices, q.lights > 1, 4);
     q.of_entry = grown("queue: entries", q.of_entry, q.entries);
     q.cell_of_entry = grown("queue: cells of entries", q.cell_of_entry, q.entries);
     q.next_of_entry = grown("queue: next entries", Buffer(), 0);
@@ -265,14 +269,13 @@ void divide_queue(Device& device, PhotonQueue& q, std::span<const CellNode> plan
 }
 
 void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode> planes) {
+    const PhotonQueue old = q; // shares its memory
     std::vector<QueueBlock> blocks = q.blocks;
-    const Buffer stored = q.stored;
-    const Buffer offsets = q.offsets;
     {
         const StageScope stage(device, "divide queue");
         std::vector<glm::vec4> points;
         for (const QueueBlock& block : blocks) {
-            add_points(device, records_of(block, stored, offsets), 1, points);
+            add_points(device, records_of(block, old), 1, points);
         }
         set_queue_cells(device, q,
                         divide_cells(planes, std::move(points), q.leaf_size, q.caustic > 0 ? 2 : 1),
@@ -293,7 +296,7 @@ void divide_queue_anew(Device& device, PhotonQueue& q, std::span<const CellNode>
     });
     for (const std::uint32_t b : order) {
         if (blocks[b].moment > 0) {
-            replace_block(device, q, b, blocks[b].moment, records_of(blocks[b], stored, offsets));
+            replace_block(device, q, b, blocks[b].moment, records_of(blocks[b], old));
             q.blocks[b].weight = blocks[b].weight;
         }
     }
@@ -320,16 +323,19 @@ void replace_block(Device& device, PhotonQueue& q, std::uint32_t block, std::uin
     params.first = static_cast<uint>(records.first);
     params.block = block;
     dispatch(device,
-             kernels::queue_store{.photons = records.photons,
-                                  .cells = fresh.cells,
-                                  .order = fresh.order,
-                                  .blocks = block_table(device, q),
-                                  .boxes = q.boxes,
-                                  .stored = q.stored,
-                                  .offsets = q.footprints ? records.offsets : q.distances,
-                                  .stored_offsets = q.offsets,
-                                  .params = params,
-                                  .constants = {.footprints = q.footprints}},
+             kernels::queue_store{
+                 .photons = records.photons,
+                 .cells = fresh.cells,
+                 .order = fresh.order,
+                 .blocks = block_table(device, q),
+                 .boxes = q.boxes,
+                 .stored = q.stored,
+                 .offsets = q.footprints ? records.offsets : q.distances,
+                 .stored_offsets = q.offsets,
+                 .photon_lights = q.lights > 1 ? records.lights : q.distances,
+                 .stored_lights = q.light_indices,
+                 .params = params,
+                 .constants = {.footprints = q.footprints, .keeps_lights = q.lights > 1}},
              records.slots);
     dispatch(device,
              kernels::queue_move{.entries = q.of_entry,

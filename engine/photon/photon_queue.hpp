@@ -21,11 +21,13 @@ struct PhotonQueue {
     bool leaves_test = false; ///< each cell tests all new photons (Shi 2012, algorithm 1), instead
                               ///< of each photon descending to its cell
     const char* stage = "update queue"; ///< in which it is updated, and its maps are made
-    CellTree tree;                      ///< without nodes before the first block
-    std::uint32_t cells = 0;            ///< twice those of the tree if caustic photons lie apart
-    std::uint32_t caustic = 0;          ///< the first cell of caustic photons; 0: none
-    std::uint64_t entries = 0;          ///< records that are in the queue
-    std::uint64_t crowded = 0;          ///< records in cells that hold more than twice leaf_size
+    std::uint32_t lights = 1;         ///< that photons tell apart; 1: they do not keep their lights
+    std::vector<float> light_weights; ///< of photons, by block and light: block * lights + light
+    CellTree tree;                    ///< without nodes before the first block
+    std::uint32_t cells = 0;          ///< twice those of the tree if caustic photons lie apart
+    std::uint32_t caustic = 0;        ///< the first cell of caustic photons; 0: none
+    std::uint64_t entries = 0;        ///< records that are in the queue
+    std::uint64_t crowded = 0;        ///< records in cells that hold more than twice leaf_size
     std::uint64_t crowded_when_divided = 0;
     std::uint64_t divided_for = 0;  ///< records for which space was divided
     std::vector<QueueBlock> blocks; ///< window + 1
@@ -41,6 +43,7 @@ struct PhotonQueue {
     /// uvec4 for each of these, if there are footprints: differentials of photons
     /// (PhotonWorkspace::offsets), and dual axes of area samples (queue_footprints.hpp).
     Buffer offsets;
+    Buffer light_indices;  ///< uint for each of these: its light, if photons keep it
     double area_scale = 0; ///< FootprintScale::diffuse for which the latter were made; 0: not yet
     Buffer of_entry, cell_of_entry, starts;                ///< see queue_move.h
     Buffer next_of_entry, next_cell_of_entry, next_starts; ///< memory for the next ones
@@ -57,6 +60,7 @@ struct QueueRecords {
     std::uint64_t first = 0, slots = 0;
     std::uint64_t records = 0; ///< that are not empty
     Buffer offsets;            ///< of photons with footprints: PhotonWorkspace::offsets
+    Buffer lights;             ///< of photons that keep their lights: PhotonWorkspace::lights
 };
 
 /// Empties the queue, and divides space into cells for these records, of whose photons there will

@@ -9,6 +9,19 @@
 
 namespace argand {
 
+namespace {
+
+Buffer weights_by_light(Device& device, const PhotonQueue& q) {
+    const std::uint64_t count = std::uint64_t(q.window) * q.lights;
+    Buffer weights = scratch_words(device, "queue: weights by light", count);
+    if (q.lights > 1) {
+        device.upload(weights, 0, std::as_bytes(std::span(q.light_weights)));
+    }
+    return weights;
+}
+
+} // namespace
+
 PhotonMap map_of_queue(Device& device, PhotonQueue& q, const SampledPart& corrected,
                        const std::optional<QueueFootprints>& footprints) {
     const StageScope stage(device, q.stage);
@@ -46,7 +59,11 @@ PhotonMap map_of_queue(Device& device, PhotonQueue& q, const SampledPart& correc
                                 .scales = scales,
                                 .stored = q.stored,
                                 .sorted = map.photons,
-                                .params = queue_params(q, q.entries)},
+                                .weights = weights_by_light(device, q),
+                                .stored_lights = q.light_indices,
+                                .emptied = q.emptied,
+                                .params = queue_params(q, q.entries),
+                                .constants = {.keeps_lights = q.lights > 1}},
              q.entries);
     std::vector<std::uint32_t> counters(counter_count, 0);
     counters[counter_stored] = static_cast<std::uint32_t>(q.entries);

@@ -26,6 +26,7 @@ inline QueueParams queue_params(const PhotonQueue& q, std::uint64_t count) {
     params.caustic = q.caustic;
     params.blocks = q.window;
     params.leaf_size = q.leaf_size;
+    params.lights = q.lights;
     return params;
 }
 

@@ -54,6 +54,8 @@ struct PhotonBatch {
     // 1 / photons that cover the scene together, for the spacing between them: those of the pass,
     // and of others that count with it.
     float32 inverse_spread;
+    uint least_scatterings; // of a stored photon: 1, or 0 where photons account for direct light
+    uint pad0, pad1, pad2;
 };
 
 struct PhotonAdvanceParams {

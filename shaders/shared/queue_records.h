@@ -46,7 +46,8 @@ struct QueueParams {
     uint moment;
     uint leaf_size; // records that a cell should hold at most
     float32 reach;  // about moved boxes
-    uint pad0, pad1, pad2;
+    uint lights;    // that photons tell apart; 1: none
+    uint pad0, pad1;
 };
 
 struct QueueFootprintParams {

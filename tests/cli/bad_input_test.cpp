@@ -107,8 +107,10 @@ TEST_F(BadInput, KdTreesThatAreNone) {
 TEST_F(BadInput, QueuesThatAreNone) {
     const std::string scene =
         "render '" + asset("cornell_point.glb") + "' --size 8x8 --method photon-queue ";
-    for (const char* option : {"--window 0", "--window -1", "--window 129", "--half-life 0",
-                               "--half-life -2", "--half-life nan", "--estimator median"}) {
+    for (const char* option :
+         {"--window 0", "--window -1", "--window 129", "--half-life 0", "--half-life -2",
+          "--half-life nan", "--estimator median", "--rebuild octree", "--classify photons",
+          "--direct lights", "--show lights", "--direct photons --final-gather"}) {
         const std::string name = std::string(option).substr(0, std::string(option).find(' '));
         expect_failure(scene + option, usage, name);
     }

@@ -78,7 +78,34 @@ TEST_F(PaperBench, SimultaneousQueriesAgainstATree) {
     }
 }
 
+TEST_F(PaperBench, PhotonsQueueWritesAPageAndResumes) {
+    const std::string command = "bench --paper shi12 --quick --runs 1 --scenes '" +
+                                std::string(ARGAND_SOURCE_DIR) + "/assets' -o '" + file("shi12") +
+                                "'";
+    const Outcome first = argand(command, on_host);
+    ASSERT_EQ(first.exit_code, 0) << first.error;
+    const std::string page = read_text(file("shi12/shi12.md"));
+    for (const char* title : {"Figure 4.1", "Figures 4.2 and 4.3", "Figure 4.4", "Figure 4.5",
+                              "Figures 4.11 to 4.13"}) {
+        EXPECT_NE(page.find(title), std::string::npos) << title;
+    }
+    const nlohmann::json rows = nlohmann::json::parse(read_text(file("shi12/shi12.json")))["rows"];
+    EXPECT_GT(rows["construction, 2000 photons"]["kd-tree / update"], 0);
+    EXPECT_GT(rows["memory, 2000 photons"]["queue: at rest [MiB]"], 0);
+    EXPECT_EQ(rows["film"].size(), 11u);
+    EXPECT_GT(rows["film"][10]["queue: relMSE"], 0);
+    const Outcome again = argand(command, on_host);
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_EQ(again.error, ""); // nothing is measured again
+    EXPECT_EQ(read_text(file("shi12/shi12.md")), page);
+}
+
 TEST_F(PaperBench, UnknownPapersAndPartsAreRefused) {
+    expect_failure("bench --paper shi12 --json", 2, "--json");
+    expect_failure("bench --paper fd09 --quick", 2, "--quick");
+    expect_failure("bench --paper shi12 --scenes nowhere", 1, "--scenes", on_host);
+    expect_failure("bench --paper shi12 --scenes '" + asset(".") + "' -o /proc/nowhere", 1, "",
+                   on_host);
     expect_failure("bench --paper jensen96", 2, "--paper");
     expect_failure("bench --paper fd09 --part table9", 2, "--part");
     expect_failure("bench --part table1", 2, "--paper");

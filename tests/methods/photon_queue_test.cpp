@@ -169,6 +169,98 @@ TEST_F(PhotonQueueFrames, CellsMayTestAllPhotons) {
     }
 }
 
+TEST_F(PhotonQueueFrames, PhotonsMayAccountForDirectLight) {
+    for (const bool emitter : {false, true}) {
+        const Scene scene = emitter ? load_asset("cornell_area.glb") : lit_room();
+        RenderSettings settings = queue_settings(4);
+        settings.photons = 60'000;
+        settings.radius = emitter ? 0.06 : 0.25;
+        const RenderResult expected = render(scene, settings);
+        settings.own["direct"] = "photons";
+        const RenderResult found = render(scene, settings);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_RELATIVE(mean(layer(found, ""))[c], mean(layer(expected, ""))[c], 0.04);
+        }
+        // What is left is the emission that the camera sees.
+        EXPECT_LT(mean(layer(found, "direct")).x, mean(layer(expected, "direct")).x);
+        EXPECT_EQ(mean(layer(found, "direct")).x > 0, emitter);
+        EXPECT_EQ(mean(layer(found, "caustic")), glm::dvec3(0));
+        settings.bounces = 0; // direct light alone
+        EXPECT_RELATIVE(mean(layer(render(scene, settings), "")).y,
+                        mean(layer(expected, "direct")).y, 0.05);
+    }
+}
+
+TEST_F(PhotonQueueFrames, PhotonsMayBeShownAsPoints) {
+    RenderSettings settings = queue_settings(4);
+    settings.width = settings.height = 48;
+    settings.own["show"] = "photons";
+    std::size_t before = 0;
+    for (const std::uint64_t photons : {0u, 100u, 1'000u}) {
+        settings.photons = photons;
+        const RenderResult result = render(lit_room(), settings);
+        std::size_t lit = 0;
+        for (const glm::vec3& pixel : layer(result, "").pixels) {
+            const float most = std::max({pixel.r, pixel.g, pixel.b});
+            ASSERT_TRUE(most == 0 || std::abs(most - 1) < 1e-6f);
+            lit += most > 0 ? 1 : 0;
+        }
+        EXPECT_LE(lit, result.statistics.photons_stored);
+        EXPECT_TRUE(photons == 0 ? lit == 0 : lit > 4 * before && lit > photons / 10) << lit;
+        before = lit;
+    }
+}
+
+TEST_F(PhotonQueueFrames, SlowLightsThatStandStillKeepTheirPhotons) {
+    // A red lamp that stands still, and a green one that moves so far that only its newest photons
+    // count.
+    Scene scene = lit_room();
+    scene.lights[0].intensity *= glm::vec3(1, 0, 0);
+    const Light red = scene.lights[0];
+    Light green = red;
+    green.intensity = glm::vec3(0, red.intensity.r, 0);
+    scene.lights.push_back(green);
+    scene.motion.lights.emplace_back();
+    for (Material& material : scene.materials) {
+        material.base_color = glm::vec3(0.7f);
+    }
+    World world(device(), scene);
+    RenderSettings settings = queue_settings(8);
+    settings.photons = 64'000;
+    settings.radius = 0.2;
+    settings.own["half-life"] = "0.001";
+    Session session(world, scene, settings);
+    RenderResult moving = frame(session);
+    for (int i = 0; i < 10; ++i) {
+        scene.lights[1].position.x -= 0.02f;
+        moving = frame(session);
+    }
+    Scene red_only = scene;
+    red_only.lights = {red};
+    RenderSettings many = settings;
+    many.method = "photons";
+    many.photons = 2'000'000;
+    const RenderResult reference = render(red_only, many);
+    const Image& truth = layer(reference, "indirect");
+    const auto error = [&](const RenderResult& result) {
+        double sum = 0;
+        const Image& image = layer(result, "indirect");
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const double d = double(image.pixels[i].r) - double(truth.pixels[i].r);
+            sum += d * d;
+        }
+        return sum;
+    };
+    Session still(world, scene, settings);
+    const double all = error(frame(still));
+    RenderSettings fewer = settings;
+    fewer.photons /= 8;
+    Session one_block(world, scene, fewer);
+    const double block = error(frame(one_block));
+    EXPECT_GT(block, 3 * all); // else the test could not fail
+    EXPECT_LT(error(moving), 2 * all);
+}
+
 TEST_F(PhotonQueueFrames, SlowFirstFramesAreAsBrightAsTheOthers) {
     const Scene scene = lit_room();
     World world(device(), scene);

@@ -387,6 +387,41 @@ TEST_F(PhotonQueues, EmptiedCellsCountTheBlocksTracedSince) {
     EXPECT_LT(found.size(), 4'000u - of_first + 1);
 }
 
+TEST_F(PhotonQueues, PhotonsHaveTheWeightsOfTheirLights) {
+    PhotonQueue queue = make_photon_queue(2, 8);
+    queue.lights = 2;
+    const std::vector<PhotonRecord> photons = random_photons(900);
+    divide(queue, photons, false, 2);
+    std::vector<std::uint32_t> lights; // of slots, as upload_slots() makes them: by the place
+    QueueRecords records = upload_slots(photons);
+    for (const PhotonRecord& slot :
+         download<PhotonRecord>(device(), records.photons, records.first + records.slots)) {
+        lights.push_back(slot.x < 0 ? 0 : 1);
+    }
+    records.lights = upload(device(), "lights", lights);
+    replace_block(device(), queue, 0, 1, records);
+    replace_block(device(), queue, 1, 2, records);
+    queue.light_weights = {0.25f, 1, 0.75f, 0}; // of block 0, and of block 1
+    const auto sum = [&](const std::vector<PhotonRecord>& of, bool left) {
+        double flux = 0;
+        for (const PhotonRecord& p : of) {
+            flux += (p.x < 0) == left ? double(p.flux_g) : 0;
+        }
+        return flux;
+    };
+    for (const bool emptied : {false, true}) {
+        const PhotonMap map = map_of_queue(device(), queue, {});
+        const auto found = download<PhotonRecord>(device(), map.photons, queue.entries);
+        // Where block 0 is dropped, what is left has all the weight: of the light on the right it
+        // is 0.
+        EXPECT_NEAR(sum(found, true), sum(photons, true), 1e-4 * sum(photons, true));
+        EXPECT_NEAR(sum(found, false), emptied ? 0 : sum(photons, false),
+                    1e-4 * sum(photons, false));
+        empty_near(device(), queue, {{-2, -2, -2, 0, 2, 2, 2, 0}}, 0.01, 1);
+        replace_block(device(), queue, 1, 3, records);
+    }
+}
+
 TEST_F(PhotonQueues, SlowAThousandFramesTakeNoMoreMemoryThanTen) {
     PhotonQueue queue = make_photon_queue(4, 8);
     const std::vector<PhotonRecord> photons = random_photons(50);

@@ -10,6 +10,7 @@
 #include "bench/bench_rays.hpp"
 #include "bench/fd09.hpp"
 #include "bench/kdgs10.hpp"
+#include "bench/shi12.hpp"
 #include "numbers.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ struct BenchOptions {
     std::string paper;
     Fd09Settings fd09;
     Kdgs10Settings kdgs10;
+    Shi12Options shi12;
     bool is_dynamic = false;
     DynamicOptions dynamic;
     bool json = false;
@@ -67,6 +69,12 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
 }
 
 void run_paper(const BenchOptions& options) {
+    if (options.paper == "shi12") {
+        catch_interrupts();
+        bench_shi12([&] { return open_backend(options.backend, options.device, true); },
+                    options.shi12);
+        return;
+    }
     const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
     const bool simultaneous = options.paper == "kdgs10";
     const std::vector<PaperTable> tables = simultaneous
@@ -128,19 +136,41 @@ void run(const BenchOptions& options) {
 
 /// Throws UsageError if an option is given that the benchmark of the paper does not have.
 void check_paper_options(const CLI::App& command, const std::string& paper) {
-    const std::vector<std::string> others =
-        paper == "kdgs10" ? std::vector<std::string>{"--scene",
-                                                     "--part",
-                                                     "--size",
-                                                     "--error-size",
-                                                     "--budget",
-                                                     "--photons",
-                                                     "--reference-samples"}
-                          : std::vector<std::string>{"--most-queries", "--most-photons"};
+    const std::vector<std::string> of_fd09{"--scene",
+                                           "--part",
+                                           "--size",
+                                           "--error-size",
+                                           "--budget",
+                                           "--photons",
+                                           "--reference-samples"};
+    const std::vector<std::string> of_kdgs10{"--most-queries", "--most-photons"};
+    const std::vector<std::string> of_shi12{"--output", "--scenes", "--quick"};
+    std::vector<std::string> others;
+    const auto add = [&](const char* of, const std::vector<std::string>& names) {
+        if (paper != of) {
+            others.insert(others.end(), names.begin(), names.end());
+        }
+    };
+    add("fd09", of_fd09);
+    add("kdgs10", of_kdgs10);
+    add("shi12", of_shi12);
+    if (paper == "shi12") {
+        others.emplace_back("--json"); // it writes files
+    }
     for (const std::string& name : others) {
         if (command.count(name) > 0) {
             throw UsageError(
                 fmt::format("measuring '{}': this paper has no {}; leave it out", paper, name));
+        }
+    }
+}
+
+/// Throws UsageError if an option is given that only benchmarks of films have.
+void check_film_options(const CLI::App& command) {
+    for (const char* name : {"--output", "--scenes", "--quick"}) {
+        if (command.count(name) > 0) {
+            throw UsageError(fmt::format(
+                "measuring: {} is for --dynamic and --paper shi12; leave it out", name));
         }
     }
 }
@@ -158,8 +188,8 @@ void add_bench_command(CLI::App& app) {
             ->add_option(
                 "--paper", options->paper,
                 "Repeat the measurements of a paper instead: fd09, Fabianowski and Dingliana 2009; "
-                "kdgs10, Keller et al. 2010")
-            ->check(CLI::IsMember({"fd09", "kdgs10"}));
+                "kdgs10, Keller et al. 2010; shi12, Shi 2012, which resumes if it is interrupted")
+            ->check(CLI::IsMember({"fd09", "kdgs10", "shi12"}));
     command
         ->add_option("--scene", fd09.scenes,
                      "With --paper fd09: glTF files (default: scenes of this project)")
@@ -230,18 +260,17 @@ void add_bench_command(CLI::App& app) {
                      "With --dynamic: names of films, such as dynamic_shi (default: all)")
         ->needs(is_dynamic);
     command
-        ->add_option("--scenes", dynamic.scenes, "With --dynamic: folder of this project's scenes")
-        ->needs(is_dynamic)
+        ->add_option("--scenes", dynamic.scenes,
+                     "With --dynamic and --paper shi12: folder of this project's scenes")
         ->capture_default_str();
-    command
-        ->add_option("-o,--output", dynamic.folder,
-                     "With --dynamic: folder for dynamic.csv, FILM.json and the references")
-        ->needs(is_dynamic)
-        ->capture_default_str();
-    command
-        ->add_flag("--quick", dynamic.quick,
-                   "With --dynamic: small pictures, few photons and two seeds, for a few minutes")
-        ->needs(is_dynamic);
+    command->add_option(
+        "-o,--output", dynamic.folder,
+        "With --dynamic: folder for dynamic.csv, FILM.json and the references "
+        "(default: argand_dynamic); with --paper shi12: for shi12.md and shi12.json "
+        "(default: argand_shi12)");
+    command->add_flag("--quick", dynamic.quick,
+                      "With --dynamic and --paper shi12: small pictures and few photons, for a few "
+                      "minutes");
     command->add_flag("--json", options->json, "Print JSON, one object per measurement")
         ->excludes(is_dynamic);
     command->footer("Rates are items per second of device time, the median of several runs. The "
@@ -252,8 +281,15 @@ void add_bench_command(CLI::App& app) {
     command->callback([options, command] {
         if (!options->paper.empty()) {
             check_paper_options(*command, options->paper);
+        } else if (!options->is_dynamic) {
+            check_film_options(*command);
         }
-        options->kdgs10.runs = options->fd09.runs;
+        options->kdgs10.runs = options->shi12.runs = options->fd09.runs;
+        options->shi12.scenes = options->dynamic.scenes;
+        options->shi12.quick = options->dynamic.quick;
+        if (command->count("--output") > 0) {
+            options->shi12.folder = options->dynamic.folder;
+        }
         run(*options);
     });
 }

@@ -48,7 +48,8 @@ nlohmann::ordered_json plan_json(const Scene& scene, MethodTable methods) {
 
 /// What a photons queue would keep from frame to frame, and what lets it drop or age; empty if
 /// nothing moves.
-std::string kept_text(const Motion& motion) {
+std::string kept_text(const Scene& scene) {
+    const Motion& motion = scene.motion;
     std::vector<std::string> words;
     if (!motion.materials.empty()) {
         words.emplace_back("none while materials change");
@@ -58,7 +59,9 @@ std::string kept_text(const Motion& motion) {
                                        motion.meshes.size() == 1 ? "mesh" : "meshes"));
     }
     if (!motion.lights.empty()) {
-        words.emplace_back("older ones count less while lights move");
+        words.emplace_back(motion.lights.size() < scene.lights.size()
+                               ? "older ones of lights that move count less"
+                               : "older ones count less while lights move");
     }
     if (words.empty() && !motion.cameras.empty()) {
         words.emplace_back("all: only the camera moves");
@@ -89,7 +92,7 @@ void inspect(const InspectOptions& options) {
     const Scene scene = load_scene(options.scene, options, options.seconds, options.load);
     nlohmann::ordered_json summary = summary_json(scene);
     const nlohmann::ordered_json plan = plan_json(scene, options.methods);
-    const std::string kept = kept_text(scene.motion);
+    const std::string kept = kept_text(scene);
     if (options.json) {
         summary["plan"] = plan;
         if (!kept.empty()) {

@@ -18,10 +18,14 @@ layout(set = 0, binding = 13) writeonly buffer Active { uint active_slots[]; };
 layout(set = 0, binding = 14) writeonly buffer Differentials { DifferentialRecord differentials[]; };
 layout(set = 0, binding = 15) readonly buffer Aims { AimNode aim_nodes[]; };
 layout(set = 0, binding = 16) readonly buffer Sky { uint sky[]; };
+layout(set = 0, binding = 17) writeonly buffer PathLights { uint path_lights[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.
 layout(constant_id = 0) const bool footprints = false;
 layout(constant_id = 1) const uint numbers = numbers_sobol; // numbers_*
+
+// Whether photons keep the index of their light.
+layout(constant_id = 2) const bool keeps_lights = false;
 
 #include "shared/kernels/photon/photon_emit.h"

@@ -21,6 +21,8 @@ layout(set = 0, binding = 16) writeonly buffer Photons { PhotonRecord photons[];
 layout(set = 0, binding = 17) writeonly buffer Alive { uint alive[]; };
 layout(set = 0, binding = 18) buffer Differentials { DifferentialRecord differentials[]; };
 layout(set = 0, binding = 19) writeonly buffer Offsets { uvec4 offsets[]; };
+layout(set = 0, binding = 20) readonly buffer PathLights { uint path_lights[]; };
+layout(set = 0, binding = 21) writeonly buffer PhotonLights { uint photon_lights[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.
@@ -32,5 +34,8 @@ layout(constant_id = 2) const uint numbers = numbers_sobol; // numbers_*
 layout(constant_id = 3) const bool followed_paths = true;
 // Whether some photons are aimed at what is in view.
 layout(constant_id = 4) const bool aims_at_view = true;
+
+// Whether photons keep the index of their light.
+layout(constant_id = 5) const bool keeps_lights = false;
 
 #include "shared/kernels/photon/photon_scatter.h"

@@ -12,9 +12,13 @@ layout(set = 0, binding = 4) buffer Boxes { uint boxes[]; };
 layout(set = 0, binding = 5) writeonly buffer Stored { PhotonRecord stored[]; };
 layout(set = 0, binding = 6) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 7) writeonly buffer StoredOffsets { uvec4 stored_offsets[]; };
+layout(set = 0, binding = 8) readonly buffer Lights { uint photon_lights[]; };
+layout(set = 0, binding = 9) writeonly buffer StoredLights { uint stored_lights[]; };
 layout(push_constant) uniform Push { QueueParams params; };
 
 // Whether photons carry differentials.
 layout(constant_id = 0) const bool footprints = false;
+// Whether photons keep the index of their light.
+layout(constant_id = 1) const bool keeps_lights = false;
 
 #include "shared/kernels/photon/queue_store.h"

@@ -170,7 +170,7 @@ FN void split_lobes(INOUT(Vertex) v) {
     // The map accounts for all other light behind the last estimated vertex. But if only shadow
     // rays found lights there, those that touch the surface or that a glossy lobe reflects would
     // become fireflies. One more ray looks for them.
-    bool seeks = has_sky() || has_emitters();
+    bool seeks = direct_light && (has_sky() || has_emitters());
     v.onward = !v.ends || seeks ? v.estimated : 0u;
     real estimated_albedo =
         v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
@@ -291,8 +291,9 @@ FN void leave_query(IN(Vertex) v) {
         kind = query_kind_caustics;
         flags |= query_caustics;
     }
-    bool wanted =
-        v.estimated != 0u && scatterings > 0u && (kind == query_kind_map || followed_paths);
+    // Without shadow rays, photons that were not scattered yet count, too.
+    bool wanted = v.estimated != 0u && (scatterings > 0u || !direct_light) &&
+                  (kind == query_kind_map || followed_paths);
     // If paths share estimates, every path queries; else every few samples do, and their answers
     // count for all.
     bool shares = batch.shares_queries != 0u;

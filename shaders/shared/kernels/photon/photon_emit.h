@@ -100,4 +100,7 @@ FN void main() {
     ledgers[slot] =
         FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u), uvec4(0u));
     active_slots[slot] = slot;
+    if (keeps_lights) {
+        path_lights[slot] = chosen.index;
+    }
 }

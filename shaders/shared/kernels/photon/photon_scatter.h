@@ -179,7 +179,7 @@ FN uvec4 units_of(vec3 flux) { return uvec4(flux_units(flux, batch.flux_unit), 0
 // Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
 // scheduling. Returns whether the photon may be stored.
 FN bool reserve(uint store, uint depth) {
-    bool stores = depth > 0u && depth <= batch.bounces;
+    bool stores = depth >= batch.least_scatterings && depth <= batch.bounces;
     if (stores && store >= batch.capacity) {
         atomicAdd(counters[counter_overflow], 1u);
         stores = false;
@@ -250,9 +250,12 @@ FN void main() {
     bool may_be_estimated = estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
     if (stores && may_be_estimated && a.surface.above_horizon) {
-        store_photon(store, a, followed_paths && only_followed);
+        store_photon(store, a, followed_paths && only_followed && a.depth > 0u);
         if (footprints) {
             offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
+        }
+        if (keeps_lights) {
+            photon_lights[store] = path_lights[slot];
         }
     }
     if (a.depth >= batch.bounces) {

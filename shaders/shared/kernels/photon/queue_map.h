@@ -1,3 +1,18 @@
+// The weight of a photon by its light: a row of weights for each block, which sum to 1 for each
+// light over the blocks that count in the cell.
+FN real weight_by_light(uint block, uint light, uint cell) {
+    real weight = weights[block * params.lights + light];
+    uint end = emptied[cell];
+    if (end == 0u) {
+        return weight;
+    }
+    real sum = real(0.0);
+    for (uint b = 0u; b < params.blocks; ++b) {
+        sum += blocks[b].moment > end ? weights[b * params.lights + light] : real(0.0);
+    }
+    return sum > real(0.0) ? weight / sum : real(0.0);
+}
+
 // Copies the queue's records into the order of their cells, with flux by the weights of their
 // blocks. Area samples stay as they are.
 FN void main() {
@@ -5,10 +20,15 @@ FN void main() {
     if (i >= params.count) {
         return;
     }
-    QueueBlock block = blocks[entries[i] >> queue_block_shift];
-    PhotonRecord p = stored[block.first + (entries[i] & queue_record_mask)];
+    uint of_block = entries[i] >> queue_block_shift;
+    QueueBlock block = blocks[of_block];
+    uint place = block.first + (entries[i] & queue_record_mask);
+    PhotonRecord p = stored[place];
     if (block.moment != queue_always) {
         real scale = block.weight * scales[cells[i]];
+        if (keeps_lights) {
+            scale = weight_by_light(of_block, stored_lights[place], cells[i]);
+        }
         p.flux_r *= scale;
         p.flux_g *= scale;
         p.flux_b *= scale;

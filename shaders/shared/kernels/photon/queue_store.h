@@ -14,5 +14,8 @@ FN void main() {
     if (footprints) {
         stored_offsets[place] = offsets[slot];
     }
+    if (keeps_lights) {
+        stored_lights[place] = photon_lights[slot];
+    }
     grow(cells[i], vec3(p.x, p.y, p.z), vec3(p.x, p.y, p.z));
 }
