@@ -125,7 +125,7 @@ def plane_point():
 
 
 def furnace():
-    """A file without lights gets the uniform sky: an albedo of 1 is invisible against it, exactly so with flat facets."""
+    """Under a uniform sky (--env 1,1,1) an albedo of 1 is invisible, exactly so with flat facets."""
     scene = Scene()
     scene.add("sphere", sphere(1, 12).flat(), lambertian((1, 1, 1)))
     scene.camera((0, 0, 4), (0, 0, 0))
@@ -211,7 +211,7 @@ def inside_glass():
 
 
 def sky_room():
-    """A file without lights gets the uniform sky, which comes in through the open front."""
+    """Without a light of its own: the sky comes in through the open front (--env 1,1,1)."""
     scene = cornell()
     add_boxes(scene)
     return scene

@@ -47,8 +47,6 @@ struct Environment {
     double rotation = 0; ///< of picture and sun about +Y [degrees]
     float strength = 1;  ///< factor of all radiance
     std::optional<Sun> sun;
-
-    bool operator==(const Environment&) const = default;
 };
 
 /// Solid angle of the sun's disc [sr].
@@ -65,5 +63,10 @@ glm::dvec3 rotated(const Environment& environment, const glm::dvec3& direction);
 
 /// Of all that decides the light.
 std::uint64_t fingerprint(const Environment& environment);
+
+/// Whether they light a scene alike.
+inline bool operator==(const Environment& a, const Environment& b) {
+    return fingerprint(a) == fingerprint(b);
+}
 
 } // namespace argand

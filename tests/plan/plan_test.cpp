@@ -5,6 +5,7 @@
 #include "methods/moving_scene.hpp"
 #include "methods/plan_render.hpp"
 #include "scene/gltf.hpp"
+#include "scene/studio.hpp"
 
 #include <gmock/gmock.h>
 
@@ -132,6 +133,12 @@ TEST(Plan, EachLightAddsItsFeatures) {
     EXPECT_THAT(added(room, scene), IsEmpty());
     scene.sky = glm::vec3(1);
     EXPECT_THAT(added(room, scene), UnorderedElementsAre(Feature::sky, Feature::several_lights));
+    Scene under_a_picture = room;
+    under_a_picture.environment = studio();
+    EXPECT_THAT(added(room, under_a_picture),
+                UnorderedElementsAre(Feature::sky_picture, Feature::several_lights));
+    under_a_picture.environment->strength = 0;
+    EXPECT_THAT(added(room, under_a_picture), IsEmpty());
     scene.lights.clear();
     EXPECT_THAT(features(scene),
                 UnorderedElementsAre(Feature::diffuse, Feature::sky, Feature::direct_light,

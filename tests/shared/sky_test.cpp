@@ -1,5 +1,7 @@
 #include "sky_case.hpp"
 
+#include "base/error.hpp"
+
 namespace argand {
 namespace {
 
@@ -32,6 +34,40 @@ TEST(SkyTable, TexelsKeepEighteenBitsOfTheLargestChannel) {
         EXPECT_NEAR(sky_radiance(packed_radiance(glm::vec3(exact))).y, exact, exact * 0x1p-18);
     }
     EXPECT_EQ(sky_radiance(packed_radiance({1, 0.5f, 0.25f})), vec3(1, 0.5f, 0.25f));
+}
+
+// A picture that a device cannot hold is halved until it fits, and sends the same light.
+TEST(SkyTable, PicturesThatDoNotFitAreReduced) {
+    for (const glm::ivec2& size : {glm::ivec2(64, 32), glm::ivec2(37, 19), glm::ivec2(500, 1)}) {
+        Environment environment;
+        environment.picture =
+            make_sky_picture(size.x, size.y, noise(size.x, size.y, 0.1, 10), "test");
+        const std::uint64_t whole = words_of_sky(size.x, size.y);
+        EXPECT_EQ(make_sky_table(environment, whole).halvings, 0u);
+        const SkyTable half = make_sky_table(environment, whole - 1);
+        EXPECT_EQ(half.halvings, 1u);
+        EXPECT_EQ(half.width, size.x / 2);
+        EXPECT_EQ(half.words.size(), words_of_sky(half.width, half.height));
+        EXPECT_EQ(make_sky_table(environment, 1).words.size(), words_of_sky(1, 1));
+        const std::shared_ptr<const SkyPicture> less =
+            reduced(*environment.picture, half.width, half.height);
+        const double mean = environment.picture->mean.g;
+        EXPECT_NEAR(less->mean.g, mean, 0.02 * mean) << size.x << " x " << size.y;
+    }
+    const SkyPicture even{.width = 9, .height = 5, .texels = Texels(45, glm::vec3(3))};
+    const std::shared_ptr<const SkyPicture> less = reduced(even, 4, 2);
+    for (const glm::vec3& texel : less->texels) {
+        EXPECT_NEAR(texel.r, 3, 1e-6);
+    }
+}
+
+TEST(SkyTable, PicturesThatAreNotSkiesAreErrors) {
+    EXPECT_THROW(make_sky_picture(0, 0, {}, "none"), Error);
+    EXPECT_THROW(make_sky_picture(2, 2, Texels(3, glm::vec3(1)), "few"), Error);
+    EXPECT_THROW(make_sky_picture(1, 1, {glm::vec3(-1)}, "negative"), Error);
+    EXPECT_THROW(make_sky_picture(1, 1, {glm::vec3(1, NAN, 1)}, "NaN"), Error);
+    EXPECT_THROW(make_sky_picture(1, 1, {glm::vec3(INFINITY)}, "infinite"), Error);
+    EXPECT_THROW(make_sky_picture(1, 1, {glm::vec3(2e30f)}, "bright"), Error);
 }
 
 TEST(SkyTable, NumbersOfADirectionAreItsOwn) {
