@@ -12,17 +12,28 @@
 #include "scene/moving_factors.hpp"
 #include "scene/pose.hpp"
 #include "scene/studio.hpp"
+#include "shared/texture_record.h"
 #include <algorithm>
 #include <utility>
 
 namespace argand {
 namespace {
 
+/// Whether a material's surfaces light the others, now or at another time. Displays and the like,
+/// which shine by texels no brighter than white, are seen but do not.
+bool is_lamp(const Scene& scene, std::uint32_t index) {
+    const Material& material = scene.materials[index];
+    const bool glows = (material.texture_bits & material_emissive_texture) != 0 &&
+                       moving_material(scene.motion, index) == nullptr &&
+                       glm::all(glm::lessThanEqual(material.emission, glm::vec3(1)));
+    return may_emit(scene, index) && !glows;
+}
+
 /// Adds a studio where the file has no light.
 void add_missing_light(Scene& scene) {
     const bool emissive =
         std::any_of(scene.triangle_material.begin(), scene.triangle_material.end(),
-                    [&](std::uint32_t material) { return may_emit(scene, material); });
+                    [&](std::uint32_t material) { return is_lamp(scene, material); });
     if (scene.lights.empty() && !emissive) {
         add_studio(scene);
     }

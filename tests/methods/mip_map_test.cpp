@@ -5,8 +5,9 @@
 namespace argand::testing {
 namespace {
 
-/// A floor of a checkerboard of the linear albedos 1 and 0, three columns of which are cut off, so
-/// that its mean is no mean of equal numbers. Squares are 1 / 16 wide.
+/// A floor of a checkerboard of the linear albedos 1 and 0 in red, of 13 columns, so that its mean
+/// is no mean of equal numbers. Squares are 1 / 16 wide. It reflects all blue light, so that no
+/// roulette ends photons.
 constexpr std::uint32_t columns = 13, rows = 16;
 
 Scene board(float half) {
@@ -14,7 +15,7 @@ Scene board(float half) {
     std::vector<std::uint32_t> texels;
     for (std::uint32_t i = 0; i < columns * rows; ++i) {
         const bool white = (i % columns + i / columns) % 2 == 0 && i % columns != 3;
-        texels.push_back(white ? texel(255, 255, 255) : texel(0, 60, 0));
+        texels.push_back(white ? texel(255, 255, 255) : texel(0, 60, 255));
     }
     add_texture(scene, 0, material_base_color_texture, columns, texels, false);
     scene.textures[0].mips = true;
@@ -58,13 +59,13 @@ TEST_F(RenderTest, SlowMipMapsShowTheMeanAlbedoToPhotons) {
     scene.lights = {point_light({0, 100, 0}, glm::vec3(1))};
     scene.cameras = {look_at({1, 40, 2}, {0, 0, 0}, 10)};
     RenderSettings settings = settings_of("photons", 4, 1);
-    settings.photons = 4'000'000;
+    settings.photons = 500'000;
     const auto& flux = render(scene, settings).statistics.flux;
     // The share of the light that meets the square; what it reflects escapes.
     const double arrives =
         std::atan(1000.0 * 1000 / (100 * std::sqrt(2 * 1000.0 * 1000 + 100 * 100))) / double(pi);
     const glm::dvec3 albedo = mean_albedo(scene);
-    for (int channel = 0; channel < 3; ++channel) {
+    for (int channel = 0; channel < 2; ++channel) {
         const double absorbed = double(flux.absorbed[channel]) / double(flux.emitted[channel]);
         EXPECT_RELATIVE(absorbed, arrives * (1 - albedo[channel]), 0.001) << channel;
     }

@@ -301,6 +301,24 @@ TEST(GltfTexture, ReadsEveryTextureOfAMaterialInTheOrderOfItsUses) {
     expect_problem(file.with_coordinates(), "occlusionTexture is texture 7, which does not exist");
 }
 
+// A dial that glows lights no model; without a studio, all but the dial would be black.
+TEST(GltfTexture, GlowByTexelsDoesNotReplaceAMissingLight) {
+    for (const double strength : {1.0, 3.0}) {
+        TexturedFile file(embedded(two_by_one()));
+        json& material = file.builder.root["materials"][0];
+        material["emissiveFactor"] = {1, 0.5, 0};
+        material["extensions"] = {
+            {"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}};
+        EXPECT_FALSE(
+            has_note(TexturedFile(file).with_coordinates().finished().load(), "there is no light"))
+            << strength;
+        material["emissiveTexture"] = {{"index", 0}};
+        EXPECT_EQ(has_note(file.with_coordinates().finished().load(), "there is no light"),
+                  strength == 1)
+            << strength;
+    }
+}
+
 TEST(GltfTexture, TellsWhatIsWrongWithATexture) {
     const auto info = [](json object) {
         return TexturedFile(embedded(two_by_one()), nullptr, std::move(object)).with_coordinates();

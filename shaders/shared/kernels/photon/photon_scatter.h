@@ -105,6 +105,35 @@ FN real mirror_below(Arrival a, real u, INOUT(vec3) wi, INOUT(real) cosine) {
     return real(2.0);
 }
 
+// Leaves a surface whose normal a texture has turned. Density: of directions about the geometric
+// normal for diffuse lobes, whose BSDF hardly depends on them; about the turned one, the cosine
+// with the former over that with the latter would have no bounded variance. u: as of bsdf_sample.
+FN void depart_turned(Arrival a, MaterialRecord m, vec4 u, real mirrored, INOUT(Departure) d) {
+    vec3 wi = to_world(a.frame, d.sampled.wi);
+    real cosine = dot3(wi, a.surface.geometric_normal);
+    if (d.sampled.lobe == LOBE_DIFFUSE) {
+        wi = to_world(make_frame(a.surface.geometric_normal),
+                      sample_cosine_hemisphere(vec2(u.y, u.z)));
+        vec3 seen = to_local(a.frame, toward_above(a.surface, wi));
+        d.flux = a.flux * bsdf_eval(m, a.wo, seen, LOBE_DIFFUSE) *
+                 (PI * a.shading / d.sampled.probability);
+        d.direction = wi;
+        return;
+    }
+    if (d.sampled.lobe == LOBE_GLOSSY) {
+        real pdf = bsdf_pdf(m, a.wo, d.sampled.wi, LOBE_GLOSSY) * d.sampled.probability;
+        d.sampled.weight =
+            pdf > real(0.0) ? bsdf_eval(m, a.wo, d.sampled.wi, LOBE_GLOSSY) * (d.sampled.wi.z / pdf)
+                            : vec3(real(0.0));
+    }
+    if ((d.sampled.wi.z > real(0.0)) == (cosine > real(0.0)) && d.sampled.wi.z != real(0.0)) {
+        real factor =
+            d.sampled.wi.z > real(0.0) ? mirror_below(a, mirrored, wi, cosine) : real(1.0);
+        d.flux = a.flux * d.sampled.weight * (factor * a.shading * cosine / d.sampled.wi.z);
+        d.direction = wi;
+    }
+}
+
 // Samples how the photon leaves the surface. followed, estimated: the lobes to sample from. u,
 // choice, mirrored: in [0,1).
 FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, Cone view, vec4 u,
@@ -116,21 +145,20 @@ FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, 
     d.direction = a.direction;
     vec3 wo = a.wo;
     bool scatters = bsdf_sample(m, wo, a.surface.front, lobes, u, d.sampled);
-    if (aims_at_view && view.height > real(0.0) && (lobes & LOBE_GLOSSY & followed) == 0u &&
+    if (aims_at_view && view.height > real(0.0) && !has_normal_texture(m.textures) &&
+        (lobes & LOBE_GLOSSY & followed) == 0u &&
         (d.sampled.lobe & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
         scatters = aim_at_view(a, m, lobes, view, vec2(u.y, u.z), choice, d);
     }
     if (has(LOBE_PASS) && scatters && d.sampled.lobe == LOBE_PASS) {
         d.flux = a.flux * d.sampled.weight;
+    } else if (scatters && has_normal_texture(m.textures)) {
+        depart_turned(a, m, u, mirrored, d);
     } else if (scatters) {
         vec3 wi = to_world(a.frame, d.sampled.wi);
         real cosine = dot(wi, a.surface.geometric_normal);
-        real factor = real(1.0);
-        if (has_normal_texture(m.textures) && d.sampled.wi.z > real(0.0) && cosine > real(0.0)) {
-            factor = mirror_below(a, mirrored, wi, cosine);
-        }
         if ((d.sampled.wi.z > real(0.0)) == (cosine > real(0.0)) && d.sampled.wi.z != real(0.0)) {
-            d.flux = a.flux * d.sampled.weight * (factor * a.shading * cosine / d.sampled.wi.z);
+            d.flux = a.flux * d.sampled.weight * (a.shading * cosine / d.sampled.wi.z);
             d.direction = wi;
         }
     }
