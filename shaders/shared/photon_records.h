@@ -54,6 +54,9 @@ struct PhotonBatch {
     // 1 / photons that cover the scene together, for the spacing between them: those of the pass,
     // and of others that count with it.
     float32 inverse_spread;
+    // Whether photons have slots in this round of tracing. Those that pass surfaces are in the same
+    // round as others with more scatterings.
+    uint has_slots;
 };
 
 struct PhotonAdvanceParams {
