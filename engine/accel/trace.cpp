@@ -1,10 +1,16 @@
 #include "accel/triangle_bvh.hpp"
 
 #include "kernels/kd_any.hpp"
+#include "kernels/kd_any_alpha.hpp"
 #include "kernels/kd_closest.hpp"
+#include "kernels/kd_closest_alpha.hpp"
 #include "kernels/trace_any.hpp"
+#include "kernels/trace_any_alpha.hpp"
+#include "kernels/trace_any_alpha_texels.hpp"
 #include "kernels/trace_any_texels.hpp"
 #include "kernels/trace_closest.hpp"
+#include "kernels/trace_closest_alpha.hpp"
+#include "kernels/trace_closest_alpha_texels.hpp"
 #include "kernels/trace_closest_texels.hpp"
 #include "parallel/parts.hpp"
 #include "shared/accel_records.h"
@@ -38,41 +44,61 @@ void dispatch_rays(const Work& work, const Kernel& kernel, const TraceParams& pa
     }
 }
 
+/// The buffers that all kernels share which trace rays through the four-wide tree.
+kernels::TraverseBindings tree_of(const Work& work) {
+    return {.nodes = work.bvh.nodes,
+            .triangles = work.bvh.triangles,
+            .rays = work.batch.rays,
+            .active_rays = work.batch.active,
+            .counts = counts_or(work.batch.count, work.batch.active),
+            .suspended = work.traversal.suspended,
+            .unfinished = work.traversal.unfinished};
+}
+
+/// The same for a kd-tree.
+kernels::KdRayBindings kdtree_of(const Work& work) {
+    return {.words = work.bvh.kdtree.words,
+            .boxes = work.bvh.kdtree.boxes,
+            .triangles = work.bvh.triangles,
+            .rays = work.batch.rays,
+            .active_rays = work.batch.active,
+            .counts = counts_or(work.batch.count, work.batch.active),
+            .suspended = work.traversal.suspended,
+            .unfinished = work.traversal.unfinished};
+}
+
 /// Dispatches one of the kernels that trace rays. Its output is the only member behind the buffers
 /// that all of them share: `hits` or `occluded`.
-template <class Kernel>
+template <class Kernel, auto tree>
 void run(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
-    const Kernel kernel{{.nodes = work.bvh.nodes,
-                         .triangles = work.bvh.triangles,
-                         .rays = work.batch.rays,
-                         .active_rays = work.batch.active,
-                         .counts = counts_or(work.batch.count, work.batch.active),
-                         .suspended = work.traversal.suspended,
-                         .unfinished = work.traversal.unfinished},
-                        work.batch.results,
-                        params,
-                        {.resume = resume}};
+    const Kernel kernel{tree(work), work.batch.results, params, {.resume = resume}};
     dispatch_rays(work, kernel, params, resume, threads);
 }
 
-/// The same with a kernel that traces rays through a kd-tree.
-template <class Kernel>
-void run_kdtree(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
-    const Kernel kernel{{.words = work.bvh.kdtree.words,
-                         .boxes = work.bvh.kdtree.boxes,
-                         .triangles = work.bvh.triangles,
-                         .rays = work.batch.rays,
-                         .active_rays = work.batch.active,
-                         .counts = counts_or(work.batch.count, work.batch.active),
-                         .suspended = work.traversal.suspended,
-                         .unfinished = work.traversal.unfinished},
-                        work.batch.results,
-                        params,
-                        {.resume = resume}};
+/// The same with a kernel for surfaces with alpha.
+template <class Kernel, auto tree>
+void run_alpha(const Work& work, const TraceParams& params, bool resume, std::uint64_t threads) {
+    const AlphaSurfaces& alpha = *work.bvh.alpha;
+    const Kernel kernel{
+        tree(work),
+        work.batch.results,
+        {.scene = alpha.scene,
+         .corners = alpha.triangles,
+         .materials = alpha.materials,
+         .attributes = alpha.attributes,
+         .textures = alpha.textures,
+         .texels = alpha.texels},
+        params,
+        {.resume = resume,
+         .alpha = {.textured = alpha.textured, .vertex_colors = alpha.vertex_colors}}};
     dispatch_rays(work, kernel, params, resume, threads);
 }
 
 bool has_kdtree(const TriangleBvh& bvh) { return static_cast<bool>(bvh.kdtree.words); }
+
+bool reads_texels(Device& device, const TriangleBvh& bvh) {
+    return read_as_texels(device, bvh.nodes, bvh.triangles);
+}
 
 TraceParams make_params(const Work& work) {
     const auto& [device, bvh, traversal, batch] = work;
@@ -102,8 +128,9 @@ std::uint64_t most_steps(const TriangleBvh& bvh) {
 /// Records the dispatch of all rays, and one that resumes the suspended ones.
 void record(const Work& work, RunKernel run_kernel) {
     TraceParams params = make_params(work);
-    // A ray cannot use up its steps in a small tree.
-    const bool may_suspend = most_steps(work.bvh) > params.step_limit;
+    // A ray cannot use up its steps in a small tree, unless it begins anew behind a surface.
+    const bool begins_anew = has_kdtree(work.bvh) && work.bvh.alpha.has_value();
+    const bool may_suspend = begins_anew || most_steps(work.bvh) > params.step_limit;
     if (may_suspend) {
         work.device.fill(
             BufferView(work.traversal.suspended, 0, suspended_head * sizeof(std::uint32_t)), 0);
@@ -167,18 +194,32 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
 
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                    const RayBatch& batch) {
-    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run_kdtree<kernels::kd_closest>
-                                           : read_as_texels(device, bvh.nodes, bvh.triangles)
-                                               ? run<kernels::trace_closest_texels>
-                                               : run<kernels::trace_closest>);
+    if (bvh.alpha) {
+        trace({device, bvh, traversal, batch},
+              has_kdtree(bvh)             ? run_alpha<kernels::kd_closest_alpha, kdtree_of>
+              : reads_texels(device, bvh) ? run_alpha<kernels::trace_closest_alpha_texels, tree_of>
+                                          : run_alpha<kernels::trace_closest_alpha, tree_of>);
+        return;
+    }
+    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run<kernels::kd_closest, kdtree_of>
+                                           : reads_texels(device, bvh)
+                                               ? run<kernels::trace_closest_texels, tree_of>
+                                               : run<kernels::trace_closest, tree_of>);
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                const RayBatch& batch) {
-    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run_kdtree<kernels::kd_any>
-                                           : read_as_texels(device, bvh.nodes, bvh.triangles)
-                                               ? run<kernels::trace_any_texels>
-                                               : run<kernels::trace_any>);
+    if (bvh.alpha) {
+        trace({device, bvh, traversal, batch},
+              has_kdtree(bvh)             ? run_alpha<kernels::kd_any_alpha, kdtree_of>
+              : reads_texels(device, bvh) ? run_alpha<kernels::trace_any_alpha_texels, tree_of>
+                                          : run_alpha<kernels::trace_any_alpha, tree_of>);
+        return;
+    }
+    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run<kernels::kd_any, kdtree_of>
+                                           : reads_texels(device, bvh)
+                                               ? run<kernels::trace_any_texels, tree_of>
+                                               : run<kernels::trace_any, tree_of>);
 }
 
 } // namespace argand

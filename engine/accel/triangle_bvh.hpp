@@ -4,7 +4,16 @@
 #include "device/count.hpp"
 #include "device/device.hpp"
 
+#include <optional>
+
 namespace argand {
+
+/// What tells rays how much of the surface is there where they meet a triangle
+/// (shaders/comp/accel/alpha_bindings.glsl).
+struct AlphaSurfaces {
+    Buffer scene, triangles, materials, attributes, textures, texels;
+    bool textured = false, vertex_colors = false;
+};
 
 /// Acceleration structure over triangles, for rays: a four-wide tree, or a kd-tree.
 struct TriangleBvh {
@@ -16,6 +25,7 @@ struct TriangleBvh {
     Buffer parents; ///< uint: of each child reference its place among all nodes' children
     Buffer boxes;   ///< of each child reference: vec4 (low, cost), vec4 (high, 0)
     KdTree kdtree;  ///< with words if rays go through it
+    std::optional<AlphaSurfaces> alpha; ///< if parts of surfaces are absent; else all are opaque
 };
 
 /// Builds the structure on the device; records only. positions: vec4 (xyz) per vertex; triangles:
@@ -67,11 +77,14 @@ struct RayBatch {
 };
 
 /// Finds the closest hit of each ray; results: HitRecord. Of hits at one distance, the triangle
-/// that comes first in the scene counts. Records only, unless the traversal is careful.
+/// that comes first in the scene counts. If surfaces have alpha, rays find what is there in part,
+/// and go on behind it where t_max is goes_on; they do not hit what is absent. Records only, unless
+/// the traversal is careful.
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                    const RayBatch& batch);
 
-/// Finds whether anything lies on each ray; results: uint, 1 or 0. Rays with t_max < 0 give 1.
+/// Finds whether anything lies on each ray; results: uint, 1 or 0. Rays with t_max < 0 give 1. If
+/// surfaces have alpha, results are the thickness of what lies on the ray (shared/alpha.h).
 /// Records only, unless the traversal is careful.
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal, const RayBatch& batch);
 

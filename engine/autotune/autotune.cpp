@@ -197,7 +197,7 @@ bool is_blind_to_caustics(const Scene& scene) {
                            [&](Feature feature) { return plan.needs(feature); });
     };
     return needs_any({Feature::point_light, Feature::spot_light, Feature::directional_light}) &&
-           needs_any({Feature::mirror, Feature::transmission, Feature::alpha});
+           needs_any({Feature::mirror, Feature::transmission});
 }
 
 AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,

@@ -6,6 +6,7 @@
 #include "kernels/shadow_add.hpp"
 #include "methods/lens.hpp"
 #include "parallel/compact.hpp"
+#include "shared/alpha.h"
 #include "shared/geometry_records.h"
 #include "shared/random.h"
 
@@ -96,13 +97,15 @@ void add_direct_light(Device& device, const DeviceScene& scene, EyeWorkspace& w,
         trace_any(device, scene.bvh, w.traversal, {w.shadow_rays, w.active, w.occluded, active});
     }
     const StageScope stage(device, "shade");
-    dispatch_indirect(device,
-                      kernels::shadow_add{.active_slots = w.active,
-                                          .counts = w.counts,
-                                          .occluded = w.occluded,
-                                          .shadows = w.shadows,
-                                          .layers = w.layers},
-                      w.counts);
+    dispatch_indirect(
+        device,
+        kernels::shadow_add{.active_slots = w.active,
+                            .counts = w.counts,
+                            .occluded = w.occluded,
+                            .shadows = w.shadows,
+                            .layers = w.layers,
+                            .constants = {.has_alpha = scene.plan.needs(Feature::alpha)}},
+        w.counts);
 }
 
 /// Makes the paths that continue the active ones.
@@ -113,20 +116,25 @@ void advance(Device& device, EyeWorkspace& w, const Count& active) {
     std::swap(w.active, w.next_active);
 }
 
-/// Adds the lights that the last shadow rays found to a list.
-void collect_found(Device& device, const EyeWorkspace& w, std::vector<FoundLight>& found) {
+/// Adds the lights that the last shadow rays found to a list. alpha: they may bring a share of the
+/// light.
+void collect_found(Device& device, const EyeWorkspace& w, bool alpha,
+                   std::vector<FoundLight>& found) {
     const std::uint32_t count = download_word(device, w.counts);
     const auto shadows = download<ShadowRecord>(device, w.shadows, w.slots);
     const auto rays = download<RayRecord>(device, w.shadow_rays, w.slots);
     const auto occluded = download<std::uint32_t>(device, w.occluded, w.slots);
     for (const std::uint32_t slot : download<std::uint32_t>(device, w.active, count)) {
         const RayRecord& ray = rays[slot];
-        if (occluded[slot] != 0 || !(ray.t_max > 0)) {
+        const float passed = alpha                 ? transmittance(occluded[slot])
+                             : occluded[slot] != 0 ? 0.0f
+                                                   : 1.0f;
+        if (!(passed > 0) || !(ray.t_max > 0)) {
             continue;
         }
         const ShadowRecord& s = shadows[slot];
-        const double radiance = double(s.estimated_r) + s.estimated_g + s.estimated_b +
-                                s.followed_r + s.followed_g + s.followed_b;
+        const double radiance = passed * (double(s.estimated_r) + s.estimated_g + s.estimated_b +
+                                          s.followed_r + s.followed_g + s.followed_b);
         if (!std::isfinite(radiance)) {
             continue;
         }
@@ -156,7 +164,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         if (scene.plan.needs(Feature::direct_light)) {
             add_direct_light(device, scene, w, active);
             if (found != nullptr) {
-                collect_found(device, w, *found);
+                collect_found(device, w, scene.plan.needs(Feature::alpha), *found);
             }
         }
         if (lookup != nullptr) {

@@ -70,9 +70,10 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
-bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
-                 const PhotonBatch& batch) {
+bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, PhotonBatch batch) {
     const Plan& plan = scene.plan;
+    // Photons that pass surfaces scatter in a later round than others.
+    const bool any_round = plan.needs(Feature::alpha);
     device.fill(w.traversal.unfinished, 0);
     {
         const StageScope stage(device, "emit photons");
@@ -97,6 +98,9 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         upload_word(device, w.counters, counter_active, batch.count);
     }
     for (std::uint32_t bounce = 0;; ++bounce) {
+        const bool last = bounce >= batch.bounces;
+        batch.has_slots =
+            bounce >= batch.least_scatterings && (any_round || bounce <= batch.bounces) ? 1 : 0;
         const Count active(w.counters, counter_active, batch.count);
         {
             const StageScope stage(device, "trace photons");
@@ -133,16 +137,15 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
         compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
                 active);
         std::swap(w.active, w.next_active);
-        const bool stored = bounce >= batch.least_scatterings && bounce <= batch.bounces;
         dispatch(device,
                  kernels::photon_advance{
                      .counters = w.counters,
-                     .params = {.stored = stored ? 1u : 0u, .capacity = batch.capacity}},
+                     .params = {.stored = batch.has_slots, .capacity = batch.capacity}},
                  1);
         device.submit();
-        if (bounce == batch.bounces ||
-            (bounce % bounces_between_checks == bounces_between_checks - 1 &&
-             download_word(device, w.counters, counter_active) == 0)) {
+        const bool looks = last || bounce % bounces_between_checks == bounces_between_checks - 1;
+        if ((last && !any_round) ||
+            (looks && download_word(device, w.counters, counter_active) == 0)) {
             break;
         }
     }
@@ -208,6 +211,7 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     dispatch(device,
              kernels::area_samples{
                  .scene = scene.bindings(),
+                 .texture = scene.texture_bindings(),
                  .area_sums = scene.areas.sums,
                  .counters = w.counters,
                  .photons = w.photons,
@@ -217,7 +221,9 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
                             .area = static_cast<float>(scene.areas.area * step / 4294967296.0),
                             .piece_count = scene.areas.pieces,
                             .capacity = static_cast<std::uint32_t>(w.capacity),
-                            .offset = static_cast<std::uint32_t>(random * step >> 32)}},
+                            .offset = static_cast<std::uint32_t>(random * step >> 32)},
+                 .constants = {.has_alpha = scene.plan.needs(Feature::alpha),
+                               .texture = scene.texture_constants()}},
              samples);
     if (settings.cover_height > 0) {
         find_covered_areas(device, scene, w, samples, settings.cover_height);

@@ -31,7 +31,9 @@ FeatureText text_of(Feature feature) {
     case Feature::refraction:
         return {"refraction", "refraction", ""};
     case Feature::alpha:
-        return {"alpha", "alpha", ""};
+        return {"alpha", "alpha",
+                "rays read the material of every triangle that they meet, and shadow rays go on "
+                "through all that let light pass"};
     case Feature::smooth_normals:
         return {"smooth_normals", "interpolated normals",
                 fmt::format("{} bytes per vertex; every hit reads three vertices", lane)};

@@ -28,7 +28,7 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::mirror, LOBE_MIRROR},
                                  {Feature::transmission, LOBE_TRANSMIT},
                                  {Feature::refraction, LOBE_TRANSMIT | MATERIAL_SOLID},
-                                 {Feature::alpha, LOBE_PASS}};
+                                 {Feature::alpha, MATERIAL_ALPHA}};
 
 constexpr Bit light_bits[] = {{Feature::point_light, 1u << light_point},
                               {Feature::spot_light, 1u << light_spot},
@@ -72,7 +72,7 @@ bool add_material(Requirements& requirements, const Material& material, const st
     requirements.add(Feature::mirror, by, (lobes & LOBE_MIRROR) != 0);
     requirements.add(Feature::transmission, by, (lobes & LOBE_TRANSMIT) != 0);
     requirements.add(Feature::refraction, by, is_solid(record));
-    requirements.add(Feature::alpha, by, (lobes & LOBE_PASS) != 0);
+    requirements.add(Feature::alpha, by, record.coverage < 1);
     requirements.add(Feature::emissive_triangles, by, emits(material));
     requirements.add(Feature::followed_paths, by, followed_lobes(record, follow_roughness) != 0);
     requirements.add(Feature::glossy_estimates, by, estimated != 0 && !is_lambertian(record));

@@ -71,6 +71,17 @@ Bounds box_at_rest(const Scene& scene) {
     return box;
 }
 
+AlphaSurfaces alpha_surfaces(const DeviceScene& scene) {
+    return {.scene = scene.scene,
+            .triangles = scene.triangles,
+            .materials = scene.materials,
+            .attributes = scene.attributes,
+            .textures = scene.textures,
+            .texels = scene.texels,
+            .textured = scene.plan.needs(Feature::textures),
+            .vertex_colors = scene.plan.needs(Feature::vertex_colors)};
+}
+
 /// Uploads elements from index `first` on.
 template <class T>
 std::uint64_t upload_part(Device& device, const Buffer& to, std::size_t first,
@@ -265,6 +276,9 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     }
     add_sky(scene, result);
     prepare_scene(device_, scene, box(scene), shines, textures_.trees, result);
+    if (plan.needs(Feature::alpha)) {
+        result.bvh.alpha = alpha_surfaces(result);
+    }
     return result;
 }
 

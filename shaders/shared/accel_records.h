@@ -76,10 +76,11 @@ CONSTANT uint max_ray_nodes = 0x1000000u;
 
 // Layout of Traversal::suspended in words: the number of slots requested, the number of rays that
 // the last resume suspended again, then the slots. A slot holds the ray, its current node
-// (lbvh_end: the ray is done), the children left to visit there, the height of its stack, and the
-// stack.
+// (lbvh_end: the ray is done), the children left to visit there, the height of its stack, the
+// stack, and the triangle and distance of the hit behind which the ray goes on.
 CONSTANT uint suspended_head = 2u;
-CONSTANT uint suspended_stride = 4u + ray_stack_size;
+CONSTANT uint suspended_passed = 4u + ray_stack_size;
+CONSTANT uint suspended_stride = suspended_passed + 2u;
 
 struct TraceParams {
     CountRecord count;

@@ -3,7 +3,8 @@
 // and wi point away from the surface, and the frame is turned so that wo.z > 0 on either side of
 // it.
 //
-// The BSDF is a sum of lobes. All but `pass` are scaled by the surface's alpha (coverage):
+// The BSDF is a sum of lobes, which are scaled by the surface's alpha (coverage). What passes where
+// the surface is absent is not scattered, and no part of it.
 // - diffuse: Lambertian, under the specular layer of a dielectric or beside the specular lobe of
 //   modified Phong.
 // - glossy: GGX reflection by metal and by the dielectric's layer, with what microfacets reflect
@@ -12,7 +13,6 @@
 //   solid dielectric.
 // - transmit: straight through a thin wall, or refracted at the interface of a solid dielectric;
 //   tinted by the base colour; always smooth.
-// - pass: straight through and untinted, where the surface is absent (a share of 1 - alpha).
 //
 // The BSDF is reciprocal except for refraction's factor eta_scale.
 #ifndef ARGAND_SHARED_BSDF_H
@@ -29,11 +29,11 @@ CONSTANT uint LOBE_DIFFUSE = 1u;
 CONSTANT uint LOBE_GLOSSY = 2u;
 CONSTANT uint LOBE_MIRROR = 4u;
 CONSTANT uint LOBE_TRANSMIT = 8u;
-CONSTANT uint LOBE_PASS = 16u;
-CONSTANT uint LOBES_DELTA = 28u; // mirror, transmit and pass
-CONSTANT uint LOBES_ALL = 31u;
+CONSTANT uint LOBES_DELTA = 12u; // mirror and transmit
+CONSTANT uint LOBES_ALL = 15u;
 
-// Further features of a scene's materials: GGX lobes, Phong lobes, solids that refract.
+// Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract.
+CONSTANT uint MATERIAL_ALPHA = 16u;
 CONSTANT uint MATERIAL_GGX = 32u;
 CONSTANT uint MATERIAL_PHONG = 64u;
 CONSTANT uint MATERIAL_SOLID = 128u;
@@ -67,7 +67,7 @@ FN bool wants_lobe(IN(MaterialRecord) m, uint lobes, uint lobe) {
 FN vec3 base_color(IN(MaterialRecord) m) { return vec3(m.base_r, m.base_g, m.base_b); }
 FN real ggx_alpha(IN(MaterialRecord) m) { return real(m.roughness) * real(m.roughness); }
 FN real coverage(IN(MaterialRecord) m) {
-    return may_have(m, LOBE_PASS) ? real(m.coverage) : real(1.0);
+    return may_have(m, MATERIAL_ALPHA) ? real(m.coverage) : real(1.0);
 }
 FN real metallic(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_LAYER) ? real(m.metallic) : real(0.0);
@@ -320,14 +320,11 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
     if (is_solid(m)) {
         lobes |= LOBE_MIRROR;
     }
-    if (may_have(m, LOBE_PASS) && pass_share(m) > real(0.0)) {
-        lobes |= LOBE_PASS;
-    }
     return lobes;
 }
 
-// Whether only the diffuse lobe scatters (apart from light that passes).
-FN bool is_lambertian(IN(MaterialRecord) m) { return (bsdf_lobes(m) & ~LOBE_PASS) == LOBE_DIFFUSE; }
+// Whether only the diffuse lobe scatters.
+FN bool is_lambertian(IN(MaterialRecord) m) { return bsdf_lobes(m) == LOBE_DIFFUSE; }
 
 // Approximate albedo of the masked lobes for light from wo; exact for the delta lobes. front: wo is
 // on the side from which the triangle's vertices run counter-clockwise, which is the outside of a
@@ -345,7 +342,6 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
         DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
         albedo += wants_lobe(m, lobes, LOBE_MIRROR) ? delta.reflected : vec3(real(0.0));
         albedo += wants_lobe(m, lobes, LOBE_TRANSMIT) ? delta.transmitted : vec3(real(0.0));
-        albedo += vec3(wants_lobe(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0));
     }
     return albedo;
 }
@@ -370,9 +366,6 @@ FN vec3 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     if (wants_lobe(m, present, LOBE_MIRROR | LOBE_TRANSMIT) &&
         (is_solid(m) || wants_lobe(m, present, LOBE_TRANSMIT))) {
         p.z += clear_share(m) * max(mean_component(base_color(m)), real(0.04));
-    }
-    if (wants_lobe(m, present, LOBE_PASS)) {
-        p.z += pass_share(m);
     }
     real sum = p.x + p.y + p.z;
     return sum > real(0.0) ? p / sum : p;
@@ -451,7 +444,7 @@ FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     return pdf;
 }
 
-// Chooses mirror, transmit or pass by u in [0, 1). s.probability: that any delta lobe is chosen.
+// Chooses mirror or transmit by u in [0, 1). s.probability: that any delta lobe is chosen.
 FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u,
                           INOUT(BsdfSample) s) {
     real probability = s.probability;
@@ -460,17 +453,9 @@ FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes,
         wants_lobe(m, lobes, LOBE_MIRROR) ? mean_component(delta.reflected) : real(0.0);
     real transmitted =
         wants_lobe(m, lobes, LOBE_TRANSMIT) ? mean_component(delta.transmitted) : real(0.0);
-    real passed = wants_lobe(m, lobes, LOBE_PASS) ? pass_share(m) : real(0.0);
-    real sum = reflected + transmitted + passed;
+    real sum = reflected + transmitted;
     if (!(sum > real(0.0))) {
         return false;
-    }
-    if (may_have(m, LOBE_PASS) && passed > real(0.0) && u * sum >= reflected + transmitted) {
-        s.lobe = LOBE_PASS;
-        s.wi = -wo;
-        s.probability = passed * probability / sum;
-        s.weight = vec3(sum / probability);
-        return true;
     }
     if (may_have(m, LOBE_MIRROR) && u * sum < reflected) {
         s.lobe = LOBE_MIRROR;

@@ -81,6 +81,33 @@ FN bool intersect_triangle(IN(RayShear) shear, vec3 origin, vec3 v0, vec3 v1, ve
     return t >= tmin && t <= tmax;
 }
 
+// Whether the ray's place, moved by an infinitely small step to the right and a much smaller one
+// upwards, lies inside the edge from p to q, of which the edge function is zero. side: the
+// determinant's sign.
+FN bool is_moved_inside(vec2 p, vec2 q, real side) {
+    real inside = (q.y != p.y ? q.y - p.y : p.x - q.x) * side;
+    return inside > real(0.0);
+}
+
+// For a triangle that intersect_triangle finds: whether the ray's place, moved by the same
+// infinitely small step as for all other triangles, still lies inside. Of triangles that share an
+// edge or a vertex, a ray through it crosses exactly one on each layer.
+FN bool crosses_triangle(IN(RayShear) shear, vec3 origin, vec3 v0, vec3 v1, vec3 v2) {
+    vec3 corner0 = axis_last(shear.axis, v0 - origin);
+    vec3 corner1 = axis_last(shear.axis, v1 - origin);
+    vec3 corner2 = axis_last(shear.axis, v2 - origin);
+    vec2 a = vec2(corner0.x - shear.x * corner0.z, corner0.y - shear.y * corner0.z);
+    vec2 b = vec2(corner1.x - shear.x * corner1.z, corner1.y - shear.y * corner1.z);
+    vec2 c = vec2(corner2.x - shear.x * corner2.z, corner2.y - shear.y * corner2.z);
+    real ea = c.x * b.y - c.y * b.x;
+    real eb = a.x * c.y - a.y * c.x;
+    real ec = b.x * a.y - b.y * a.x;
+    real side = ea + eb + ec > real(0.0) ? real(1.0) : -real(1.0);
+    return (ea != real(0.0) || is_moved_inside(b, c, side)) &&
+           (eb != real(0.0) || is_moved_inside(c, a, side)) &&
+           (ec != real(0.0) || is_moved_inside(a, b, side));
+}
+
 // Largest distance along any axis from the origin to a point in the box. The scene's box serves
 // every ray.
 FN real box_reach(vec3 origin, vec3 low, vec3 high) {

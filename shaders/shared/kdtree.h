@@ -29,10 +29,13 @@ FN uint kd_parent_word(uint axis, uint right_child) { return axis << 30u | right
 // The most planes above a leaf.
 CONSTANT uint kd_most_depth = 62u;
 
-// A ray's slot in Traversal::suspended: its position in so many words, and three words for each
-// node on its stack.
+// A ray's slot in Traversal::suspended: its position in so many words, three words for each node on
+// its stack, the triangle and distance of the hit behind which the ray goes on, and the closest hit
+// of a shadow ray that surfaces let pass.
 CONSTANT uint kd_suspended_words = 7u;
-CONSTANT uint kd_suspended_stride = 7u + 3u * kd_most_depth;
+CONSTANT uint kd_suspended_passed = 7u + 3u * kd_most_depth;
+CONSTANT uint kd_suspended_layer = kd_suspended_passed + 2u;
+CONSTANT uint kd_suspended_stride = kd_suspended_layer + 4u;
 
 // Nodes of at most so many elements are small: bits of one word stand for the elements.
 CONSTANT uint kd_small = 32u;

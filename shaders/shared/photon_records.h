@@ -55,7 +55,10 @@ struct PhotonBatch {
     // and of others that count with it.
     float32 inverse_spread;
     uint least_scatterings; // of a stored photon: 1, or 0 where photons account for direct light
-    uint pad0, pad1, pad2;
+    // Whether photons have slots in this round of tracing. Those that pass surfaces are in the same
+    // round as others with more scatterings.
+    uint has_slots;
+    uint pad0, pad1;
 };
 
 struct PhotonAdvanceParams {

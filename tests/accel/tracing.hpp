@@ -55,6 +55,19 @@ struct Tracer {
         return hits;
     }
 
+    /// The closest hits; `hits` holds those behind which rays with a t_max of goes_on go on.
+    std::vector<HitRecord> closest_behind(const std::vector<RayRecord>& rays,
+                                          const std::vector<HitRecord>& hits,
+                                          const TraceOptions& options = {}) const {
+        Traversal working = traversal(rays.size(), options);
+        const Buffer results = upload(device, "hits", hits);
+        trace_closest(device, bvh, working,
+                      {upload(device, "rays", rays),
+                       upload(device, "active", everyone(rays.size())), results, rays.size()});
+        EXPECT_EQ(download<std::uint32_t>(device, working.unfinished, 1)[0], 0u);
+        return download<HitRecord>(device, results, rays.size());
+    }
+
     std::vector<std::uint32_t> any(const std::vector<RayRecord>& rays,
                                    const TraceOptions& options = {}) const {
         Traversal working = traversal(rays.size(), options);

@@ -10,8 +10,12 @@
 #include "kernels/photon_gather.hpp"
 #include "kernels/photon_gather_texels.hpp"
 #include "kernels/trace_any.hpp"
+#include "kernels/trace_any_alpha.hpp"
+#include "kernels/trace_any_alpha_texels.hpp"
 #include "kernels/trace_any_texels.hpp"
 #include "kernels/trace_closest.hpp"
+#include "kernels/trace_closest_alpha.hpp"
+#include "kernels/trace_closest_alpha_texels.hpp"
 #include "kernels/trace_closest_texels.hpp"
 
 #include <filesystem>
@@ -29,6 +33,8 @@ const std::vector<std::pair<const KernelInfo*, const KernelInfo*>> pairs = {
     {&kernels::leaf_footprints::info, &kernels::leaf_footprints_texels::info},
     {&kernels::nearest_gather::info, &kernels::nearest_gather_texels::info},
     {&kernels::photon_gather::info, &kernels::photon_gather_texels::info},
+    {&kernels::trace_any_alpha::info, &kernels::trace_any_alpha_texels::info},
+    {&kernels::trace_closest_alpha::info, &kernels::trace_closest_alpha_texels::info},
     {&kernels::trace_any::info, &kernels::trace_any_texels::info},
     {&kernels::trace_closest::info, &kernels::trace_closest_texels::info},
 };

@@ -108,8 +108,7 @@ TEST(Plan, EachMaterialAddsItsFeatures) {
                 UnorderedElementsAre(Feature::phong, Feature::glossy_estimates));
     Material pane = lambertian(glm::vec3(0.5f));
     pane.coverage = 0.5f;
-    EXPECT_THAT(added(room, with_quad(room, pane)),
-                UnorderedElementsAre(Feature::alpha, Feature::followed_paths, Feature::caustics));
+    EXPECT_THAT(added(room, with_quad(room, pane)), UnorderedElementsAre(Feature::alpha));
     Scene unused = room;
     add_material(unused, mirror());
     add_material(unused, emitter(glm::vec3(1)));

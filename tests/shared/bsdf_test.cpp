@@ -63,14 +63,15 @@ TEST(Bsdf, MaterialsHaveTheirLobes) {
     EXPECT_FALSE(roughness_is_delta(glossy_dielectric(0.032f)));
 }
 
-TEST(Bsdf, AlphaScalesAllLobesAndLetsTheRestPass) {
+TEST(Bsdf, AlphaScalesAllLobes) {
     std::mt19937 bits(7);
     for (int i = 0; i < 20'000; ++i) {
         const MaterialRecord opaque = with_alpha(any_material(bits), 1);
         const float alpha = std::max(to_unit_float(bits), 1e-3f);
         const MaterialRecord m = with_alpha(opaque, alpha);
-        ASSERT_EQ(bsdf_lobes(opaque) & LOBE_PASS, 0u);
-        ASSERT_EQ(bsdf_lobes(m), bsdf_lobes(opaque) | (alpha < 1 ? LOBE_PASS : 0u));
+        ASSERT_EQ(pass_share(opaque), 0);
+        ASSERT_EQ(pass_share(m), 1 - alpha);
+        ASSERT_EQ(bsdf_lobes(m), bsdf_lobes(opaque));
         const vec3 wo = any_upper(bits);
         const vec3 wi = any_upper(bits);
         const vec3 f = bsdf_eval(opaque, wo, wi, LOBES_ALL);
@@ -80,33 +81,8 @@ TEST(Bsdf, AlphaScalesAllLobesAndLetsTheRestPass) {
             expect_near(bsdf_albedo(m, wo, true, lobe),
                         glm::dvec3(bsdf_albedo(opaque, wo, true, lobe)) * double(alpha), 1e-6);
         }
-        ASSERT_EQ(bsdf_albedo(m, wo, true, LOBE_PASS), vec3(1 - alpha));
     }
-}
-
-TEST(Bsdf, PassLobeGoesStraightThroughUntinted) {
-    bool scattered = false;
-    const MaterialRecord white = with_alpha(lambertian(vec3(1)), 0.25f);
-    for (const double angle : {0.0, 60.0, 89.9999}) {
-        const vec3 wo = at_angle(angle, 33);
-        // On a white surface nothing is absorbed, so the pass lobe is chosen with its exact share.
-        for (const float choice : {0.0f, 0.2499f, 0.2501f, 0.99999994f}) {
-            const BsdfSample s = sample_of(white, wo, true, LOBES_ALL, choice, &scattered);
-            ASSERT_TRUE(scattered);
-            EXPECT_EQ(s.lobe, choice < 0.25f ? LOBE_DIFFUSE : LOBE_PASS);
-            EXPECT_FLOAT_EQ(s.probability, choice < 0.25f ? 0.25f : 0.75f);
-            expect_near(s.weight, glm::dvec3(1), 1e-6);
-        }
-        const MaterialRecord red = with_alpha(with_color(glass(1.5f, 1), vec3(1, 0, 0)), 0.25f);
-        const BsdfSample s = sample_of(red, wo, false, LOBE_PASS, 0.5f, &scattered);
-        ASSERT_TRUE(scattered);
-        EXPECT_EQ(s.wi, -wo);
-        EXPECT_EQ(s.weight, vec3(0.75f));
-        EXPECT_EQ(s.pdf, 0.0f);
-        EXPECT_EQ(s.probability, 1.0f);
-        EXPECT_EQ(s.eta_scale, 1.0f);
-    }
-    EXPECT_EQ(bsdf_lobes(with_alpha(glossy_dielectric(0.5f), 0)), LOBE_PASS);
+    EXPECT_EQ(bsdf_lobes(with_alpha(glossy_dielectric(0.5f), 0)), 0u);
 }
 
 TEST(Bsdf, EmptyMaskScattersNothing) {

@@ -58,8 +58,7 @@ TEST(Phong, HasItsLobes) {
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0.5f), 20)), LOBE_DIFFUSE | LOBE_GLOSSY);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0), vec3(0.5f), 20)), LOBE_GLOSSY);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0), 20)), LOBE_DIFFUSE);
-    EXPECT_EQ(bsdf_lobes(with_alpha(phong(vec3(0.5f), vec3(0), 20), 0.5f)),
-              LOBE_DIFFUSE | LOBE_PASS);
+    EXPECT_EQ(bsdf_lobes(with_alpha(phong(vec3(0.5f), vec3(0), 20), 0.5f)), LOBE_DIFFUSE);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0.5f), 1e6f)), LOBE_DIFFUSE | LOBE_GLOSSY);
     EXPECT_EQ(bsdf_lobes(phong(vec3(0.5f), vec3(0.5f), 1e7f)), LOBE_DIFFUSE | LOBE_MIRROR);
     EXPECT_EQ(roughness_of_phong(0), 1.0f);

@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "shared/bsdf.h"
 #include "shared/geometry_records.h"
 #include "shared/photon_records.h"
+#include "shared/texture_record.h"
 #include "material_features.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Triangles { uvec4 triangles[]; };

@@ -81,7 +81,7 @@ FN MaterialRecord material_at(uvec4 triangle, HitRecord hit, uint cone, vec3 dir
     if ((m.textures & material_alpha_blend) != 0u) {
         m.coverage *= alpha;
     } else if ((m.textures & material_alpha_mask) != 0u) {
-        m.coverage = alpha >= m.coverage ? real(1.0) : real(0.0);
+        m.coverage = real(1.0); // rays pass it elsewhere (kernels/alpha.h)
     }
     return m;
 }

@@ -7,3 +7,4 @@ FN void store_result(uint ray, HitRecord hit) {
 }
 
 #define ANY_HIT 1
+#define ALPHA 0

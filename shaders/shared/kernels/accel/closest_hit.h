@@ -8,3 +8,4 @@ FN void store_result(uint ray, HitRecord hit) {
 }
 
 #define ANY_HIT 0
+#define ALPHA 0

@@ -1,6 +1,11 @@
 // Traverses a kd-tree with a stack, nearest cells first, one ray per invocation. Included by
-// kd_any.h and kd_closest.h, after functions and ANY_HIT as for traverse.h.
+// kd_any.h and kd_closest.h, after functions, ANY_HIT and ALPHA as for traverse.h.
 #include "shared/kernels/accel/ray.h"
+#if ALPHA
+#include "shared/kernels/accel/meet_alpha.h"
+#else
+#include "shared/kernels/accel/meet_triangle.h"
+#endif
 #include "shared/kernels/accel/suspended_slot.h"
 #include "shared/kernels/count.h"
 
@@ -65,6 +70,22 @@ FN void enter_root(Ray ray, vec3 low, vec3 high, real t_max, INOUT(Walk) walk) {
     }
 }
 
+#if ALPHA && ANY_HIT
+// Rays meet a triangle in each cell that it crosses, but must count it once. So they look for the
+// closest surface, add its thickness, and begin anew for the closest one behind it.
+FN void load_layer(uint from, OUT(HitRecord) hit) {
+    hit = HitRecord(suspended[from], bits_float(suspended[from + 1u]),
+                    bits_float(suspended[from + 2u]), bits_float(suspended[from + 3u]));
+}
+
+FN void store_layer(uint to, HitRecord hit) {
+    suspended[to] = hit.triangle;
+    suspended[to + 1u] = float_bits(hit.t);
+    suspended[to + 2u] = float_bits(hit.u);
+    suspended[to + 3u] = float_bits(hit.v);
+}
+#endif
+
 // One function, for GLSL would copy the stack to any other.
 // NOLINTNEXTLINE(readability-function-size)
 FN void main() {
@@ -98,10 +119,31 @@ FN void main() {
     vec3 high = vec3(boxes[2u * root + 1u]);
     Ray ray = make_ray(vec3(origin), vec3(rays[2u * walk.ray + 1u]), low, high);
     HitRecord hit = HitRecord(no_triangle, origin.w, real(0.0), real(0.0));
+#if ALPHA
+    HitRecord passed = nothing_passed();
     if (resume) {
-        load_result(walk.ray, hit);
+        load_passed(slot + kd_suspended_passed, passed);
+    }
+#endif
+#if ALPHA && ANY_HIT
+    HitRecord layers = HitRecord(0u, origin.w, real(0.0), real(0.0));
+#define RESULT layers
+#else
+#define RESULT hit
+#endif
+#if ALPHA && !ANY_HIT
+    if (!resume && origin.w > far_away) {
+        load_result(walk.ray, passed);
+        hit.t = far_away;
+    }
+#endif
+    if (resume) {
+        load_result(walk.ray, RESULT);
+#if ALPHA && ANY_HIT
+        load_layer(slot + kd_suspended_layer, hit);
+#endif
     } else if (walk.node != lbvh_end) {
-        enter_root(ray, low, high, origin.w, walk);
+        enter_root(ray, low, high, hit.t, walk);
     }
     if (!(origin.w >= real(0.0))) {
         walk.node = lbvh_end;
@@ -112,7 +154,11 @@ FN void main() {
         --steps_left;
         bool pop = false;
         if (walk.at < walk.end) {
+#if ALPHA
+            bool met = meet_triangle(ray, 3u * words[walk.at], passed, hit);
+#else
             bool met = meet_triangle(ray, 3u * words[walk.at], hit);
+#endif
             ++walk.at;
             if (met && ANY_HIT != 0) {
                 walk.at = walk.end;
@@ -160,14 +206,36 @@ FN void main() {
                 walk.node = walk.enter <= hit.t ? top.x : lbvh_end;
             }
         }
+#if ALPHA && ANY_HIT
+        if (walk.node == lbvh_end && hit.triangle != no_triangle) {
+            real coverage = coverage_at(corners[hit.triangle], vec2(hit.u, hit.v));
+            layers.triangle = add_thickness(layers.triangle, thickness_of(coverage));
+            if (layers.triangle != thickness_of_all) {
+                passed = hit;
+                hit = HitRecord(no_triangle, origin.w, real(0.0), real(0.0));
+                walk = new_walk(walk.ray);
+                enter_root(ray, low, high, origin.w, walk);
+            }
+        }
+#endif
     }
 
-    store_result(walk.ray, hit);
+    store_result(walk.ray, RESULT);
     if (resume) {
         suspended[slot + 1u] = walk.node;
     }
     if (walk.node != lbvh_end) {
         slot = suspend(walk, slot);
+#if ALPHA
+        if (slot != 0u) {
+            store_passed(slot + kd_suspended_passed, passed);
+        }
+#endif
+#if ALPHA && ANY_HIT
+        if (slot != 0u) {
+            store_layer(slot + kd_suspended_layer, hit);
+        }
+#endif
         for (uint i = 0u; slot != 0u && i < walk.height; ++i) {
             uint to = slot + kd_suspended_words + 3u * i;
             suspended[to] = stack[i].x;
@@ -176,3 +244,4 @@ FN void main() {
         }
     }
 }
+#undef RESULT

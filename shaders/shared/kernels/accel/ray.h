@@ -1,4 +1,4 @@
-// A ray on its way through a tree, and the triangles that it meets. TRIANGLES(i) reads them.
+// A ray on its way through a tree.
 struct Ray {
     vec3 origin;
     RayShear shear;
@@ -28,21 +28,4 @@ FN Ray make_ray(vec3 origin, vec3 direction, vec3 low, vec3 high) {
     ray.near_origin = origin + margin;
     ray.far_origin = origin - margin;
     return ray;
-}
-
-FN bool meet_triangle(Ray ray, uint place, INOUT(HitRecord) hit) {
-    vec4 a = TRIANGLES(place);
-    vec3 b = vec3(TRIANGLES(place + 1u));
-    vec3 c = vec3(TRIANGLES(place + 2u));
-    real t, u, v;
-    bool met = intersect_triangle(ray.shear, ray.origin, vec3(a), b, c, real(0.0), hit.t, t, u, v);
-    if (met) {
-        // Of triangles at the same distance the first in the scene counts, independent of the order
-        // of traversal.
-        uint triangle = float_bits(a.w);
-        if (t < hit.t || triangle < hit.triangle) {
-            hit = HitRecord(triangle, t, u, v);
-        }
-    }
-    return met;
 }

@@ -1,7 +1,12 @@
 // Traverses a TriangleBvh's tree with a stack, nearest boxes first, one ray per invocation.
 // Included by trace_closest.h and trace_any.h, which declare load_result and store_result and
-// define ANY_HIT as 0 or 1. NODES(i) and TRIANGLES(i) read the tree.
+// define ANY_HIT and ALPHA as 0 or 1. NODES(i) and TRIANGLES(i) read the tree.
 #include "shared/kernels/accel/ray.h"
+#if ALPHA
+#include "shared/kernels/accel/meet_alpha.h"
+#else
+#include "shared/kernels/accel/meet_triangle.h"
+#endif
 #include "shared/kernels/accel/suspended_slot.h"
 #include "shared/kernels/count.h"
 
@@ -145,6 +150,17 @@ FN void main() {
     vec4 origin = rays[2u * walk.ray];
     Ray ray = load_ray(origin, walk.ray);
     HitRecord hit = HitRecord(no_triangle, origin.w, real(0.0), real(0.0));
+#if ALPHA && ANY_HIT
+    hit.triangle = 0u;
+#elif ALPHA
+    HitRecord passed = nothing_passed();
+    if (resume) {
+        load_passed(slot + suspended_passed, passed);
+    } else if (origin.w > far_away) {
+        load_result(walk.ray, passed);
+        hit.t = far_away;
+    }
+#endif
     if (resume) {
         load_result(walk.ray, hit);
     }
@@ -175,9 +191,19 @@ FN void main() {
                 }
                 walk.node = child_at(children, met.x & 3u);
             }
-        } else if (meet_triangle(ray, triangle_place, hit) && ANY_HIT != 0) {
-            next_siblings = 0u;
-            walk.height = 0u;
+        } else {
+#if ALPHA && ANY_HIT
+            bool ends = pass_triangle(ray, triangle_place, hit);
+#elif ALPHA
+            bool ends = false;
+            meet_triangle(ray, triangle_place, passed, hit);
+#else
+            bool ends = meet_triangle(ray, triangle_place, hit) && ANY_HIT != 0;
+#endif
+            if (ends) {
+                next_siblings = 0u;
+                walk.height = 0u;
+            }
         }
         // Written even if not needed: CPUs that emulate lanes mispredict writes by only some lanes.
         stack[walk.height] = walk.siblings;
@@ -198,6 +224,11 @@ FN void main() {
     }
     if (walk.node != lbvh_end) {
         slot = suspend(walk, slot);
+#if ALPHA && !ANY_HIT
+        if (slot != 0u) {
+            store_passed(slot + suspended_passed, passed);
+        }
+#endif
         for (uint i = 0u; slot != 0u && i < walk.height; ++i) {
             suspended[slot + 4u + i] = stack[i];
         }

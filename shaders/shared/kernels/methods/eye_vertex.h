@@ -27,8 +27,9 @@ struct Vertex {
     uint followed, estimated;   // lobes, see shared/follow.h
     bool ends;                  // at the estimated lobes, unless the ray seeks emission
     uint onward;                // estimated lobes that also scatter the path
-    real albedo;                // of the lobes that scatter the path
+    real albedo;                // of the lobes that scatter the path, and what passes
     real estimated_probability; // probability that `onward` scatters the path
+    real pass_probability;      // probability that the path goes straight on
 };
 
 FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
@@ -154,7 +155,7 @@ FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
 // round of tracing. Followed lobes need most of the rays for themselves.
 FN real seek_probability(IN(Vertex) v) {
     bool often = has_sky() || (v.estimated & LOBE_GLOSSY) != 0u;
-    return often && v.followed == 0u ? real(1.0) : real(0.25);
+    return often && v.followed == 0u && !(v.pass_probability > real(0.0)) ? real(1.0) : real(0.25);
 }
 
 // Decides which lobes scatter the path, and with which probabilities.
@@ -175,11 +176,25 @@ FN void split_lobes(INOUT(Vertex) v) {
     real estimated_albedo =
         v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
                        : real(0.0);
-    v.albedo = followed_albedo + estimated_albedo;
+    real passes = pass_share(v.material);
+    v.albedo = followed_albedo + estimated_albedo + passes;
     v.estimated_probability = v.albedo > real(0.0) ? estimated_albedo / v.albedo : real(0.0);
+    v.pass_probability = passes;
     if (v.ends) {
         v.estimated_probability = min(v.estimated_probability, seek_probability(v));
     }
+    if (passes > real(0.0)) {
+        v.pass_probability =
+            passes / (passes + followed_albedo) * (real(1.0) - v.estimated_probability);
+    }
+}
+
+// Lets the path only go straight on.
+FN void only_pass(INOUT(Vertex) v) {
+    v.followed = 0u;
+    v.onward = 0u;
+    v.estimated_probability = real(0.0);
+    v.pass_probability = real(1.0);
 }
 
 // A sample of a light, as seen from the vertex.
@@ -334,6 +349,32 @@ FN void leave_query(IN(Vertex) v) {
                                   reflectance.z, material_key(v));
 }
 
+// Writes the path that continues on rays[v.slot].
+FN void leave_path(IN(Vertex) v, PathRecord path, vec3 throughput) {
+    path.throughput_r = throughput.x;
+    path.throughput_g = throughput.y;
+    path.throughput_b = throughput.z;
+    paths[v.slot] = path;
+    alive[v.index] = 1u;
+}
+
+// Below this throughput, Russian roulette decides whether a path goes straight on.
+CONSTANT real least_passing = real(0.125);
+
+// Goes straight on where the surface is absent. That is no scattering: the path stays what it was.
+// u: in [0,1).
+FN void pass_surface(IN(Vertex) v, real u) {
+    PathRecord path = v.path;
+    path.vertices += 1u;
+    vec3 throughput = v.throughput * (pass_share(v.material) / v.pass_probability);
+    real refracted = scale_by_refraction(path, v.material, real(1.0));
+    real survival = min(max_component(throughput) / (refracted * least_passing), real(1.0));
+    if (u < survival) {
+        rays[v.slot].t_max = goes_on;
+        leave_path(v, path, throughput / survival);
+    }
+}
+
 // Samples the ray on which the path continues, unless Russian roulette ends the path or nothing is
 // scattered.
 FN void continue_path(INOUT(Vertex) v) {
@@ -341,22 +382,28 @@ FN void continue_path(INOUT(Vertex) v) {
     vec4 u = eye_random4(batch.seed, path.pixel, path.sample_index, vertices_of(path) * 2u + 2u,
                          lattice);
     bool takes_estimated = u.w < v.estimated_probability;
+    real scattered = real(1.0);
+    if (may_have(v.material, MATERIAL_ALPHA) && v.pass_probability > real(0.0)) {
+        scattered = real(1.0) - v.pass_probability;
+        if (!takes_estimated && u.w >= scattered) {
+            pass_surface(v, (u.w - scattered) / v.pass_probability);
+            return;
+        }
+    }
     BsdfSample s;
     uint lobes = takes_estimated ? v.onward : v.followed;
     if (!bsdf_sample(v.material, v.wo, v.surface.front, lobes, u, s)) {
         return;
     }
-    vec3 wi = may_have(v.material, LOBE_PASS) && s.lobe == LOBE_PASS ? v.direction
-                                                                     : to_world(v.frame, s.wi);
+    vec3 wi = to_world(v.frame, s.wi);
     // The sampled direction must be on the same side of both normals, or light would leak through
     // the surface.
     if ((s.wi.z > real(0.0)) != (dot(wi, v.surface.geometric_normal) > real(0.0))) {
         return;
     }
     real probability =
-        takes_estimated ? v.estimated_probability : real(1.0) - v.estimated_probability;
-    vec3 throughput = v.throughput;
-    throughput *= s.weight * (s.eta_scale / probability);
+        takes_estimated ? v.estimated_probability : scattered - v.estimated_probability;
+    vec3 throughput = v.throughput * (s.weight * (s.eta_scale / probability));
     path.vertices += 1u;
     real refracted = scale_by_refraction(path, v.material, s.eta_scale);
     if (vertices_of(path) >= 3u) {
@@ -379,16 +426,12 @@ FN void continue_path(INOUT(Vertex) v) {
             cone_width(v.cone, v.distance),
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
     }
-    path.throughput_r = throughput.x;
-    path.throughput_g = throughput.y;
-    path.throughput_b = throughput.z;
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
     path.state = state_after(path.state, !takes_estimated);
     if (v.ends && takes_estimated) {
         path.state |= path_seeks_emission;
     }
-    paths[v.slot] = path;
-    alive[v.index] = 1u;
+    leave_path(v, path, throughput);
 }
 
 FN void main() {
@@ -423,19 +466,22 @@ FN void main() {
     turn_normal(v.material.textures, hit, v.direction, v.surface);
     v.toward = toward_above(v.surface, -v.direction);
     add_surface_emission(v, hit);
-    if (seeks_emission(v.path) ||
-        (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {
-        return;
+    bool ends = seeks_emission(v.path) ||
+                (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces);
+    if (ends) {
+        only_pass(v);
+    } else {
+        split_lobes(v);
+        if (direct_light && scene[0].light_count > 0u &&
+            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+            sample_light(v);
+        }
+        if (photon_map) {
+            leave_query(v);
+        }
     }
-    split_lobes(v);
-    if (direct_light && scene[0].light_count > 0u &&
-        ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
-        sample_light(v);
-    }
-    if (photon_map) {
-        leave_query(v);
-    }
-    if ((v.followed | v.onward) != 0u && v.albedo > real(0.0)) {
+    bool scatters = (v.followed | v.onward) != 0u && v.albedo > real(0.0);
+    if (scatters || pass_share(v.material) > real(0.0)) {
         continue_path(v);
     }
 }

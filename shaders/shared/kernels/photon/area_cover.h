@@ -1,14 +1,19 @@
 #include "shared/kernels/material.h"
 
 // Takes the area from those sides of area samples on which another surface lies. Glass and what is
-// partly transparent lets light through, and so may a surface with a mask: its texels are not read.
+// partly absent let light through; where a mask takes a surface away, rays do not hit it.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || hits[i].triangle == no_triangle) {
         return;
     }
     MaterialRecord material = load_material(triangles[hits[i].triangle].w);
-    if ((bsdf_lobes(material) & (LOBE_TRANSMIT | LOBE_PASS)) != 0u) {
+    bool passes = (bsdf_lobes(material) & LOBE_TRANSMIT) != 0u;
+    if (may_have(material, MATERIAL_ALPHA) && (material.textures & material_alpha_mask) == 0u) {
+        passes = passes || material.coverage < float32(1.0) ||
+                 (material.textures & material_alpha_blend) != 0u;
+    }
+    if (passes) {
         return;
     }
     uint side = params.first + i;

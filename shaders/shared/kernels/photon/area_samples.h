@@ -1,3 +1,4 @@
+#include "shared/kernels/alpha.h"
 #include "shared/kernels/scene.h"
 
 // Distributes points evenly over the surfaces that store photons: one at every step along the
@@ -33,7 +34,10 @@ FN void main() {
     vec3 normal = normalize_or(cross3(vec3(positions[t.y]) - vec3(positions[t.x]),
                                       vec3(positions[t.z]) - vec3(positions[t.x])),
                                vec3(real(0.0), real(0.0), real(1.0)));
+    // No photon lies where the surface is absent.
+    bool absent = has_alpha && is_absent(t, coverage_at(t, b));
+    real area = absent ? real(0.0) : real(params.area);
     photons[counters[counter_stored_slots] + i] =
-        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit,
-                     params.area, params.area, real(0.0), 0u);
+        PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit, area, area,
+                     real(0.0), 0u);
 }

@@ -41,7 +41,7 @@ FN Arrival arrive(HitRecord hit, vec3 direction, MaterialRecord m, PhotonPathRec
     real cosine = -dot(direction, a.surface.geometric_normal);
     a.shading = cosine > real(0.0) ? to_local(a.frame, -direction).z / cosine : real(1.0);
     if (normal_maps && !a.surface.above_horizon && has_normal_texture(m.textures)) {
-        a.shading = real(0.0); // nothing but alpha scatters light from below the horizon
+        a.shading = real(0.0); // light from below the horizon is not scattered
     }
     a.depth = path.state & photon_depth_mask;
     return a;
@@ -150,9 +150,7 @@ FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, 
         (d.sampled.lobe & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
         scatters = aim_at_view(a, m, lobes, view, vec2(u.y, u.z), choice, d);
     }
-    if (has(LOBE_PASS) && scatters && d.sampled.lobe == LOBE_PASS) {
-        d.flux = a.flux * d.sampled.weight;
-    } else if (scatters && has_normal_texture(m.textures)) {
+    if (scatters && has_normal_texture(m.textures)) {
         depart_turned(a, m, u, mirrored, d);
     } else if (scatters) {
         vec3 wi = to_world(a.frame, d.sampled.wi);
@@ -185,7 +183,7 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
     real emitted = out_of.concentration / batch.inverse_spread;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
-    } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT) && s.lobe != LOBE_PASS) {
+    } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT)) {
         NormalDifferential normal;
         normal.n = a.surface.shading_normal;
         normal.dn_du = normal_change(a.hit, a.surface, d.dp_du);
@@ -208,14 +206,15 @@ FN uvec4 units_of(vec3 flux) { return uvec4(flux_units(flux, batch.flux_unit), 0
 // scheduling. Returns whether the photon may be stored.
 FN bool reserve(uint store, uint depth) {
     bool stores = depth >= batch.least_scatterings && depth <= batch.bounces;
-    if (stores && store >= batch.capacity) {
+    bool has_slot = has(MATERIAL_ALPHA) ? batch.has_slots != 0u : stores;
+    if (has_slot && store >= batch.capacity) {
         atomicAdd(counters[counter_overflow], 1u);
-        stores = false;
+        has_slot = false;
     }
-    if (stores) {
+    if (has_slot) {
         photons[store].normal = no_photon;
     }
-    return stores;
+    return stores && has_slot;
 }
 
 FN void store_photon(uint store, Arrival a, bool caustic) {
@@ -245,6 +244,39 @@ FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint cone
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, cone);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, (a.depth + 1u) | flags);
+}
+
+// The probability with which a photon goes straight on where the surface is absent.
+FN real pass_probability(Arrival a, MaterialRecord m) {
+    real passes = pass_share(m);
+    if (!(passes > real(0.0))) {
+        return real(0.0);
+    }
+    vec3 albedo = bsdf_albedo(m, a.wo, a.surface.front, bsdf_lobes(m));
+    return passes / (passes + mean_component(albedo));
+}
+
+// Lets a photon go straight on. That is no scattering: it stays what it was, and so does its
+// differential, which will be transferred from where its ray began. u: in [0,1).
+FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability, real u) {
+    real kept = share / probability;
+    real survival = min(kept, real(1.0));
+    if (!(u < survival)) {
+        ledgers[slot].absorbed += units_of(a.flux);
+        return;
+    }
+    vec3 flux = a.flux * (kept / survival);
+    ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
+    paths[slot].flux_r = flux.x;
+    paths[slot].flux_g = flux.y;
+    paths[slot].flux_b = flux.z;
+    rays[slot].t_max = goes_on;
+    if (footprints) {
+        PhotonDifferential d = load_differential(differentials[slot]);
+        roulette_differential(d, probability * survival);
+        differentials[slot] = differential_record(d);
+    }
+    alive[i] = 1u;
 }
 
 FN void main() {
@@ -286,6 +318,17 @@ FN void main() {
             photon_lights[store] = path_lights[slot];
         }
     }
+    real scattered = real(1.0); // share of the photons that do not go straight on
+    if (has(MATERIAL_ALPHA)) {
+        // A ray meets a triangle once, so the triangle tells one pass from another.
+        vec4 w = random4(batch.seed ^ 0x7a55e5u, batch.first + slot, a.depth, hit.triangle);
+        real passes = pass_probability(a, m);
+        if (w.x < passes) {
+            pass_surface(i, slot, a, pass_share(m), passes, w.y);
+            return;
+        }
+        scattered = real(1.0) - passes;
+    }
     if (a.depth >= batch.bounces) {
         ledgers[slot].cut += units_of(a.flux);
         return;
@@ -307,6 +350,11 @@ FN void main() {
             photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).y;
     }
     Departure out_of = depart(a, m, followed, estimated, view, u, choice, mirrored);
+    if (has(MATERIAL_ALPHA)) {
+        out_of.flux = out_of.flux / scattered;
+        out_of.sampled.probability *= scattered;
+        out_of.sampled.pdf *= scattered;
+    }
     bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
     uint for_view = (path.state >> photon_view_shift) & photon_view_mask;
     uint leaves =

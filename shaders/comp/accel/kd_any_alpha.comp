@@ -1,0 +1,14 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/geometry_records.h"
+#include "shared/intersect.h"
+#include "accel/kd_ray_bindings.glsl"
+
+layout(set = 0, binding = 8) buffer Occluded { uint occluded[]; };
+#define ALPHA_BINDING 9
+#include "accel/alpha_bindings.glsl"
+layout(constant_id = 0) const bool resume = false; // resumes suspended rays
+layout(push_constant) uniform Push { TraceParams params; };
+
+#include "shared/kernels/accel/kd_any_alpha.h"

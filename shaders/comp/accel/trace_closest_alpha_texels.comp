@@ -1,0 +1,5 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#define TEXELS 1
+#include "accel/trace_closest_alpha.glsl"

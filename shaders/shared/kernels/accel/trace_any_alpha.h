@@ -1,0 +1,3 @@
+// Finds for each ray how much light passes the triangles that it meets.
+#include "shared/kernels/accel/any_alpha.h"
+#include "shared/kernels/accel/traverse.h"
