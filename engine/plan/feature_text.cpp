@@ -30,6 +30,10 @@ FeatureText text_of(Feature feature) {
         return {"transmission", "transmission", ""};
     case Feature::refraction:
         return {"refraction", "refraction", ""};
+    case Feature::absorption:
+        return {"absorption", "absorption inside solids", ""};
+    case Feature::unlit:
+        return {"unlit", "unlit surfaces", ""};
     case Feature::alpha:
         return {"alpha", "alpha", ""};
     case Feature::smooth_normals:

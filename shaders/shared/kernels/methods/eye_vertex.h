@@ -6,6 +6,7 @@
 #include "shared/kernels/textures.h"
 
 #include "shared/kernels/emission.h"
+#include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
@@ -20,6 +21,7 @@ struct Vertex {
     uint triangle;
     uint cone; // of the ray
     real distance;
+    uint medium; // in which the ray came (kernels/medium.h)
     Surface surface;
     MaterialRecord material;
     Frame frame; // of the shading normal
@@ -149,6 +151,15 @@ FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
     }
 }
 
+// Adds what the eye sees of a surface without light. It lights nothing, so that photons need not
+// leave it.
+FN void add_unlit(IN(Vertex) v) {
+    if (is_unlit(v.material) && !behind_estimated(v.path)) {
+        add_to_layer(v.slot, layer_direct,
+                     v.throughput * base_color(v.material) * coverage(v.material));
+    }
+}
+
 // Largest probability with which the last estimated vertex sends a ray that seeks emission. On
 // diffuse surfaces the ray matters only under the sky and near emissive triangles, and it costs a
 // round of tracing. Followed lobes need most of the rays for themselves.
@@ -222,6 +233,9 @@ FN void sample_light(IN(Vertex) v) {
     }
     LightSample s = l.s;
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        arriving *= transmittance(v.medium, s.distance);
+    }
     // Weight for the lobes in `onward`, which the path samples too. All others have only this
     // sample.
     real weight = real(1.0);
@@ -372,7 +386,9 @@ FN void continue_path(INOUT(Vertex) v) {
     if (!(max_component(throughput) > real(0.0))) {
         return;
     }
-    rays[v.slot] = make_ray(v.surface, wi, far_away);
+    rays[v.slot] = make_ray(v.surface, wi,
+                            unbounded_in(medium_after(v.medium, triangles[v.triangle].w, v.material,
+                                                      v.surface.front, s.lobe)));
     if (mip_maps) {
         rays[v.slot].pad = pack_cone(
             cone_width(v.cone, v.distance),
@@ -419,9 +435,15 @@ FN void main() {
     v.surface = load_surface(hit, v.direction);
     v.cone = rays[v.slot].pad;
     v.material = material_at(triangles[hit.triangle], hit, v.cone, v.direction);
+    v.medium = medium_before(medium_of(rays[v.slot].t_max), triangles[hit.triangle].w, v.material,
+                             v.surface.front);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        v.throughput *= transmittance(v.medium, hit.t);
+    }
     turn_normal(v.material.textures, hit, v.direction, v.surface);
     v.toward = toward_above(v.surface, -v.direction);
     add_surface_emission(v, hit);
+    add_unlit(v);
     if (seeks_emission(v.path) ||
         (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces)) {
         return;
