@@ -30,6 +30,10 @@ FeatureText text_of(Feature feature) {
         return {"transmission", "transmission", ""};
     case Feature::refraction:
         return {"refraction", "refraction", ""};
+    case Feature::absorption:
+        return {"absorption", "absorption inside solids", ""};
+    case Feature::unlit:
+        return {"unlit", "unlit surfaces", ""};
     case Feature::alpha:
         return {"alpha", "alpha",
                 "rays read the material of every triangle that they meet, and shadow rays go on "

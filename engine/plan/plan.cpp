@@ -28,6 +28,8 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::mirror, LOBE_MIRROR},
                                  {Feature::transmission, LOBE_TRANSMIT},
                                  {Feature::refraction, LOBE_TRANSMIT | MATERIAL_SOLID},
+                                 {Feature::absorption, MATERIAL_ABSORPTION},
+                                 {Feature::unlit, MATERIAL_UNLIT},
                                  {Feature::alpha, MATERIAL_ALPHA}};
 
 constexpr Bit light_bits[] = {{Feature::point_light, 1u << light_point},
@@ -72,6 +74,9 @@ bool add_material(Requirements& requirements, const Material& material, const st
     requirements.add(Feature::mirror, by, (lobes & LOBE_MIRROR) != 0);
     requirements.add(Feature::transmission, by, (lobes & LOBE_TRANSMIT) != 0);
     requirements.add(Feature::refraction, by, is_solid(record));
+    requirements.add(Feature::absorption, by,
+                     is_solid(record) && material.absorption != glm::vec3(0));
+    requirements.add(Feature::unlit, by, material.unlit);
     requirements.add(Feature::alpha, by, record.coverage < 1);
     requirements.add(Feature::emissive_triangles, by, emits(material));
     requirements.add(Feature::followed_paths, by, followed_lobes(record, follow_roughness) != 0);

@@ -19,6 +19,8 @@ enum class Feature : std::uint8_t {
     mirror,
     transmission,
     refraction,     ///< at the interface of a solid
+    absorption,     ///< inside a solid
+    unlit,          ///< surfaces that show their base colour
     alpha,          ///< some surface lets light pass
     smooth_normals, ///< interpolated from the vertices' normals
     textures,

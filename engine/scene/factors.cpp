@@ -3,6 +3,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace argand {
@@ -31,6 +32,18 @@ float coverage_of(const MaterialFactors& factors) {
         break;
     }
     return alpha;
+}
+
+/// What remains of light after the distance is the colour. [1/length]
+glm::vec3 absorption_of(const MaterialFactors& factors) {
+    const double distance = std::max(factors.attenuation_distance, smallest_float);
+    glm::vec3 absorption(0);
+    for (int channel = 0; channel < 3; ++channel) {
+        const double color = std::clamp(factors.attenuation_color[channel], 0.0, 1.0);
+        absorption[channel] =
+            std::isinf(distance) ? 0.0f : clamped(-std::log(color) / distance, largest_float);
+    }
+    return absorption;
 }
 
 /// The least product of the alpha of texels and vertices with which a masked surface is present.
@@ -62,6 +75,11 @@ void set_factors(const MaterialFactors& factors, Material& material) {
     material.ior =
         factors.ior == 0 ? 0.0f : static_cast<float>(std::clamp(factors.ior, 1.0, largest_float));
     material.thickness = clamped(factors.thickness, largest_float);
+    material.absorption = absorption_of(factors);
+    material.unlit = factors.unlit;
+    if (material.unlit) {
+        material.emission = glm::vec3(0); // only the base colour counts
+    }
 }
 
 void set_factors(const LightFactors& factors, Light& light) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <numbers>
 
 namespace argand {
@@ -23,6 +24,9 @@ struct MaterialFactors {
     double specular = 1;
     glm::dvec3 specular_color{1};
     double transmission = 0, ior = 1.5, thickness = 0;
+    glm::dvec3 attenuation_color{1};
+    double attenuation_distance = std::numeric_limits<double>::infinity();
+    bool unlit = false;
 };
 
 /// The numbers of a light as its file states them. A Light follows from them.

@@ -113,8 +113,20 @@ void read_extensions(const FactorReader& read, const json* object, MaterialFacto
         unlimited, "specularColorFactor");
     factors.transmission = read.number(find_extension(object, "KHR_materials_transmission"),
                                        "transmissionFactor", 0, 1);
-    factors.thickness = read.number(find_extension(object, "KHR_materials_volume"),
-                                    "thicknessFactor", 0, unlimited);
+    const json* volume = find_extension(object, "KHR_materials_volume");
+    factors.thickness = read.number(volume, "thicknessFactor", 0, unlimited);
+    factors.attenuation_color =
+        read.in_range(vector_of(read.source, volume, "attenuationColor", glm::dvec3(1), read.what),
+                      1, "attenuationColor");
+    if (find_member(volume, "attenuationDistance")) {
+        factors.attenuation_distance =
+            number_of(read.source, volume, "attenuationDistance", 0, read.what);
+        if (!(factors.attenuation_distance > 0)) {
+            read.source.fail("{} has an attenuationDistance of {}; it must be above 0", read.what,
+                             factors.attenuation_distance);
+        }
+    }
+    factors.unlit = find_extension(object, "KHR_materials_unlit") != nullptr;
     factors.ior =
         number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
     // In glTF an index of 0 means that the Fresnel term is 1.
@@ -125,13 +137,7 @@ void read_extensions(const FactorReader& read, const json* object, MaterialFacto
 }
 
 /// Notes what the material, now or as its keys move it, asks for in vain.
-void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, const json* object,
-                      Scene& scene) {
-    const json* volume = find_extension(object, "KHR_materials_volume");
-    if ((factors.thickness > 0 || keys.thickness) && find_member(volume, "attenuationDistance")) {
-        add_note(scene,
-                 "the attenuation of KHR_materials_volume is not supported yet: volumes are clear");
-    }
+void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, Scene& scene) {
     if ((factors.transmission > 0 || keys.transmission) &&
         (factors.metallic < 1 || keys.metallic) && (factors.roughness > 0 || keys.roughness)) {
         add_note(scene,
@@ -262,7 +268,7 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         read_core(read, from, factors);
         read_emission(read, from, object, factors);
         read_extensions(read, object, factors);
-        note_unsupported(factors, keys[i], object, scene);
+        note_unsupported(factors, keys[i], scene);
         Material material;
         material.name = one_line(from.name);
         material.double_sided = from.doubleSided;

@@ -45,7 +45,11 @@ constexpr Property<MaterialKeys> material_properties[] = {
     {"extensions/KHR_materials_transmission/transmissionFactor", &MaterialKeys::transmission, 1,
      "transmission"},
     {"extensions/KHR_materials_ior/ior", &MaterialKeys::ior, 1, "index of refraction"},
-    {"extensions/KHR_materials_volume/thicknessFactor", &MaterialKeys::thickness, 1, "thickness"}};
+    {"extensions/KHR_materials_volume/thicknessFactor", &MaterialKeys::thickness, 1, "thickness"},
+    {"extensions/KHR_materials_volume/attenuationColor", &MaterialKeys::attenuation_color, 3,
+     "attenuation colour"},
+    {"extensions/KHR_materials_volume/attenuationDistance", &MaterialKeys::attenuation_distance, 1,
+     "attenuation distance"}};
 
 /// A pointer "LIST/INDEX/PROPERTY".
 struct Pointed {

@@ -24,7 +24,11 @@ MaterialRecord material_record(const Material& m) {
                           m.coverage,
                           -1,
                           0,
-                          m.texture_bits | m.first_texture};
+                          m.texture_bits | m.first_texture,
+                          m.absorption.r,
+                          m.absorption.g,
+                          m.absorption.b,
+                          m.unlit ? 1u : 0u};
     if (m.alpha_varies && m.alpha_mode == AlphaMode::blend) {
         record.textures |= material_alpha_blend;
     } else if (m.alpha_varies && m.alpha_mode == AlphaMode::mask && m.coverage > 0) {

@@ -102,10 +102,12 @@ struct MaterialKeys {
     std::optional<KeyFrames> emissive, emissive_strength;
     std::optional<KeyFrames> specular, specular_color;
     std::optional<KeyFrames> transmission, ior, thickness;
+    std::optional<KeyFrames> attenuation_color, attenuation_distance;
     bool moves_alpha() const { return base_color || alpha_cutoff; }
     bool moves() const {
         return moves_alpha() || metallic || roughness || emissive || emissive_strength ||
-               specular || specular_color || transmission || ior || thickness;
+               specular || specular_color || transmission || ior || thickness ||
+               attenuation_color || attenuation_distance;
     }
 };
 

@@ -60,6 +60,8 @@ MaterialFactors factors_at(const MovingMaterial& material, double seconds) {
     move_number(keys.transmission, seconds, factors.transmission);
     move_number(keys.ior, seconds, factors.ior);
     move_number(keys.thickness, seconds, factors.thickness);
+    move_vector(keys.attenuation_color, seconds, factors.attenuation_color);
+    move_number(keys.attenuation_distance, seconds, factors.attenuation_distance);
     return factors;
 }
 
@@ -90,7 +92,7 @@ std::vector<double> key_times(const MaterialKeys& keys) {
     for (const OptionalKeys* property :
          {&keys.base_color, &keys.metallic, &keys.roughness, &keys.alpha_cutoff, &keys.emissive,
           &keys.emissive_strength, &keys.specular, &keys.specular_color, &keys.transmission,
-          &keys.ior, &keys.thickness}) {
+          &keys.ior, &keys.thickness, &keys.attenuation_color, &keys.attenuation_distance}) {
         if (*property) {
             times.insert(times.end(), (*property)->times.begin(), (*property)->times.end());
         }

@@ -34,9 +34,11 @@ struct Material {
     glm::vec3 specular_color{1}; ///< KHR_materials_specular
     glm::vec3 emission{0}; ///< radiance [cd/m²], KHR_materials_emissive_strength and alpha included
     float coverage = 1; ///< alpha: the share of the surface that is present; the rest passes light
-    float transmission = 0; ///< KHR_materials_transmission
-    float ior = 1.5f;       ///< KHR_materials_ior
-    float thickness = 0;    ///< KHR_materials_volume; 0: thin wall, else a refracting solid
+    float transmission = 0;  ///< KHR_materials_transmission
+    float ior = 1.5f;        ///< KHR_materials_ior
+    float thickness = 0;     ///< KHR_materials_volume; 0: thin wall, else a refracting solid
+    glm::vec3 absorption{0}; ///< KHR_materials_volume: inside a solid [1/length]
+    bool unlit = false;      ///< KHR_materials_unlit: shows its base colour, and scatters nothing
     bool double_sided = false;
     std::optional<Phong> phong; ///< if present, replaces metal, dielectric and transmission
     /// Which textures it has: material_*_texture(s) of shared/texture_record.h. They follow one

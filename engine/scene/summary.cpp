@@ -35,6 +35,7 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"transmission", material.transmission},
             {"ior", material.ior},
             {"thickness", material.thickness},
+            {"absorption", numbers(material.absorption)},
             {"alpha", material.coverage},
             {"phong", material.phong ? json{{"specular", numbers(material.phong->specular)},
                                             {"exponent", material.phong->exponent}}
@@ -184,6 +185,10 @@ std::string material_line(const json& material) {
     if (phong.is_null() && material["transmission"].get<double>() > 0) {
         line += fmt::format(", transmission {:.4g}, index of refraction {:.4g}",
                             material["transmission"].get<double>(), material["ior"].get<double>());
+        if (material["thickness"].get<double>() > 0 &&
+            material["absorption"] != json::array({0.0f, 0.0f, 0.0f})) {
+            line += fmt::format(", absorption {} per metre", short_text(material["absorption"]));
+        }
     }
     if (material["alpha"].get<double>() < 1) {
         line += fmt::format(", alpha {:.4g}", material["alpha"].get<double>());
@@ -277,6 +282,9 @@ void append_list(std::string& text, const char* title, const json& list, Line li
 } // namespace
 
 std::string describe(const Material& material) {
+    if (material.unlit) {
+        return "unlit";
+    }
     if (material.phong) {
         return "Phong";
     }

@@ -1,7 +1,7 @@
-// The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission and _volume
-// (only whether a thickness is given), and modified Phong. Directions are in the shading frame: wo
-// and wi point away from the surface, and the frame is turned so that wo.z > 0 on either side of
-// it.
+// The BSDF of glTF 2.0 (appendix B) with KHR_materials_specular, _ior, _transmission, _volume
+// (whether a thickness is given; kernels/medium.h absorbs) and _unlit, and modified Phong.
+// Directions are in the shading frame: wo and wi point away from the surface, and the frame is
+// turned so that wo.z > 0 on either side of it.
 //
 // The BSDF is a sum of lobes, which are scaled by the surface's alpha (coverage). What passes where
 // the surface is absent is not scattered, and no part of it.
@@ -32,12 +32,15 @@ CONSTANT uint LOBE_TRANSMIT = 8u;
 CONSTANT uint LOBES_DELTA = 12u; // mirror and transmit
 CONSTANT uint LOBES_ALL = 15u;
 
-// Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract.
+// Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract, those
+// that absorb, unlit surfaces.
 CONSTANT uint MATERIAL_ALPHA = 16u;
 CONSTANT uint MATERIAL_GGX = 32u;
 CONSTANT uint MATERIAL_PHONG = 64u;
 CONSTANT uint MATERIAL_SOLID = 128u;
-CONSTANT uint MATERIAL_ALL = 255u;
+CONSTANT uint MATERIAL_ABSORPTION = 256u;
+CONSTANT uint MATERIAL_UNLIT = 512u;
+CONSTANT uint MATERIAL_ALL = 1023u;
 // Features that metals and dielectric layers need.
 CONSTANT uint MATERIAL_LAYER = 36u; // GGX or mirror
 
@@ -95,6 +98,8 @@ FN real clear_share(IN(MaterialRecord) m) { return dielectric_share(m) * transmi
 FN bool is_solid(IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_SOLID) && clear_share(m) > real(0.0) && m.thickness > float32(0.0);
 }
+
+FN bool is_unlit(IN(MaterialRecord) m) { return may_have(m, MATERIAL_UNLIT) && m.unlit != 0u; }
 
 // Share of the surface that is dielectric and reflects by Schlick's approximation.
 FN real layer_share(IN(MaterialRecord) m) {
@@ -319,6 +324,9 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
     }
     if (is_solid(m)) {
         lobes |= LOBE_MIRROR;
+    }
+    if (is_unlit(m)) {
+        lobes = 0u;
     }
     return lobes;
 }

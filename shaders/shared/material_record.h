@@ -20,6 +20,8 @@ struct MaterialRecord {
     // it.
     uint absent;
     uint textures; // material_* of texture_record.h; 0: it has none
+    float32 absorption_r, absorption_g, absorption_b; // inside a solid [1/length]
+    uint unlit; // 1: shows its base colour and scatters nothing
 };
 
 ARGAND_SHARED_END

@@ -57,6 +57,12 @@ Scene mixed_scene() {
     add_quad(scene, {0.2f, -0.4f, -0.5f}, {0.5f, 0, 0.1f}, {0, 0.8f, 0}, add_material(scene, veil));
     add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.4f, 0, 0}, {0, 0, 0.4f},
              add_material(scene, emitter(glm::vec3(3))));
+    Material amber = glass(1.3f, true);
+    amber.absorption = {1, 2, 4};
+    add_sphere(scene, {0.5f, -0.6f, 0.3f}, 0.2f, 4, true, add_material(scene, amber));
+    Material label = lambertian({0.7f, 0.8f, 0.9f});
+    label.unlit = true;
+    add_quad(scene, {-0.9f, -0.5f, -0.9f}, {0.3f, 0, 0}, {0, 0.3f, 0}, add_material(scene, label));
     scene.lights.push_back(spot_light({0, 0.5f, 0.5f}, {0, -1, -0.2f}, glm::vec3(2), 0.2f, 0.6f));
     scene.lights.push_back(directional_light({0.1f, -0.3f, -1}, glm::vec3(0.5f)));
     scene.sky = glm::vec3(0.2f, 0.3f, 0.4f);
@@ -303,9 +309,9 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
             }
         }
     }
-    // Seven features of materials and six of lights. Leaving out transmission alone changes no
+    // Nine features of materials and six of lights. Leaving out transmission alone changes no
     // constant, because refraction has its bit, too.
-    EXPECT_EQ(smaller.size(), 12u);
+    EXPECT_EQ(smaller.size(), 14u);
     for (const auto& [feature, kernels] : smaller) {
         EXPECT_GT(kernels, 0) << text_of(feature).name;
     }

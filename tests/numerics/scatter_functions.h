@@ -57,6 +57,10 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.thickness = a.x[k + 11];
     m.coverage = a.x[k + 12];
     m.exponent = a.x[k + 13];
+    m.absorption_r = real(0.0);
+    m.absorption_g = real(0.0);
+    m.absorption_b = real(0.0);
+    m.unlit = 0u;
     m.emission_r = m.emission_g = m.emission_b = float32(0.0);
     m.double_sided = 0u;
     m.absent = m.textures = 0u;

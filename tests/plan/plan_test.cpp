@@ -93,6 +93,15 @@ TEST(Plan, EachMaterialAddsItsFeatures) {
     EXPECT_THAT(added(room, with_quad(room, glass(1.5f, false))),
                 UnorderedElementsAre(Feature::mirror, Feature::transmission,
                                      Feature::followed_paths, Feature::caustics));
+    for (const bool solid : {false, true}) {
+        Material amber = glass(1.5f, solid);
+        amber.absorption = {1, 2, 3};
+        const auto found = added(room, with_quad(room, amber));
+        EXPECT_EQ(std::count(found.begin(), found.end(), Feature::absorption), solid ? 1 : 0);
+    }
+    Material label = lambertian(glm::vec3(0.5f));
+    label.unlit = true;
+    EXPECT_THAT(added(room, with_quad(room, label)), UnorderedElementsAre(Feature::unlit));
     Material metal;
     metal.roughness = 0.2f;
     EXPECT_THAT(added(room, with_quad(room, metal)),

@@ -233,9 +233,44 @@ TEST(GltfMaterial, NotesUnsupportedFeatures) {
     const json rough{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
                      {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
     EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));
-    const json tinted =
-        extension("KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 3}});
-    EXPECT_TRUE(has_note(with_material(tinted).load(), "attenuation"));
+}
+
+TEST(GltfMaterial, VolumesAbsorb) {
+    const auto absorption = [](const json& volume) {
+        return with_material(extension("KHR_materials_volume", volume))
+            .load()
+            .materials[0]
+            .absorption;
+    };
+    EXPECT_EQ(absorption({{"thicknessFactor", 1}}), glm::vec3(0));
+    EXPECT_EQ(absorption({{"attenuationColor", {0.5, 0.2, 0.1}}}), glm::vec3(0));
+    EXPECT_EQ(absorption({{"attenuationDistance", 3}}), glm::vec3(0));
+    const glm::vec3 found =
+        absorption({{"attenuationColor", {1, 0.5, 0}}, {"attenuationDistance", 0.25}});
+    EXPECT_EQ(found.r, 0);
+    EXPECT_FLOAT_EQ(found.g, float(4 * std::log(2.0)));
+    EXPECT_EQ(found.b, std::numeric_limits<float>::max());
+    for (const double distance : {0.0, -1.0}) {
+        EXPECT_THAT(
+            with_material(extension("KHR_materials_volume", {{"attenuationDistance", distance}}))
+                .problem(),
+            ::testing::HasSubstr("it must be above 0"));
+    }
+    EXPECT_TRUE(has_note(
+        with_material(extension("KHR_materials_volume", {{"attenuationColor", {2, 0.5, 0}}}))
+            .load(),
+        "attenuationColor of 2"));
+}
+
+TEST(GltfMaterial, UnlitSurfacesShowTheirBaseColourOnly) {
+    json material = extension("KHR_materials_unlit", json::object());
+    material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.1, 0.2, 0.3, 1}}};
+    material["emissiveFactor"] = {1, 1, 1};
+    const Scene scene = with_material(material).load();
+    EXPECT_TRUE(scene.materials[0].unlit);
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0));
+    EXPECT_FALSE(with_material(json::object()).load().materials[0].unlit);
 }
 
 TEST(GltfMaterial, NotesTexturesThatAreNotRead) {
@@ -256,13 +291,13 @@ TEST(GltfMaterial, SurfacesWithEmissiveTexturesDoNotEmit) {
 
 TEST(GltfExtensions, AreListedWithANoteIfNotSupported) {
     GltfBuilder builder = one_triangle();
-    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_unlit",
-                                      "KHR_materials_unlit"};
+    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen",
+                                      "KHR_materials_sheen"};
     const Scene scene = builder.load();
     EXPECT_THAT(scene.extensions_used,
-                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_unlit"));
+                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_sheen"));
     EXPECT_TRUE(
-        has_note(scene, "the extension KHR_materials_unlit is not supported and is ignored"));
+        has_note(scene, "the extension KHR_materials_sheen is not supported and is ignored"));
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
 

@@ -28,7 +28,10 @@ inline Animated stage() {
          {"alphaMode", "BLEND"},
          {"emissiveFactor", {1, 0.5, 0.25}},
          {"pbrMetallicRoughness", {{"metallicFactor", 0.5}}},
-         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}}}};
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}},
+           {"KHR_materials_volume",
+            {{"attenuationColor", {0.5, 0.25, 0.75}}, {"attenuationDistance", 2}}}}}}};
     root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"},
                                                             {"name", "lamp"},
                                                             {"color", {1, 0.5, 0.25}},

@@ -91,6 +91,18 @@ std::vector<Case> all_cases() {
         {to_transmission, "SCALAR", 0, factor(&Material::transmission), plain},
         {to_ior, "SCALAR", 1, factor(&Material::ior), plain},
         {extensions + "volume/thicknessFactor", "SCALAR", 5, factor(&Material::thickness), plain},
+        {extensions + "volume/attenuationDistance", "SCALAR", 1,
+         [](const Scene& s) {
+             // What is left of the red of 0.5 after the distance.
+             return Values{std::log(2.0) / double(screen_of(s).absorption.r)};
+         },
+         plain},
+        {extensions + "volume/attenuationColor", "VEC3", 0,
+         [](const Scene& s) {
+             const glm::dvec3 left = glm::exp(-2.0 * glm::dvec3(screen_of(s).absorption));
+             return values_of(glm::vec3(left));
+         },
+         plain},
         {"/cameras/0/perspective/yfov", "SCALAR", 1,
          [](const Scene& s) { return Values{s.cameras[0].vertical_angle}; }, plain},
         {"/cameras/1/orthographic/ymag", "SCALAR", 1,

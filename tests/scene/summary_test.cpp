@@ -33,6 +33,12 @@ TEST(Describe, NamesEachKindOfMaterial) {
     EXPECT_EQ(kind(1, 0, 1, 1, 1), "mirror"); // metal does not transmit
 }
 
+TEST(Describe, NamesUnlitSurfaces) {
+    Material material;
+    material.unlit = true;
+    EXPECT_EQ(describe(material), "unlit");
+}
+
 /// A lamp and a wall, all kinds of lights, a camera, an animation, and an unsupported extension.
 Scene rich_scene() {
     GltfBuilder builder;

@@ -57,7 +57,8 @@ TEST(EveryLobe, IsAmongTheRandomMaterialsAndInEveryFunction) {
 
 // Kernels are specialised to the lobes and kinds of a scene: bits must not overlap.
 TEST(EveryLobe, HasABitOfItsOwnInTheFeatures) {
-    const uint features = MATERIAL_ALPHA | MATERIAL_GGX | MATERIAL_PHONG | MATERIAL_SOLID;
+    const uint features = MATERIAL_ALPHA | MATERIAL_GGX | MATERIAL_PHONG | MATERIAL_SOLID |
+                          MATERIAL_ABSORPTION | MATERIAL_UNLIT;
     EXPECT_EQ(LOBES_ALL & features, 0u);
     EXPECT_EQ(LOBES_ALL | features, MATERIAL_ALL);
     EXPECT_EQ(LOBES_ALL & (LOBE_GLOSSY | MATERIAL_LAYER), LOBE_GLOSSY | LOBE_MIRROR);

@@ -6,6 +6,7 @@
 #include "shared/kernels/textures.h"
 
 #include "shared/kernels/emission.h"
+#include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
@@ -20,6 +21,7 @@ struct Vertex {
     uint triangle;
     uint cone; // of the ray
     real distance;
+    uint medium; // in which the ray came (kernels/medium.h)
     Surface surface;
     MaterialRecord material;
     Frame frame; // of the shading normal
@@ -150,6 +152,15 @@ FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
     }
 }
 
+// Adds what the eye sees of a surface without light. It lights nothing, so that photons need not
+// leave it.
+FN void add_unlit(IN(Vertex) v) {
+    if (is_unlit(v.material) && !behind_estimated(v.path)) {
+        add_to_layer(v.slot, layer_direct,
+                     v.throughput * base_color(v.material) * coverage(v.material));
+    }
+}
+
 // Largest probability with which the last estimated vertex sends a ray that seeks emission. On
 // diffuse surfaces the ray matters only under the sky and near emissive triangles, and it costs a
 // round of tracing. Followed lobes need most of the rays for themselves.
@@ -237,6 +248,9 @@ FN void sample_light(IN(Vertex) v) {
     }
     LightSample s = l.s;
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        arriving *= transmittance(v.medium, s.distance);
+    }
     // Weight for the lobes in `onward`, which the path samples too. All others have only this
     // sample.
     real weight = real(1.0);
@@ -366,11 +380,13 @@ CONSTANT real least_passing = real(0.125);
 FN void pass_surface(IN(Vertex) v, real u) {
     PathRecord path = v.path;
     path.vertices += 1u;
-    vec3 throughput = v.throughput * (pass_share(v.material) / v.pass_probability);
+    // Solids absorb on the whole way, once its end is known.
+    vec3 arrived = vec3(path.throughput_r, path.throughput_g, path.throughput_b);
+    vec3 throughput = arrived * (pass_share(v.material) / v.pass_probability);
     real refracted = scale_by_refraction(path, v.material, real(1.0));
     real survival = min(max_component(throughput) / (refracted * least_passing), real(1.0));
     if (u < survival) {
-        rays[v.slot].t_max = goes_on;
+        rays[v.slot].t_max = goes_on_in(medium_of(rays[v.slot].t_max));
         leave_path(v, path, throughput / survival);
     }
 }
@@ -420,7 +436,9 @@ FN void continue_path(INOUT(Vertex) v) {
     if (!(max_component(throughput) > real(0.0))) {
         return;
     }
-    rays[v.slot] = make_ray(v.surface, wi, far_away);
+    rays[v.slot] = make_ray(v.surface, wi,
+                            unbounded_in(medium_after(v.medium, triangles[v.triangle].w, v.material,
+                                                      v.surface.front, s.lobe)));
     if (mip_maps) {
         rays[v.slot].pad = pack_cone(
             cone_width(v.cone, v.distance),
@@ -463,9 +481,15 @@ FN void main() {
     v.surface = load_surface(hit, v.direction);
     v.cone = rays[v.slot].pad;
     v.material = material_at(triangles[hit.triangle], hit, v.cone, v.direction);
+    v.medium = medium_before(medium_of(rays[v.slot].t_max), triangles[hit.triangle].w, v.material,
+                             v.surface.front);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        v.throughput *= transmittance(v.medium, hit.t);
+    }
     turn_normal(v.material.textures, hit, v.direction, v.surface);
     v.toward = toward_above(v.surface, -v.direction);
     add_surface_emission(v, hit);
+    add_unlit(v);
     bool ends = seeks_emission(v.path) ||
                 (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces);
     if (ends) {

@@ -1,6 +1,7 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
 // Whether any material of the scene has one of these lobes.
@@ -25,6 +26,8 @@ struct Arrival {
     vec3 flux;
     real shading; // cosine with the shading normal over that with the geometric one
     uint depth;   // number of scatterings so far
+    real carried; // largest component of the flux before the solid on its way absorbed some
+    uint medium;  // that solid (kernels/medium.h)
 };
 
 FN Arrival arrive(HitRecord hit, vec3 direction, MaterialRecord m, PhotonPathRecord path) {
@@ -44,6 +47,8 @@ FN Arrival arrive(HitRecord hit, vec3 direction, MaterialRecord m, PhotonPathRec
         a.shading = real(0.0); // light from below the horizon is not scattered
     }
     a.depth = path.state & photon_depth_mask;
+    a.carried = max_component(a.flux);
+    a.medium = 0u;
     return a;
 }
 
@@ -168,7 +173,7 @@ FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, 
 // of little flux were aimed in the place of one, as a logarithm; it is 0 unless the photon leaves
 // what it was aimed for.
 FN real survival_probability(Arrival a, Departure d, uint aimed) {
-    real kept = max_component(d.flux) / max_component(a.flux);
+    real kept = max_component(d.flux) / a.carried;
     if (aims_at_view) {
         kept *= max(d.concentration, real(1.0));
     }
@@ -201,6 +206,18 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
 }
 
 FN uvec4 units_of(vec3 flux) { return uvec4(flux_units(flux, batch.flux_unit), 0u); }
+
+// Takes away what the solid on the photon's way absorbed.
+FN void absorb(uint slot, INOUT(Arrival) a, IN(MaterialRecord) m) {
+    if (!has(MATERIAL_ABSORPTION)) {
+        return;
+    }
+    a.medium =
+        medium_before(medium_of(rays[slot].t_max), triangles[a.hit.triangle].w, m, a.surface.front);
+    vec3 flux = a.flux;
+    a.flux = flux * transmittance(a.medium, a.hit.t);
+    ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
+}
 
 // Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
 // scheduling. Returns whether the photon may be stored.
@@ -238,11 +255,12 @@ FN vec4 scattering_random(uint slot, uint depth) {
 }
 
 // Writes the ray and the state with which a photon continues. flags: of the state.
-FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint cone, uint flags) {
+FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint cone, uint medium,
+                      uint flags) {
     vec3 origin = offset_ray_origin(a.surface.position, a.surface.error, a.surface.geometric_normal,
                                     direction);
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
-                           direction.z, cone);
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, unbounded_in(medium), direction.x,
+                           direction.y, direction.z, cone);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, (a.depth + 1u) | flags);
 }
 
@@ -265,12 +283,14 @@ FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability,
         ledgers[slot].absorbed += units_of(a.flux);
         return;
     }
-    vec3 flux = a.flux * (kept / survival);
+    // Solids absorb on the whole way, once its end is known.
+    vec3 flux =
+        vec3(paths[slot].flux_r, paths[slot].flux_g, paths[slot].flux_b) * (kept / survival);
     ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
     paths[slot].flux_r = flux.x;
     paths[slot].flux_g = flux.y;
     paths[slot].flux_b = flux.z;
-    rays[slot].t_max = goes_on;
+    rays[slot].t_max = goes_on_in(medium_of(rays[slot].t_max));
     if (footprints) {
         PhotonDifferential d = load_differential(differentials[slot]);
         roulette_differential(d, probability * survival);
@@ -299,6 +319,7 @@ FN void main() {
     uint cone = rays[slot].pad;
     MaterialRecord m = material_at(triangles[hit.triangle], hit, cone, direction);
     Arrival a = arrive(hit, direction, m, path);
+    absorb(slot, a, m);
     uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     uint estimated = bsdf_lobes(m) & ~followed;
     PhotonDifferential d;
@@ -378,8 +399,9 @@ FN void main() {
                          scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
                                           out_of.sampled.pdf));
     }
-    continue_path(slot, a, out_of.direction, flux, cone,
-                  stays_followed ? path.state & ~photon_depth_mask
-                                 : next_for_view << photon_view_shift);
+    continue_path(
+        slot, a, out_of.direction, flux, cone,
+        medium_after(a.medium, triangles[hit.triangle].w, m, a.surface.front, out_of.sampled.lobe),
+        stays_followed ? path.state & ~photon_depth_mask : next_for_view << photon_view_shift);
     alive[i] = 1u;
 }
