@@ -82,7 +82,7 @@ PaperTable table_of(const std::string& title, const Json& rows) {
 std::string page(const Json& run, const std::vector<PaperTable>& tables) {
     std::string text = fmt::format(
         "# Photons that are kept from frame to frame, measured as in the thesis\n\n"
-        "Written by `argand bench --paper shi12{}`: what the figures of Shi 2012 show "
+        "Written by `argand bench --paper shi12{}: what the figures of Shi 2012 show "
         "([methods/photon-queue.md](../methods/photon-queue.md)), with the parameters of its table "
         "3: three bounces, 200,000 photons, a window of 10, photons in the place of shadow rays, a "
         "sample a pixel. The scene is `dynamic_shi`. {}, {}. Times are medians of {} "
@@ -94,8 +94,9 @@ std::string page(const Json& run, const std::vector<PaperTable>& tables) {
         "bound is the time that a copy takes for the bytes that an update must move. Memory is "
         "that of the structure, beside the records that it is made of: *at rest*, and the most "
         "while *building*; its bound is 32 bytes a photon.\n\n",
-        run["quick"].get<bool>() ? " --quick" : "", run["device"].get<std::string>(),
-        run["processor"].get<std::string>(), run["runs"].get<int>());
+        run["quick"].get<bool>() ? " --quick` (with fewer photons and smaller pictures)" : "`",
+        run["device"].get<std::string>(), run["processor"].get<std::string>(),
+        run["runs"].get<int>());
     for (const PaperTable& table : tables) {
         text += markdown_rows(table);
     }
