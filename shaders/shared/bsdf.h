@@ -32,8 +32,8 @@ CONSTANT uint LOBE_TRANSMIT = 8u;
 CONSTANT uint LOBES_DELTA = 12u; // mirror and transmit
 CONSTANT uint LOBES_ALL = 15u;
 
-// Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract, those
-// that absorb, unlit surfaces.
+// Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract,
+// those that absorb, unlit surfaces.
 CONSTANT uint MATERIAL_ALPHA = 16u;
 CONSTANT uint MATERIAL_GGX = 32u;
 CONSTANT uint MATERIAL_PHONG = 64u;

@@ -17,6 +17,8 @@ CONSTANT float32 far_away = float32(1.0e30);
 // t_max of unbounded rays that go on behind their last hit, which the results still hold. Hits at
 // the same distance on triangles that come later in the scene lie behind it.
 CONSTANT float32 goes_on = float32(2.0e30);
+// Whether a ray goes on behind its last hit. The least bits of t_max belong to the path (medium.h).
+FN bool goes_on_behind_hit(float32 t_max) { return t_max >= goes_on && t_max < float32(3.0e30); }
 
 // A ray with 0 <= t <= t_max. t_max < 0: the slot holds no ray.
 struct RayRecord {

@@ -81,8 +81,8 @@ Scene load_plain(const Grid& g) {
     return builder.load();
 }
 
-void expect_near(const std::vector<Triangle>& found, const std::vector<Triangle>& expected,
-                 float tolerance) {
+void expect_near_triangles(const std::vector<Triangle>& found,
+                           const std::vector<Triangle>& expected, float tolerance) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -174,7 +174,7 @@ TEST(GltfDraco, MeshesAreThoseWithoutCompression) {
             const Scene exact =
                 with_draco(draco_bytes(g, 0, edgebreaker), g.positions.size(), g.indices.size())
                     .load();
-            expect_near(triangles_of(exact), plain, 1e-6f);
+            expect_near_triangles(triangles_of(exact), plain, 1e-6f);
             EXPECT_FALSE(has_note(exact, draco_name));
         }
     }
@@ -371,8 +371,8 @@ TEST(GltfMeshopt, FiltersAreUndone) {
     const Scene scene = builder.load(), plain = load_plain(g);
     ASSERT_EQ(scene.positions.size(), plain.positions.size());
     for (std::size_t i = 0; i < scene.positions.size(); ++i) {
-        testing_gltf::expect_near(scene.positions[i], plain.positions[i], 1e-4);
-        testing_gltf::expect_near(scene.normals[i], plain.normals[i], 1e-3);
+        testing_gltf::expect_near_triangles(scene.positions[i], plain.positions[i], 1e-4);
+        testing_gltf::expect_near_triangles(scene.normals[i], plain.normals[i], 1e-3);
     }
 }
 

@@ -132,7 +132,7 @@ FN void main() {
 #define RESULT hit
 #endif
 #if ALPHA && !ANY_HIT
-    if (!resume && origin.w == goes_on) {
+    if (!resume && goes_on_behind_hit(origin.w)) {
         load_result(walk.ray, passed);
         hit.t = far_away;
     }

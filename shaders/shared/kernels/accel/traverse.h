@@ -156,7 +156,7 @@ FN void main() {
     HitRecord passed = nothing_passed();
     if (resume) {
         load_passed(slot + suspended_passed, passed);
-    } else if (origin.w == goes_on) {
+    } else if (goes_on_behind_hit(origin.w)) {
         load_result(walk.ray, passed);
         hit.t = far_away;
     }
