@@ -114,14 +114,22 @@ template <class T> std::vector<float> decode_table() {
     return table;
 }
 
+[[noreturn]] void fail_to_decode(const std::filesystem::path& path) {
+    const char* reason = stbi_failure_reason();
+    fail("cannot read '{}': it is damaged ({}); render or copy it again",
+         one_line(path.string(), 4096), reason != nullptr ? reason : "unknown reason");
+}
+
 /// Checks that a Radiance file has a size that can be read, and at least as many bytes as its
 /// pixels take: the decoder fills in what is missing.
 void check_hdr(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
     const std::string file = one_line(path.string(), 4096);
     int width = 0, height = 0, channels = 0;
     const int size = static_cast<int>(bytes.size());
-    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width < 1 ||
-        height < 1 || width > longest_side || height > longest_side ||
+    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
+        fail_to_decode(path);
+    }
+    if (width < 1 || height < 1 || width > longest_side || height > longest_side ||
         std::uint64_t(width) * std::uint64_t(height) * rgb > most_samples) {
         fail("cannot read '{}': its size of {} × {} pixels is not one that can be read; render or "
              "copy it again",
@@ -146,12 +154,6 @@ void check_hdr(const std::filesystem::path& path, std::span<const std::uint8_t> 
             "has {}; render or copy it again",
             file, width, height, least, pixels.size());
     }
-}
-
-[[noreturn]] void fail_to_decode(const std::filesystem::path& path) {
-    const char* reason = stbi_failure_reason();
-    fail("cannot read '{}': it is damaged ({}); render or copy it again",
-         one_line(path.string(), 4096), reason != nullptr ? reason : "unknown reason");
 }
 
 } // namespace

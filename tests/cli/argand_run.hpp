@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/files.hpp"
+#include "picture_bytes.hpp"
 #include "support/scratch_directory.hpp"
 
 #include <algorithm>
@@ -42,17 +42,7 @@ protected:
         return names;
     }
 
-    /// What a picture in the directory shows: its layers' names and samples, without the command
-    /// that made it.
-    std::string pixels(const std::string& name) const {
-        std::string bytes;
-        for (const Layer& layer : read_image(file(name))) {
-            bytes += layer.name + " ";
-            bytes.append(reinterpret_cast<const char*>(layer.image.pixels.data()),
-                         layer.image.pixels.size() * sizeof(glm::vec3));
-        }
-        return bytes;
-    }
+    std::string pixels(const std::string& name) const { return picture_bytes(file(name)); }
 
     /// Runs the tool with the API's validation on, so that any message of it is a failure.
     /// `arguments` are read by a shell, redirections included; `environment`: NAME=VALUE ...

@@ -21,9 +21,7 @@ protected:
         }
         return reports;
     }
-    bool same(const std::string& a, const std::string& b) const {
-        return read_text(file(a)) == read_text(file(b));
-    }
+    bool same(const std::string& a, const std::string& b) const { return pixels(a) == pixels(b); }
 };
 
 TEST_F(Frames, AreThePicturesOfTheirTimes) {

@@ -117,7 +117,7 @@ TEST_F(SkyOptions, AreInThePictureAndItsKeepers) {
     }
     // The checkpoint is that of the last sky.
     expect_failure(render + "--env sky.exr --method path -o picture.exr --checkpoint kept.ckpt "
-                            "--resume",
+                            "--resume kept.ckpt",
                    failure, "kept.ckpt", on_host);
 }
 

@@ -1,5 +1,6 @@
 // The same seed gives the same bits however the tool is run. (test_methods, Repeat covers
 // lavapipe's threads and each fallback.)
+#include "picture_bytes.hpp"
 #include "results.hpp"
 #include "support/abilities.hpp"
 #include "support/scratch_directory.hpp"
@@ -26,7 +27,7 @@ std::string render_with(const Run& run, const std::string& method) {
         run.environment, ARGAND_EXECUTABLE, ARGAND_SOURCE_DIR, run.backend, method,
         has_map(method) ? " --photons 5000" : "", output);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    return read_text(output);
+    return picture_bytes(output);
 }
 
 void expect_same_bits(std::initializer_list<Run> runs) {

@@ -267,17 +267,19 @@ std::vector<Function> bsdfs() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          17, "3", conditioned, 8},
+        // The fits of repeated reflection (ggx_energy.h) lose digits where they are near 0, which
+        // shows where a value has no other part.
         {"bsdf_eval_and_pdf", of_bsdf_eval_and_pdf,
          "upright and grazing, near the mirror's direction, any material", put_scattering, 20, "31",
-         conditioned, 10},
+         conditioned, 20},
         {"bsdf_eval", of_bsdf_eval,
          "as bsdf_eval_and_pdf, whose value is equal; any lobes, from below as well (below 10^-30 "
          "of absolute error)",
-         put_scattering_by_lobes, 20, "3d", conditioned, 10},
+         put_scattering_by_lobes, 20, "3d", conditioned, 120},
         {"bsdf_pdf", of_bsdf_pdf,
          "as bsdf_eval_and_pdf, whose density is equal; any lobes, from below as well (below "
          "10^-30 of absolute error)",
-         put_scattering_by_lobes, 20, "1d", conditioned, 7},
+         put_scattering_by_lobes, 20, "1d", conditioned, 40},
     };
 }
 
@@ -315,7 +317,7 @@ std::vector<Function> paths_and_samples() {
              put_material(d);
              d.put(static_cast<float>(d.bits() % 2));
          },
-         20, "d331", conditioned, 200, 0.06},
+         20, "d331", conditioned, 200, 0.07},
     };
 }
 
