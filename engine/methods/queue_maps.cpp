@@ -35,7 +35,7 @@ PhotonMap make_queue_map(RenderContext& c, PhotonQueue& queue, PhotonWorkspace& 
                          const QueueMapSettings& settings) {
     std::optional<QueueFootprints> footprints;
     if (settings.scale) {
-        footprints.emplace(c.on_device, *settings.scale);
+        footprints.emplace(QueueFootprints{c.on_device, *settings.scale});
     }
     if (settings.rebuild == QueueRebuild::none) {
         return map_of_queue(c.device, queue, settings.corrected, footprints);

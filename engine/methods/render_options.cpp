@@ -186,7 +186,7 @@ Option focus_option() {
 }
 
 Option filter_option() {
-    constexpr const char* names[] = {"box", "blackman-harris"};
+    static constexpr const char* names[] = {"box", "blackman-harris"};
     return {.name = "filter",
             .help =
                 "How the samples of a pixel are placed: evenly in it (box), or by a window that "
@@ -195,11 +195,11 @@ Option filter_option() {
             .kind = OptionKind::choice,
             .choices = {names[0], names[1]},
             .report_key = "filter",
-            .get = [names](const RenderSettings& settings) -> std::string {
+            .get = [](const RenderSettings& settings) -> std::string {
                 return names[static_cast<int>(settings.filter)];
             },
             .set =
-                [names](RenderSettings& settings, const std::string& text) {
+                [](RenderSettings& settings, const std::string& text) {
                     settings.filter =
                         text == names[1] ? PixelFilter::blackman_harris : PixelFilter::box;
                 },
