@@ -58,7 +58,12 @@ std::map<std::string, const float*> channels_of(std::span<const Layer> layers) {
 }
 
 exr_attr_box2i_t data_window(const CropWindow& window, int width, int height) {
-    return {{window.x, window.y}, {window.x + width - 1, window.y + height - 1}};
+    exr_attr_box2i_t box{};
+    box.min.x = window.x;
+    box.min.y = window.y;
+    box.max.x = window.x + width - 1;
+    box.max.y = window.y + height - 1;
+    return box;
 }
 
 /// Writes the attributes that every file has, and the command.
@@ -66,9 +71,9 @@ void set_attributes(const ExrContext& context, int part, const PictureSettings& 
                     const exr_attr_box2i_t& window) {
     exr_attr_box2i_t display = window;
     if (settings.window.full_width > 0) {
-        display = {{0, 0}, {settings.window.full_width - 1, settings.window.full_height - 1}};
+        display = data_window({}, settings.window.full_width, settings.window.full_height);
     }
-    const exr_attr_v2f_t center{0, 0};
+    const exr_attr_v2f_t center{};
     context.check(exr_initialize_required_attr(context, part, &display, &window, 1, &center, 1,
                                                EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
     if (!settings.command.empty()) {

@@ -162,9 +162,10 @@ TextureTable make_texture_table(Device& device, const Scene& scene) {
         });
     const std::uint64_t most = device.info().limits.storage_range / sizeof(std::uint32_t) -
                                srgb_codes - (shines ? most_texel_tree_words : 0);
-    const auto [images, halvings] = fitting_images(scene, most);
+    const FittingImages fitting = fitting_images(scene, most);
+    const auto& images = fitting.images;
     TextureTable table;
-    table.halvings = halvings;
+    table.halvings = fitting.halvings;
     std::vector<std::uint32_t> texels;
     texels.reserve(srgb_codes);
     for (const double value : linear_values()) {

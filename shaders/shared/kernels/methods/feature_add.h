@@ -29,6 +29,11 @@ FN void main() {
         turn_normal(m.textures, hit, direction, surface);
         normal += surface.shading_normal;
     }
-    features[pixel] = FeatureRecord(albedo.x, albedo.y, albedo.z, real(0.0), normal.x, normal.y,
-                                    normal.z, real(0.0));
+    f.albedo_r = albedo.x;
+    f.albedo_g = albedo.y;
+    f.albedo_b = albedo.z;
+    f.normal_x = normal.x;
+    f.normal_y = normal.y;
+    f.normal_z = normal.z;
+    features[pixel] = f;
 }
