@@ -271,16 +271,6 @@ TEST(Pointer, WhatIsInvisibleAtRestMayAppearLater) {
     EXPECT_EQ(cutoff.load(1.0).materials[0].coverage, 0);
 }
 
-TEST(Pointer, EmissiveTexturesStayDark) {
-    Animated file = stage();
-    file.builder.root["textures"] = {json::object()};
-    file.builder.root["materials"][0]["emissiveFactor"] = {0, 0, 0};
-    file.builder.root["materials"][0]["emissiveTexture"] = {{"index", 0}};
-    const Scene scene = with_value(file, to_material + "emissiveFactor", "VEC3", {1, 1, 1});
-    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0));
-    EXPECT_TRUE(has_note(scene, "emissive textures are not read yet"));
-}
-
 TEST(Pointer, MovesALightWhoseNodeMovesToo) {
     Animated file = stage();
     file.animate(1, "translation", {0, 1}, {{0, 0, 0}, {8, 0, 0}});
