@@ -2,6 +2,15 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# The packages that the library was built with are in the scope of engine/.
+get_directory_property(ARGAND_HAS_DRACO DIRECTORY ${PROJECT_SOURCE_DIR}/engine DEFINITION draco_FOUND)
+get_directory_property(ARGAND_HAS_MESHOPTIMIZER DIRECTORY ${PROJECT_SOURCE_DIR}/engine DEFINITION meshoptimizer_FOUND)
+foreach(has ARGAND_HAS_DRACO ARGAND_HAS_MESHOPTIMIZER)
+    if(NOT ${has})
+        set(${has} FALSE)
+    endif()
+endforeach()
+
 set(ARGAND_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/argand)
 
 install(TARGETS argand_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
