@@ -65,6 +65,7 @@ struct GltfBuilder {
     json root{
         {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", json::array()}}}}};
     Bytes binary;
+    std::vector<json> further_buffers; ///< behind that of `binary`
 
     static int append(json& list, json element) {
         list.push_back(std::move(element));
@@ -117,6 +118,9 @@ struct GltfBuilder {
         json complete = root;
         if (!binary.empty()) {
             complete["buffers"] = json::array({{{"byteLength", binary.size()}}});
+        }
+        for (const json& buffer : further_buffers) {
+            complete["buffers"].push_back(buffer);
         }
         return make_glb(complete.dump(), binary);
     }
