@@ -175,6 +175,13 @@ void trace(const Work& work, RunKernel run_kernel) {
     }
 }
 
+/// The kernel for the tree: of kd-trees, else the one that reads nodes as texels where that is
+/// faster.
+RunKernel choose(Device& device, const TriangleBvh& bvh, RunKernel kdtree, RunKernel texels,
+                 RunKernel plain) {
+    return has_kdtree(bvh) ? kdtree : reads_texels(device, bvh) ? texels : plain;
+}
+
 } // namespace
 
 Traversal make_traversal(Device& device, std::uint64_t max_rays) {
@@ -194,32 +201,24 @@ Traversal make_traversal(Device& device, std::uint64_t max_rays) {
 
 void trace_closest(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                    const RayBatch& batch) {
-    if (bvh.alpha) {
-        trace({device, bvh, traversal, batch},
-              has_kdtree(bvh)             ? run_alpha<kernels::kd_closest_alpha, kdtree_of>
-              : reads_texels(device, bvh) ? run_alpha<kernels::trace_closest_alpha_texels, tree_of>
-                                          : run_alpha<kernels::trace_closest_alpha, tree_of>);
-        return;
-    }
-    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run<kernels::kd_closest, kdtree_of>
-                                           : reads_texels(device, bvh)
-                                               ? run<kernels::trace_closest_texels, tree_of>
-                                               : run<kernels::trace_closest, tree_of>);
+    trace({device, bvh, traversal, batch},
+          bvh.alpha ? choose(device, bvh, run_alpha<kernels::kd_closest_alpha, kdtree_of>,
+                             run_alpha<kernels::trace_closest_alpha_texels, tree_of>,
+                             run_alpha<kernels::trace_closest_alpha, tree_of>)
+                    : choose(device, bvh, run<kernels::kd_closest, kdtree_of>,
+                             run<kernels::trace_closest_texels, tree_of>,
+                             run<kernels::trace_closest, tree_of>));
 }
 
 void trace_any(Device& device, const TriangleBvh& bvh, Traversal& traversal,
                const RayBatch& batch) {
-    if (bvh.alpha) {
-        trace({device, bvh, traversal, batch},
-              has_kdtree(bvh)             ? run_alpha<kernels::kd_any_alpha, kdtree_of>
-              : reads_texels(device, bvh) ? run_alpha<kernels::trace_any_alpha_texels, tree_of>
-                                          : run_alpha<kernels::trace_any_alpha, tree_of>);
-        return;
-    }
-    trace({device, bvh, traversal, batch}, has_kdtree(bvh) ? run<kernels::kd_any, kdtree_of>
-                                           : reads_texels(device, bvh)
-                                               ? run<kernels::trace_any_texels, tree_of>
-                                               : run<kernels::trace_any, tree_of>);
+    trace({device, bvh, traversal, batch},
+          bvh.alpha
+              ? choose(device, bvh, run_alpha<kernels::kd_any_alpha, kdtree_of>,
+                       run_alpha<kernels::trace_any_alpha_texels, tree_of>,
+                       run_alpha<kernels::trace_any_alpha, tree_of>)
+              : choose(device, bvh, run<kernels::kd_any, kdtree_of>,
+                       run<kernels::trace_any_texels, tree_of>, run<kernels::trace_any, tree_of>));
 }
 
 } // namespace argand
