@@ -137,11 +137,12 @@ void check_hdr(const std::filesystem::path& path, std::span<const std::uint8_t> 
     }
     // The header ends with an empty line and the line of the size.
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    constexpr std::size_t npos = std::string_view::npos;
     const std::size_t end_of_header = text.find("\n\n");
     const std::size_t end_of_size =
-        end_of_header == text.npos ? text.npos : text.find('\n', end_of_header + 2);
+        end_of_header == npos ? npos : text.find('\n', end_of_header + 2);
     const auto pixels =
-        end_of_size == text.npos ? bytes.subspan(bytes.size()) : bytes.subspan(end_of_size + 1);
+        end_of_size == npos ? bytes.subspan(bytes.size()) : bytes.subspan(end_of_size + 1);
     // Rows of run lengths: a mark of four bytes, then two bytes for each 127 values at the most.
     const auto columns = static_cast<std::uint64_t>(width);
     const bool runs = width >= 8 && width < 32768 && pixels.size() >= 4 && pixels[0] == 2 &&

@@ -24,7 +24,7 @@ FN bool goes_on_behind_hit(float32 t_max) { return t_max >= goes_on && t_max < f
 struct RayRecord {
     float32 origin_x, origin_y, origin_z, t_max;
     float32 direction_x, direction_y, direction_z;
-    uint pad;
+    uint cone; // width and spread of a path (ray_cone.h); 0: it has none
 };
 
 CONSTANT uint no_triangle = 0xffffffffu;

@@ -440,7 +440,7 @@ FN void continue_path(INOUT(Vertex) v) {
                             unbounded_in(medium_after(v.medium, triangles[v.triangle].w, v.material,
                                                       v.surface.front, s.lobe)));
     if (mip_maps) {
-        rays[v.slot].pad = pack_cone(
+        rays[v.slot].cone = pack_cone(
             cone_width(v.cone, v.distance),
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
     }
@@ -479,7 +479,7 @@ FN void main() {
     v.triangle = hit.triangle;
     v.distance = hit.t;
     v.surface = load_surface(hit, v.direction);
-    v.cone = rays[v.slot].pad;
+    v.cone = rays[v.slot].cone;
     v.material = material_at(triangles[hit.triangle], hit, v.cone, v.direction);
     v.medium = medium_before(medium_of(rays[v.slot].t_max), triangles[hit.triangle].w, v.material,
                              v.surface.front);

@@ -23,7 +23,7 @@ FN void main() {
         }
         RayRecord ray = rays[slot];
         vec3 direction = vec3(ray.direction_x, ray.direction_y, ray.direction_z);
-        MaterialRecord m = material_at(triangles[hit.triangle], hit, ray.pad, direction);
+        MaterialRecord m = material_at(triangles[hit.triangle], hit, ray.cone, direction);
         albedo += vec3(m.base_r, m.base_g, m.base_b);
         Surface surface = load_surface(hit, direction);
         turn_normal(m.textures, hit, direction, surface);

@@ -316,7 +316,7 @@ FN void main() {
         return;
     }
 
-    uint cone = rays[slot].pad;
+    uint cone = rays[slot].cone;
     MaterialRecord m = material_at(triangles[hit.triangle], hit, cone, direction);
     Arrival a = arrive(hit, direction, m, path);
     absorb(slot, a, m);
