@@ -375,7 +375,7 @@ PhotonMap QueueMethod::make_map(const Bandwidth& widths) {
     if (settings.scale) {
         size_areas(*settings.scale);
     }
-    const PhotonMap map = make_queue_map(c_, queue_, workspace_, settings);
+    PhotonMap map = make_queue_map(c_, queue_, workspace_, settings);
     image_.footprint_scale = settings.scale;
     image_.mean_footprints = map.mean_footprints;
     return map;
