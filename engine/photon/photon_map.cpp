@@ -48,6 +48,9 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.offsets = device.allocate("photon differentials, stored",
                                 w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
     w.lights = device.allocate("photons' lights", (w.keeps_lights ? capacity : 1) * 4);
+    w.vertices =
+        device.allocate("vertices of photons' paths",
+                        (w.keeps_paths ? 2 * w.most_paths + capacity : 1) * sizeof(PathVertex));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
@@ -63,10 +66,17 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     const Buffer photons = w.photons;
     const Buffer offsets = w.offsets;
     const Buffer lights = w.lights;
+    const Buffer vertices = w.vertices;
     allocate_stored(device, w, capacity);
     copy_elements(device, photons, 0, w.photons, 0, stored, sizeof(PhotonRecord));
     copy_elements(device, offsets, 0, w.offsets, 0, w.footprints ? stored : 0, sizeof(glm::uvec4));
     copy_elements(device, lights, 0, w.lights, 0, w.keeps_lights ? stored : 0, 4);
+    copy_elements(device, vertices, 0, w.vertices, 0, w.keeps_paths ? 2 * w.most_paths + stored : 0,
+                  sizeof(PathVertex));
+}
+
+std::uint32_t kept_of(const PhotonWorkspace& w) {
+    return (w.keeps_lights ? kept_light : 0) | (w.keeps_paths ? kept_path : 0);
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -88,10 +98,12 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
                                       .aim_nodes = scene.aim_nodes,
                                       .sky = scene.sky,
                                       .path_lights = w.path_lights,
+                                      .path_vertices = w.path_vertices,
+                                      .vertices = w.vertices,
                                       .batch = batch,
                                       .constants = {.footprints = w.footprints,
                                                     .numbers = w.numbers,
-                                                    .keeps_lights = w.keeps_lights,
+                                                    .keeps = kept_of(w),
                                                     .scene = scene.constants(),
                                                     .texture = scene.texture_constants()}},
                  batch.count);
@@ -123,13 +135,15 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
                      .offsets = w.offsets,
                      .path_lights = w.path_lights,
                      .photon_lights = w.lights,
+                     .path_vertices = w.path_vertices,
+                     .vertices = w.vertices,
                      .batch = batch,
                      .constants = {.footprints = w.footprints,
                                    .reemission = w.reemission,
                                    .numbers = w.numbers,
                                    .followed_paths = plan.needs(Feature::followed_paths),
                                    .aims_at_view = scene.record.view_share > 0,
-                                   .keeps_lights = w.keeps_lights,
+                                   .keeps = kept_of(w),
                                    .scene = scene.constants(),
                                    .material_features = plan.material_features(),
                                    .texture = scene.texture_constants()}},
@@ -280,10 +294,12 @@ std::uint64_t max_photons_per_pass(const Device& device) {
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints, bool keeps_lights) {
+                                      bool footprints, bool keeps_lights, bool keeps_paths) {
     PhotonWorkspace w;
     w.footprints = footprints;
     w.keeps_lights = keeps_lights;
+    w.keeps_paths = keeps_paths;
+    w.most_paths = photons_per_pass;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
                        std::max<std::uint64_t>(photons_per_pass, 1));
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(FluxLedger));
@@ -300,6 +316,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.differentials = device.allocate("photon differentials",
                                       (footprints ? w.slots : 1) * sizeof(DifferentialRecord));
     w.path_lights = device.allocate("photon paths' lights", (keeps_lights ? w.slots : 1) * 4);
+    w.path_vertices = device.allocate("photon paths' vertices", (keeps_paths ? w.slots : 1) * 4);
     w.counters = device.allocate("photon counters", counter_count * 4);
     w.flux_sums = device.allocate("flux sums", 12 * 8);
     device.fill(w.flux_sums, 0);
@@ -317,6 +334,8 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         batch.seed = pass.seed;
         batch.first = static_cast<std::uint32_t>(pass.first + first);
         batch.count = static_cast<std::uint32_t>(std::min(w.slots, pass.count - first));
+        batch.first_path = static_cast<std::uint32_t>(first);
+        batch.paths = static_cast<std::uint32_t>(pass.count);
         batch.inverse_total = static_cast<float>(1.0 / static_cast<double>(pass.count));
         batch.inverse_spread = pass.spread > 0
                                    ? static_cast<float>(1.0 / static_cast<double>(pass.spread))

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -40,6 +41,43 @@ DynamicSizes sizes(bool quick) {
                  : DynamicSizes();
 }
 
+/// A method with options of its own.
+struct Measured {
+    std::string name; ///< of the rows
+    std::string method;
+    std::map<std::string, std::string> own;
+};
+
+/// What is measured: every method, and photons queues of several windows and with trees that are
+/// built anew for each frame.
+std::vector<Measured> measured_by(MethodTable methods) {
+    std::vector<Measured> all;
+    for (const MethodInfo& method : methods) {
+        if (!method.abilities.keeps_photons) {
+            all.push_back({method.name, method.name, {}});
+            continue;
+        }
+        for (const char* window : {"1", "4", "10", "64"}) {
+            all.push_back(
+                {fmt::format("{} W={}", method.name, window), method.name, {{"window", window}}});
+        }
+        for (const char* tree : {"kdtree", "lbvh"}) {
+            all.push_back({fmt::format("{} rebuild={}", method.name, tree),
+                           method.name,
+                           {{"rebuild", tree}}});
+        }
+    }
+    return all;
+}
+
+Json names_of(const std::vector<Measured>& all) {
+    Json names = Json::array();
+    for (const Measured& measured : all) {
+        names.push_back(measured.name);
+    }
+    return names;
+}
+
 std::string contents_of(const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = read_file(file);
     return fmt::format("{:016x}", fingerprint(std::as_bytes(std::span(bytes))));
@@ -57,7 +95,7 @@ Json run_of(const DynamicScene& film, const DynamicSizes& sizes, const DeviceInf
             {"photons", sizes.photons},
             {"reference_samples", sizes.reference_samples},
             {"seeds", sizes.seeds},
-            {"methods", methods.names()},
+            {"methods", names_of(measured_by(methods))},
             {"build", program_fingerprint()},
             {"backend", device.backend},
             {"device", device.name},
@@ -158,17 +196,18 @@ Json measure(const OpenDevice& open, const DynamicScene& film, const DynamicSize
              const FilmReferences& references, MethodTable methods) {
     RenderSettings settings = settings_of(sizes);
     Json rows = Json::array();
-    for (const MethodInfo& method : methods) {
-        Progress progress(film.name + " by " + method.name);
+    for (const auto& [name, method, own] : measured_by(methods)) {
+        Progress progress(film.name + " by " + name);
         progress.update(0);
-        settings.method = method.name;
+        settings.method = method;
+        settings.own = own;
         const auto frames = measure_film(
             open, film, settings, sizes.seeds, references, [] { return !interrupted(); }, methods);
         if (!frames) {
             fail_interrupted(film);
         }
         for (const MeasuredFrame& frame : *frames) {
-            rows.push_back(to_json(film.name, method.name, frame));
+            rows.push_back(to_json(film.name, name, frame));
         }
     }
     return rows;

@@ -219,11 +219,28 @@ FN void absorb(uint slot, INOUT(Arrival) a, IN(MaterialRecord) m) {
     ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
 }
 
+// Whether a photon of this depth has a slot in this round, stored there or not.
+FN bool has_slot_at(uint depth) {
+    return has(MATERIAL_ALPHA) ? batch.has_slots != 0u
+                               : depth >= batch.least_scatterings && depth <= batch.bounces;
+}
+
+// Adds the hit to the photon's path. Returns the index of the vertex.
+FN uint add_vertex(uint slot, uint store, Arrival a) {
+    bool in_slot = has_slot_at(a.depth);
+    uint vertex = in_slot ? 2u * batch.paths + store : 2u * (batch.first_path + slot) + 1u;
+    if (!in_slot || store < batch.capacity) {
+        vec3 p = a.surface.position;
+        vertices[vertex] = PathVertex(p.x, p.y, p.z, path_vertices[slot]);
+    }
+    return vertex;
+}
+
 // Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
 // scheduling. Returns whether the photon may be stored.
 FN bool reserve(uint store, uint depth) {
     bool stores = depth >= batch.least_scatterings && depth <= batch.bounces;
-    bool has_slot = has(MATERIAL_ALPHA) ? batch.has_slots != 0u : stores;
+    bool has_slot = has_slot_at(depth);
     if (has_slot && store >= batch.capacity) {
         atomicAdd(counters[counter_overflow], 1u);
         has_slot = false;
@@ -335,10 +352,11 @@ FN void main() {
         if (footprints) {
             offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
         }
-        if (keeps_lights) {
+        if ((keeps & kept_light) != 0u) {
             photon_lights[store] = path_lights[slot];
         }
     }
+    uint vertex = (keeps & kept_path) != 0u ? add_vertex(slot, store, a) : 0u;
     real scattered = real(1.0); // share of the photons that do not go straight on
     if (has(MATERIAL_ALPHA)) {
         // A ray meets a triangle once, so the triangle tells one pass from another.
@@ -403,5 +421,8 @@ FN void main() {
         slot, a, out_of.direction, flux, cone,
         medium_after(a.medium, triangles[hit.triangle].w, m, a.surface.front, out_of.sampled.lobe),
         stays_followed ? path.state & ~photon_depth_mask : next_for_view << photon_view_shift);
+    if ((keeps & kept_path) != 0u) {
+        path_vertices[slot] = vertex;
+    }
     alive[i] = 1u;
 }
