@@ -316,6 +316,83 @@ FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability,
     alive[i] = 1u;
 }
 
+// Stores the photon with what is kept beside it.
+FN void store_with_details(uint slot, uint store, Arrival a, bool caustic,
+                           IN(PhotonDifferential) d) {
+    store_photon(store, a, caustic);
+    if (footprints) {
+        offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
+    }
+    if ((keeps & kept_light) != 0u) {
+        photon_lights[store] = path_lights[slot];
+    }
+}
+
+// What a photon's scattering depends on, beside the arrival and the material.
+struct Scattering {
+    uint state; // of the path
+    uint triangle, cone;
+    real distance; // of the hit
+    uint followed, estimated;
+    bool only_followed; // lobes have scattered it so far
+    real scattered;     // share of the photons that do not go straight on
+};
+
+// Samples the direction in which a photon goes on. Returns false if it is absorbed.
+FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) how,
+                       INOUT(PhotonDifferential) d) {
+    vec4 u = scattering_random(slot, a.depth);
+    Cone view;
+    view.height = real(0.0);
+    real choice = real(1.0);
+    if (aims_at_view) {
+        view = view_from(a);
+        choice =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).x;
+    }
+    bool is_elsewhere = view.height > real(0.0);
+    real mirrored = real(0.0);
+    if (normal_maps) {
+        mirrored =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).y;
+    }
+    Departure out_of = depart(a, m, how.followed, how.estimated, view, u, choice, mirrored);
+    if (has(MATERIAL_ALPHA)) {
+        out_of.flux = out_of.flux / how.scattered;
+        out_of.sampled.probability *= how.scattered;
+        out_of.sampled.pdf *= how.scattered;
+    }
+    bool stays_followed = how.only_followed && (out_of.sampled.lobe & how.followed) != 0u;
+    uint for_view = (how.state >> photon_view_shift) & photon_view_mask;
+    uint leaves =
+        stays_followed ? 0u : (how.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
+    real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
+    if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
+        ledgers[slot].absorbed += units_of(a.flux);
+        return false;
+    }
+    vec3 flux = out_of.flux / survival;
+    // Roulette moves flux from one photon to another, so absorption is a difference and may be
+    // negative.
+    ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
+    if (footprints) {
+        scatter_differential(d, a, out_of, survival);
+        differentials[slot] = differential_record(d);
+    }
+    uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
+    uint cone = how.cone;
+    if (mip_maps) {
+        cone = pack_cone(cone_width(cone, how.distance),
+                         scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
+                                          out_of.sampled.pdf));
+    }
+    continue_path(
+        slot, a, out_of.direction, flux, cone,
+        medium_after(a.medium, triangles[how.triangle].w, m, a.surface.front, out_of.sampled.lobe),
+        stays_followed ? how.state & ~photon_depth_mask : next_for_view << photon_view_shift);
+    return true;
+}
+
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_active]) {
@@ -333,31 +410,29 @@ FN void main() {
         return;
     }
 
-    uint cone = rays[slot].cone;
-    MaterialRecord m = material_at(triangles[hit.triangle], hit, cone, direction);
+    Scattering how;
+    how.state = path.state;
+    how.triangle = hit.triangle;
+    how.distance = hit.t;
+    how.cone = rays[slot].cone;
+    MaterialRecord m = material_at(triangles[hit.triangle], hit, how.cone, direction);
     Arrival a = arrive(hit, direction, m, path);
     absorb(slot, a, m);
-    uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
-    uint estimated = bsdf_lobes(m) & ~followed;
+    how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
+    how.estimated = bsdf_lobes(m) & ~how.followed;
     PhotonDifferential d;
     if (footprints) {
         d = load_differential(differentials[slot]);
         transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
     }
-    bool only_followed = (path.state & photon_followed) != 0u;
-    bool may_be_estimated = estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
+    how.only_followed = (path.state & photon_followed) != 0u;
+    bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
     if (stores && may_be_estimated && a.surface.above_horizon) {
-        store_photon(store, a, followed_paths && only_followed && a.depth > 0u);
-        if (footprints) {
-            offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
-        }
-        if ((keeps & kept_light) != 0u) {
-            photon_lights[store] = path_lights[slot];
-        }
+        store_with_details(slot, store, a, followed_paths && how.only_followed && a.depth > 0u, d);
     }
     uint vertex = (keeps & kept_path) != 0u ? add_vertex(slot, store, a) : 0u;
-    real scattered = real(1.0); // share of the photons that do not go straight on
+    how.scattered = real(1.0);
     if (has(MATERIAL_ALPHA)) {
         // A ray meets a triangle once, so the triangle tells one pass from another.
         vec4 w = random4(batch.seed ^ 0x7a55e5u, batch.first + slot, a.depth, hit.triangle);
@@ -366,63 +441,16 @@ FN void main() {
             pass_surface(i, slot, a, pass_share(m), passes, w.y);
             return;
         }
-        scattered = real(1.0) - passes;
+        how.scattered = real(1.0) - passes;
     }
     if (a.depth >= batch.bounces) {
         ledgers[slot].cut += units_of(a.flux);
         return;
     }
-
-    vec4 u = scattering_random(slot, a.depth);
-    Cone view;
-    view.height = real(0.0);
-    real choice = real(1.0);
-    if (aims_at_view) {
-        view = view_from(a);
-        choice =
-            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).x;
+    if (scatter_photon(slot, a, m, how, d)) {
+        if ((keeps & kept_path) != 0u) {
+            path_vertices[slot] = vertex;
+        }
+        alive[i] = 1u;
     }
-    bool is_elsewhere = view.height > real(0.0);
-    real mirrored = real(0.0);
-    if (normal_maps) {
-        mirrored =
-            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).y;
-    }
-    Departure out_of = depart(a, m, followed, estimated, view, u, choice, mirrored);
-    if (has(MATERIAL_ALPHA)) {
-        out_of.flux = out_of.flux / scattered;
-        out_of.sampled.probability *= scattered;
-        out_of.sampled.pdf *= scattered;
-    }
-    bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
-    uint for_view = (path.state >> photon_view_shift) & photon_view_mask;
-    uint leaves =
-        stays_followed ? 0u : (path.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
-    real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
-    if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
-        ledgers[slot].absorbed += units_of(a.flux);
-        return;
-    }
-    vec3 flux = out_of.flux / survival;
-    // Roulette moves flux from one photon to another, so absorption is a difference and may be
-    // negative.
-    ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
-    if (footprints) {
-        scatter_differential(d, a, out_of, survival);
-        differentials[slot] = differential_record(d);
-    }
-    uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
-    if (mip_maps) {
-        cone = pack_cone(cone_width(cone, hit.t),
-                         scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
-                                          out_of.sampled.pdf));
-    }
-    continue_path(
-        slot, a, out_of.direction, flux, cone,
-        medium_after(a.medium, triangles[hit.triangle].w, m, a.surface.front, out_of.sampled.lobe),
-        stays_followed ? path.state & ~photon_depth_mask : next_for_view << photon_view_shift);
-    if ((keeps & kept_path) != 0u) {
-        path_vertices[slot] = vertex;
-    }
-    alive[i] = 1u;
 }
