@@ -79,36 +79,82 @@ std::uint32_t kept_of(const PhotonWorkspace& w) {
     return (w.keeps_lights ? kept_light : 0) | (w.keeps_paths ? kept_path : 0);
 }
 
+/// Emits the photons of a batch.
+void emit_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                  const PhotonBatch& batch) {
+    const StageScope stage(device, "emit photons");
+    dispatch(device,
+             kernels::photon_emit{.scene = scene.bindings(),
+                                  .texture = scene.texture_bindings(),
+                                  .rays = w.rays,
+                                  .paths = w.paths,
+                                  .ledgers = w.ledgers,
+                                  .active_slots = w.active,
+                                  .differentials = w.differentials,
+                                  .aim_nodes = scene.aim_nodes,
+                                  .sky = scene.sky,
+                                  .path_lights = w.path_lights,
+                                  .path_vertices = w.path_vertices,
+                                  .vertices = w.vertices,
+                                  .batch = batch,
+                                  .constants = {.footprints = w.footprints,
+                                                .numbers = w.numbers,
+                                                .keeps = kept_of(w),
+                                                .scene = scene.constants(),
+                                                .texture = scene.texture_constants()}},
+             batch.count);
+    upload_word(device, w.counters, counter_active, batch.count);
+}
+
+/// Lets the active photons of a batch scatter, and makes those active that go on.
+void scatter_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                     const PhotonBatch& batch, const Count& active) {
+    const StageScope stage(device, "scatter photons");
+    dispatch(device,
+             kernels::photon_scatter{
+                 .scene = scene.bindings(),
+                 .texture = scene.texture_bindings(),
+                 .hits = w.hits,
+                 .active_slots = w.active,
+                 .counters = w.counters,
+                 .rays = w.rays,
+                 .paths = w.paths,
+                 .ledgers = w.ledgers,
+                 .photons = w.photons,
+                 .alive = w.alive,
+                 .differentials = w.differentials,
+                 .offsets = w.offsets,
+                 .path_lights = w.path_lights,
+                 .photon_lights = w.lights,
+                 .path_vertices = w.path_vertices,
+                 .vertices = w.vertices,
+                 .batch = batch,
+                 .constants = {.footprints = w.footprints,
+                               .reemission = w.reemission,
+                               .numbers = w.numbers,
+                               .followed_paths = scene.plan.needs(Feature::followed_paths),
+                               .aims_at_view = scene.record.view_share > 0,
+                               .keeps = kept_of(w),
+                               .scene = scene.constants(),
+                               .material_features = scene.plan.material_features(),
+                               .texture = scene.texture_constants()}},
+             active);
+    compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active}, active);
+    std::swap(w.active, w.next_active);
+    dispatch(
+        device,
+        kernels::photon_advance{.counters = w.counters,
+                                .params = {.stored = batch.has_slots, .capacity = batch.capacity}},
+        1);
+}
+
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
 bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, PhotonBatch batch) {
     const Plan& plan = scene.plan;
     // Photons that pass surfaces scatter in a later round than others.
     const bool any_round = plan.needs(Feature::alpha);
     device.fill(w.traversal.unfinished, 0);
-    {
-        const StageScope stage(device, "emit photons");
-        dispatch(device,
-                 kernels::photon_emit{.scene = scene.bindings(),
-                                      .texture = scene.texture_bindings(),
-                                      .rays = w.rays,
-                                      .paths = w.paths,
-                                      .ledgers = w.ledgers,
-                                      .active_slots = w.active,
-                                      .differentials = w.differentials,
-                                      .aim_nodes = scene.aim_nodes,
-                                      .sky = scene.sky,
-                                      .path_lights = w.path_lights,
-                                      .path_vertices = w.path_vertices,
-                                      .vertices = w.vertices,
-                                      .batch = batch,
-                                      .constants = {.footprints = w.footprints,
-                                                    .numbers = w.numbers,
-                                                    .keeps = kept_of(w),
-                                                    .scene = scene.constants(),
-                                                    .texture = scene.texture_constants()}},
-                 batch.count);
-        upload_word(device, w.counters, counter_active, batch.count);
-    }
+    emit_photons(device, scene, w, batch);
     for (std::uint32_t bounce = 0;; ++bounce) {
         const bool last = bounce >= batch.bounces;
         batch.has_slots =
@@ -118,44 +164,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
             const StageScope stage(device, "trace photons");
             trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
         }
-        const StageScope stage(device, "scatter photons");
-        dispatch(device,
-                 kernels::photon_scatter{
-                     .scene = scene.bindings(),
-                     .texture = scene.texture_bindings(),
-                     .hits = w.hits,
-                     .active_slots = w.active,
-                     .counters = w.counters,
-                     .rays = w.rays,
-                     .paths = w.paths,
-                     .ledgers = w.ledgers,
-                     .photons = w.photons,
-                     .alive = w.alive,
-                     .differentials = w.differentials,
-                     .offsets = w.offsets,
-                     .path_lights = w.path_lights,
-                     .photon_lights = w.lights,
-                     .path_vertices = w.path_vertices,
-                     .vertices = w.vertices,
-                     .batch = batch,
-                     .constants = {.footprints = w.footprints,
-                                   .reemission = w.reemission,
-                                   .numbers = w.numbers,
-                                   .followed_paths = plan.needs(Feature::followed_paths),
-                                   .aims_at_view = scene.record.view_share > 0,
-                                   .keeps = kept_of(w),
-                                   .scene = scene.constants(),
-                                   .material_features = plan.material_features(),
-                                   .texture = scene.texture_constants()}},
-                 active);
-        compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
-                active);
-        std::swap(w.active, w.next_active);
-        dispatch(device,
-                 kernels::photon_advance{
-                     .counters = w.counters,
-                     .params = {.stored = batch.has_slots, .capacity = batch.capacity}},
-                 1);
+        scatter_photons(device, scene, w, batch, active);
         device.submit();
         const bool looks = last || bounce % bounces_between_checks == bounces_between_checks - 1;
         if ((last && !any_round) ||
