@@ -3,15 +3,14 @@
 namespace argand {
 
 /// Adds what the film has received since the pixel was last visited.
-void FilmVariance::add_sums(const FilmRecord& record, Pixel& pixel) {
-    const FilmRecord& r = record;
+void FilmVariance::add_sums(const FilmRecord& r, Pixel& pixel) {
     const glm::dvec3 sum = glm::dvec3(r.direct_r, r.direct_g, r.direct_b) +
                            glm::dvec3(r.indirect_r, r.indirect_g, r.indirect_b) +
                            glm::dvec3(r.caustic_r, r.caustic_g, r.caustic_b) -
                            glm::dvec3(r.lost_direct_r, r.lost_direct_g, r.lost_direct_b) -
                            glm::dvec3(r.lost_indirect_r, r.lost_indirect_g, r.lost_indirect_b) -
                            glm::dvec3(r.lost_caustic_r, r.lost_caustic_g, r.lost_caustic_b);
-    const auto samples = static_cast<double>(finite_samples(record));
+    const auto samples = static_cast<double>(finite_samples(r));
     const double of_pass = samples - pixel.samples;
     if (of_pass > 0) {
         const glm::dvec3 difference = (sum - pixel.sum) / of_pass - pixel.mean;

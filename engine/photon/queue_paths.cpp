@@ -3,6 +3,7 @@
 #include "device/copy_elements.hpp"
 #include "kernels/queue_paths.hpp"
 #include "parallel/reduce.hpp"
+#include "photon/box_around.hpp"
 #include "photon/queue_parts.hpp"
 
 #include <algorithm>
@@ -36,13 +37,6 @@ Buffer test_paths(Device& device, const PhotonQueue& q, std::uint32_t block,
     return counts;
 }
 
-BoxRecord joined(const BoxRecord& a, const BoxRecord& b) {
-    return {std::min(a.low_x, b.low_x),   std::min(a.low_y, b.low_y),
-            std::min(a.low_z, b.low_z),   0,
-            std::max(a.high_x, b.high_x), std::max(a.high_y, b.high_y),
-            std::max(a.high_z, b.high_z), 0};
-}
-
 } // namespace
 
 void add_moved_boxes(MovedBoxes& moved, std::span<const BoxRecord> boxes, std::uint32_t moment,
@@ -51,7 +45,7 @@ void add_moved_boxes(MovedBoxes& moved, std::span<const BoxRecord> boxes, std::u
     for (std::size_t first = 0; first < boxes.size(); first += each) {
         BoxRecord box = boxes[first];
         for (std::size_t i = first + 1; i < std::min(first + each, boxes.size()); ++i) {
-            box = joined(box, boxes[i]);
+            box = box_around(box, boxes[i]);
         }
         const auto by = static_cast<float>(error);
         moved.boxes.push_back({box.low_x - by, box.low_y - by, box.low_z - by, 0, box.high_x + by,
