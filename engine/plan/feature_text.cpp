@@ -30,6 +30,8 @@ FeatureText text_of(Feature feature) {
         return {"transmission", "transmission", ""};
     case Feature::refraction:
         return {"refraction", "refraction", ""};
+    case Feature::rough_glass:
+        return {"rough_glass", "rough transmission", ""};
     case Feature::absorption:
         return {"absorption", "absorption inside solids", ""};
     case Feature::unlit:

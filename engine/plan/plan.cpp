@@ -28,6 +28,7 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::mirror, LOBE_MIRROR},
                                  {Feature::transmission, LOBE_TRANSMIT},
                                  {Feature::refraction, LOBE_TRANSMIT | MATERIAL_SOLID},
+                                 {Feature::rough_glass, LOBE_CLEAR},
                                  {Feature::absorption, MATERIAL_ABSORPTION},
                                  {Feature::unlit, MATERIAL_UNLIT},
                                  {Feature::alpha, MATERIAL_ALPHA}};
@@ -74,6 +75,7 @@ bool add_material(Requirements& requirements, const Material& material, const st
     requirements.add(Feature::mirror, by, (lobes & LOBE_MIRROR) != 0);
     requirements.add(Feature::transmission, by, (lobes & LOBE_TRANSMIT) != 0);
     requirements.add(Feature::refraction, by, is_solid(record));
+    requirements.add(Feature::rough_glass, by, (lobes & LOBE_CLEAR) != 0);
     requirements.add(Feature::absorption, by,
                      is_solid(record) && material.absorption != glm::vec3(0));
     requirements.add(Feature::unlit, by, material.unlit);
@@ -216,7 +218,8 @@ Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& req
     const std::string light = first_light(found);
     const auto has = [&](Feature feature) { return !found.by(feature).empty(); };
     // Delta lobes cannot use light samples.
-    const bool rough = has(Feature::diffuse) || has(Feature::ggx) || has(Feature::phong);
+    const bool rough = has(Feature::diffuse) || has(Feature::ggx) || has(Feature::phong) ||
+                       has(Feature::rough_glass);
     found.add(Feature::direct_light, light, !light.empty() && rough);
     found.add(Feature::photon_map, "the method");
     found.add(Feature::differentials, "the method");

@@ -19,6 +19,7 @@ enum class Feature : std::uint8_t {
     mirror,
     transmission,
     refraction,     ///< at the interface of a solid
+    rough_glass,    ///< transmission and refraction by rough surfaces
     absorption,     ///< inside a solid
     unlit,          ///< surfaces that show their base colour
     alpha,          ///< some surface lets light pass

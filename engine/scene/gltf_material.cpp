@@ -136,15 +136,6 @@ void read_extensions(const FactorReader& read, const json* object, MaterialFacto
     }
 }
 
-/// Notes what the material, now or as its keys move it, asks for in vain.
-void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, Scene& scene) {
-    if ((factors.transmission > 0 || keys.transmission) &&
-        (factors.metallic < 1 || keys.metallic) && (factors.roughness > 0 || keys.roughness)) {
-        add_note(scene,
-                 "rough transmission is not supported yet: such surfaces are rendered smooth");
-    }
-}
-
 /// "extras": {"phong": {"specular": [r, g, b], "exponent": n}}; both members are required.
 void read_phong(const FactorReader& read, const json* object, Material& material) {
     const json* phong = find_member(find_member(object, "extras"), "phong");
@@ -268,7 +259,6 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         read_core(read, from, factors);
         read_emission(read, from, object, factors);
         read_extensions(read, object, factors);
-        note_unsupported(factors, keys[i], scene);
         Material material;
         material.name = one_line(from.name);
         material.double_sided = from.doubleSided;

@@ -93,6 +93,11 @@ TEST(Plan, EachMaterialAddsItsFeatures) {
     EXPECT_THAT(added(room, with_quad(room, glass(1.5f, false))),
                 UnorderedElementsAre(Feature::mirror, Feature::transmission,
                                      Feature::followed_paths, Feature::caustics));
+    Material frosted = glass(1.5f, true);
+    frosted.roughness = 0.5f;
+    EXPECT_THAT(added(room, with_quad(room, frosted)),
+                UnorderedElementsAre(Feature::refraction, Feature::rough_glass,
+                                     Feature::followed_paths, Feature::caustics));
     for (const bool solid : {false, true}) {
         Material amber = glass(1.5f, solid);
         amber.absorption = {1, 2, 3};

@@ -229,12 +229,6 @@ TEST(GltfMaterial, NotesAColourOfWrongLength) {
     EXPECT_TRUE(has_note(scene, "not quite valid glTF: Array length of `baseColorFactor`"));
 }
 
-TEST(GltfMaterial, NotesUnsupportedFeatures) {
-    const json rough{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
-                     {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
-    EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));
-}
-
 TEST(GltfMaterial, VolumesAbsorb) {
     const auto absorption = [](const json& volume) {
         return with_material(extension("KHR_materials_volume", volume))

@@ -27,13 +27,16 @@ Found find(uint lobe) {
         }
         ++found.materials;
         found.albedo += max_component(bsdf_albedo(m, wo, true, lobe)) > 0 ? 1 : 0;
-        const vec3 p = lobe_probabilities(m, wo.z, lobe);
-        found.probability += p.x + p.y + p.z > 0 ? 1 : 0;
+        const vec4 p = lobe_probabilities(m, wo.z, lobe);
+        found.probability += p.x + p.y + p.z + p.w > 0 ? 1 : 0;
         BsdfSample s;
         const vec4 u(to_unit_float(bits), to_unit_float(bits), to_unit_float(bits), 0);
         const bool sampled = bsdf_sample(m, wo, true, lobe, u, s) && s.lobe == lobe;
         found.samples += sampled ? 1 : 0;
-        found.value += sampled && max_component(bsdf_eval(m, wo, s.wi, lobe)) > 0 ? 1 : 0;
+        float pdf = 0;
+        const vec3 value = lobe == LOBE_CLEAR ? rough_clear_eval_and_pdf(m, wo, s.wi, true, pdf)
+                                              : bsdf_eval(m, wo, s.wi, lobe);
+        found.value += sampled && max_component(value) > 0 ? 1 : 0;
         const uint followed = followed_lobes(m, 0.5f);
         found.transported += ((followed ^ estimated_lobes(m, 0.5f)) & lobe) != 0u ? 1 : 0;
     }

@@ -17,6 +17,10 @@ using MaterialBytes = std::array<std::byte, 96>;
 glm::dvec3 bsdf_eval(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
 double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
 
+/// Value and density of the clear lobe of rough glass.
+glm::dvec3 rough_clear_eval_and_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi,
+                                    bool front, double& pdf);
+
 struct BsdfSample {
     bool scattered;
     glm::dvec3 wi, weight;

@@ -208,6 +208,19 @@ FN void only_pass(INOUT(Vertex) v) {
     v.pass_probability = real(1.0);
 }
 
+// Whether rough glass scatters the path.
+FN bool scatters_clear(IN(Vertex) v) {
+    return may_have(v.material, LOBE_CLEAR) && (v.followed & LOBE_CLEAR) != 0u;
+}
+
+// Probability with which followed lobes scatter the path.
+FN real followed_probability(IN(Vertex) v) {
+    real scattered = may_have(v.material, MATERIAL_ALPHA) && v.pass_probability > real(0.0)
+                         ? real(1.0) - v.pass_probability
+                         : real(1.0);
+    return scattered - v.estimated_probability;
+}
+
 // A sample of a light, as seen from the vertex.
 struct SeenLight {
     vec3 origin; // of the shadow ray
@@ -235,9 +248,49 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
     }
+    bool above = dot(l.s.wi, surface.geometric_normal) > real(0.0);
+    if (!above && scatters_clear(v)) {
+        // The light is behind the glass: its sample as seen from there.
+        l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
+                                     -surface.geometric_normal);
+        if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
+            return false;
+        }
+        l.s.pdf *= density;
+        l.wi = to_local(v.frame, l.s.wi);
+        return dot(l.s.wi, surface.geometric_normal) < real(0.0);
+    }
     l.s.pdf *= density;
     l.wi = to_local(v.frame, l.s.wi);
-    return dot(l.s.wi, surface.geometric_normal) > real(0.0);
+    return above;
+}
+
+// Radiance that rough glass scatters from a light's sample, on either side of it. It is followed,
+// so the path samples the same light.
+FN vec3 light_through_glass(IN(Vertex) v, IN(SeenLight) l) {
+    bool passes = l.wi.z < real(0.0);
+    if (passes != (dot(l.s.wi, v.surface.geometric_normal) < real(0.0))) {
+        return vec3(real(0.0));
+    }
+    real pdf;
+    vec3 f = rough_clear_eval_and_pdf(v.material, v.wo, l.wi, v.surface.front, pdf);
+    if (passes) {
+        real eta = interface_eta(v.material, v.surface.front);
+        f = f / (eta * eta);
+    }
+    real weight = real(1.0);
+    if (!l.s.delta) {
+        real chosen =
+            lobe_probabilities(v.material, v.wo.z, v.followed).w * followed_probability(v);
+        weight = power_heuristic(l.choice.probability * l.s.pdf, chosen * pdf);
+    }
+    vec3 arriving = v.throughput * l.s.radiance * (abs(l.wi.z) / l.choice.probability);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        arriving *= transmittance(
+            medium_after(v.medium, triangles[v.triangle].w, v.material, v.surface.front, passes),
+            l.s.distance);
+    }
+    return arriving * f * weight;
 }
 
 // Writes a shadow ray to a light, and the radiance that it adds if nothing blocks it.
@@ -247,6 +300,12 @@ FN void sample_light(IN(Vertex) v) {
         return;
     }
     LightSample s = l.s;
+    bool behind = behind_estimated(v.path);
+    bool left_to_photons = final_gather && behind;
+    vec3 through_glass = vec3(real(0.0));
+    if (scatters_clear(v) && !left_to_photons) {
+        through_glass = light_through_glass(v, l);
+    }
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
         arriving *= transmittance(v.medium, s.distance);
@@ -263,11 +322,10 @@ FN void sample_light(IN(Vertex) v) {
     if (v.onward != v.estimated) {
         e += arriving * bsdf_eval(v.material, v.wo, l.wi, v.estimated & ~v.onward);
     }
-    bool behind = behind_estimated(v.path);
-    bool left_to_photons = final_gather && behind;
     vec3 f = s.delta && v.followed != 0u && !left_to_photons
                  ? arriving * bsdf_eval(v.material, v.wo, l.wi, v.followed)
                  : vec3(real(0.0));
+    f += through_glass;
     if (!(max_component(e) + max_component(f) > real(0.0))) {
         return;
     }
@@ -438,13 +496,17 @@ FN void continue_path(INOUT(Vertex) v) {
     }
     rays[v.slot] = make_ray(v.surface, wi,
                             unbounded_in(medium_after(v.medium, triangles[v.triangle].w, v.material,
-                                                      v.surface.front, s.lobe)));
+                                                      v.surface.front, s.wi.z < real(0.0))));
     if (mip_maps) {
         rays[v.slot].cone = pack_cone(
             cone_width(v.cone, v.distance),
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
     }
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
+    if (direct_light && s.lobe == LOBE_CLEAR && scatters_clear(v) &&
+        !(final_gather && behind_estimated(v.path))) {
+        path.pdf = probability * s.pdf; // shadow rays find the same lights
+    }
     path.state = state_after(path.state, !takes_estimated);
     if (v.ends && takes_estimated) {
         path.state |= path_seeks_emission;
@@ -497,7 +559,7 @@ FN void main() {
     } else {
         split_lobes(v);
         if (direct_light && scene[0].light_count > 0u &&
-            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY | LOBE_CLEAR)) != 0u) {
             sample_light(v);
         }
         if (photon_map) {

@@ -69,7 +69,7 @@ FN bool aim_at_view(Arrival a, MaterialRecord m, uint lobes, Cone view, vec2 u, 
                     INOUT(Departure) d) {
     real share = real(scene[0].view_share);
     vec3 wo = a.wo;
-    vec3 probabilities = lobe_probabilities(m, wo.z, lobes);
+    vec4 probabilities = lobe_probabilities(m, wo.z, lobes);
     bool aims = choice < share;
     if (aims) {
         d.sampled.wi = to_local(a.frame, sample_cone(view, u));
@@ -188,7 +188,7 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
     real emitted = out_of.concentration / batch.inverse_spread;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
-    } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT)) {
+    } else if (has(LOBE_GLOSSY | LOBE_CLEAR | LOBE_MIRROR | LOBE_TRANSMIT)) {
         NormalDifferential normal;
         normal.n = a.surface.shading_normal;
         normal.dn_du = normal_change(a.hit, a.surface, d.dp_du);
@@ -197,6 +197,9 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
             // The pdf includes the choice of the lobe.
             gloss_differential(d, a.direction, out_of.direction, normal, emitted,
                                s.pdf / s.probability);
+        } else if (has(LOBE_CLEAR) && s.lobe == LOBE_CLEAR) {
+            rough_clear_differential(d, a.direction, out_of.direction, normal,
+                                     inversesqrt(s.eta_scale), emitted, s.pdf / s.probability);
         } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
             reflect_differential(d, a.direction, normal);
         } else if (has(LOBE_TRANSMIT)) {
@@ -399,9 +402,10 @@ FN void main() {
                          scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
                                           out_of.sampled.pdf));
     }
-    continue_path(
-        slot, a, out_of.direction, flux, cone,
-        medium_after(a.medium, triangles[hit.triangle].w, m, a.surface.front, out_of.sampled.lobe),
-        stays_followed ? path.state & ~photon_depth_mask : next_for_view << photon_view_shift);
+    continue_path(slot, a, out_of.direction, flux, cone,
+                  medium_after(a.medium, triangles[hit.triangle].w, m, a.surface.front,
+                               out_of.sampled.wi.z < real(0.0)),
+                  stays_followed ? path.state & ~photon_depth_mask
+                                 : next_for_view << photon_view_shift);
     alive[i] = 1u;
 }
