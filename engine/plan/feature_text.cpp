@@ -34,6 +34,16 @@ FeatureText text_of(Feature feature) {
         return {"rough_glass", "rough transmission", ""};
     case Feature::absorption:
         return {"absorption", "absorption inside solids", ""};
+    case Feature::coat:
+        return {"coat", "coats", ""};
+    case Feature::rough_coat:
+        return {"rough_coat", "rough coats", ""};
+    case Feature::sheen:
+        return {"sheen", "sheen", ""};
+    case Feature::iridescence:
+        return {"iridescence", "thin films", ""};
+    case Feature::dispersion:
+        return {"dispersion", "dispersion", ""};
     case Feature::unlit:
         return {"unlit", "unlit surfaces", ""};
     case Feature::alpha:

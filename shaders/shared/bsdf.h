@@ -5,7 +5,8 @@
 //
 // The BSDF is a sum of lobes, which are scaled by the surface's alpha (coverage). What passes where
 // the surface is absent is not scattered, and no part of it.
-// - diffuse: Lambertian, under the specular layer of a dielectric or beside the specular lobe of
+// - diffuse: sheen, and Lambertian reflection, under the specular layer of a dielectric or beside
+// the specular lobe of
 //   modified Phong.
 // - glossy: GGX reflection by metal and by the dielectric's layer, with what microfacets reflect
 //   more than once, or the specular lobe of modified Phong.
@@ -13,6 +14,7 @@
 //   solid dielectric.
 // - transmit: straight through a thin wall, or refracted at the interface of a solid dielectric;
 //   tinted by the base colour.
+// - coat: GGX reflection by a rough coat; a smooth one belongs to the mirror lobe.
 // - clear: what mirror and transmit do at the clear part of a dielectric, where that is rough
 //   (rough_glass.h).
 //
@@ -32,30 +34,50 @@ struct DeltaLobes {
     real cosine_refracted;
 };
 
+// Delta lobes below coat and sheen, with the coat's reflection if it is smooth.
+FN DeltaLobes with_cover(IN(MaterialRecord) m, IN(ReflectionParameters) r, real cosine,
+                         IN(DeltaLobes) bare) {
+    DeltaLobes delta = bare;
+    if (!is_covered(r)) {
+        return delta;
+    }
+    real passed = passes_cover_at(r, cosine);
+    delta.reflected = delta.reflected * passed;
+    delta.transmitted =
+        delta.transmitted *
+        (is_solid(m) ? min(passed, passes_cover_at(r, delta.cosine_refracted)) : passed);
+    if (has_coat(r) && !coat_is_rough(r)) {
+        delta.reflected += vec3(coat_albedo(r, cosine) * coverage(m));
+    }
+    return delta;
+}
+
 FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
     DeltaLobes delta;
     delta.eta = real(1.0);
     delta.cosine_refracted = cosine;
     ReflectionParameters reflection = reflection_parameters(m);
     delta.reflected =
-        roughness_is_delta(m) ? layer_reflectance(reflection, cosine) : vec3(real(0.0));
+        roughness_is_delta(m) ? filmed_layer_reflectance(reflection, cosine) : vec3(real(0.0));
     delta.transmitted = vec3(real(0.0));
     if (!may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID) || clear_is_rough(m)) {
-        return delta;
+        return with_cover(m, reflection, cosine, delta);
     }
     if (!is_solid(m)) {
-        real passed = real(1.0) - max_component(dielectric_fresnel(reflection, cosine));
+        real passed = has_film(reflection)
+                          ? passes_smooth_layer_at(reflection, cosine)
+                          : real(1.0) - max_component(dielectric_fresnel(reflection, cosine));
         delta.transmitted = base_color(m) * (clear_share(m) * passed);
-        return delta;
+        return with_cover(m, reflection, cosine, delta);
     }
     vec3 reflectance = vec3(real(1.0));
     if (m.ior > float32(0.0)) {
         delta.eta = front ? real(m.ior) : real(1.0) / real(m.ior);
-        reflectance = interface_reflectance(m, cosine, delta.eta, delta.cosine_refracted);
+        reflectance = filmed_interface_reflectance(m, cosine, delta.eta, delta.cosine_refracted);
     }
     delta.reflected = delta.reflected + reflectance * clear_share(m);
     delta.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
-    return delta;
+    return with_cover(m, reflection, cosine, delta);
 }
 
 // LOBE_* bits of the lobes that the material has.
@@ -65,11 +87,17 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
     if (may_have(m, LOBE_DIFFUSE) && colored && opaque_share(m) > real(0.0)) {
         lobes |= LOBE_DIFFUSE;
     }
+    if (has_sheen(m) && coverage(m) > real(0.0)) {
+        lobes |= LOBE_DIFFUSE;
+    }
     if (may_have(m, LOBE_GLOSSY | LOBE_MIRROR)) {
         if (metal_share(m) > real(0.0) ||
             (m.specular > float32(0.0) && layer_share(m) > real(0.0))) {
             lobes |= roughness_is_delta(m) ? LOBE_MIRROR : LOBE_GLOSSY;
         }
+    }
+    if (may_have(m, MATERIAL_COAT) && m.coat > float32(0.0) && coverage(m) > real(0.0)) {
+        lobes |= coat_is_rough(reflection_parameters(m)) ? LOBE_COAT : LOBE_MIRROR;
     }
     if (clear_is_rough(m)) {
         lobes |= colored || is_solid(m) ? LOBE_CLEAR : 0u;
@@ -88,7 +116,9 @@ FN uint bsdf_lobes(IN(MaterialRecord) m) {
 }
 
 // Whether only the diffuse lobe scatters.
-FN bool is_lambertian(IN(MaterialRecord) m) { return bsdf_lobes(m) == LOBE_DIFFUSE; }
+FN bool is_lambertian(IN(MaterialRecord) m) {
+    return bsdf_lobes(m) == LOBE_DIFFUSE && !has_sheen(m);
+}
 
 // Approximate albedo of the masked lobes for light from wo; exact for the delta lobes. front: wo is
 // on the side from which the triangle's vertices run counter-clockwise, which is the outside of a
@@ -102,6 +132,14 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
     if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
         albedo += layer_albedo(reflection, wo.z);
     }
+    if (is_covered(reflection)) {
+        albedo = albedo * passes_coat_at(reflection, wo.z);
+        albedo += wants_lobe(m, lobes, LOBE_DIFFUSE) ? rough_sheen_albedo(reflection, wo.z)
+                                                     : vec3(real(0.0));
+        albedo += wants_lobe(m, lobes, LOBE_COAT) && coat_is_rough(reflection)
+                      ? vec3(coat_albedo(reflection, wo.z) * coverage(m))
+                      : vec3(real(0.0));
+    }
     if (wants_lobe(m, lobes, LOBES_DELTA)) {
         DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
         albedo += wants_lobe(m, lobes, LOBE_MIRROR) ? delta.reflected : vec3(real(0.0));
@@ -114,8 +152,9 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
 }
 
 // Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy lobe, any delta lobe,
-// or the clear lobe; all 0 if the material has none of the masked lobes. They must not depend on
-// the side of wo, which bsdf_pdf does not know, so a solid's interface counts with its whole share.
+// or any of clear and coat; all 0 if the material has none of the masked lobes. They must not
+// depend on the side of wo, which bsdf_pdf does not know, so a solid's interface counts with its
+// whole share.
 FN vec4 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     vec4 p = vec4(real(0.0));
@@ -137,6 +176,17 @@ FN vec4 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     if (wants_lobe(m, present, LOBE_CLEAR)) {
         p.w = clear_share(m) * max(mean_component(base_color(m)), real(0.04));
     }
+    if (is_covered(reflection)) {
+        real passed = passes_coat_at(reflection, cosine);
+        real coat = coat_albedo(reflection, cosine) * coverage(m);
+        bool rough = has_coat(reflection) && coat_is_rough(reflection);
+        p = p * passed;
+        p.x += wants_lobe(m, present, LOBE_DIFFUSE)
+                   ? mean_component(rough_sheen_albedo(reflection, cosine))
+                   : real(0.0);
+        p.z += wants_lobe(m, present, LOBE_MIRROR) && !rough ? coat : real(0.0);
+        p.w += wants_lobe(m, present, LOBE_COAT) && rough ? coat : real(0.0);
+    }
     real sum = p.x + p.y + p.z + p.w;
     return sum > real(0.0) ? p / sum : p;
 }
@@ -146,7 +196,8 @@ FN vec4 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
 FN vec3 rough_layer_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, vec3 h, real h2,
                                  real cosine, OUT(real) pdf) {
     real distribution = ggx_distribution(r.alpha, h, h2);
-    vec3 once = layer_reflectance(r, cosine) * (distribution * ggx_visibility(r.alpha, wo.z, wi.z));
+    vec3 once =
+        filmed_layer_reflectance(r, cosine) * (distribution * ggx_visibility(r.alpha, wo.z, wi.z));
     real lost = ggx_lost(r.alpha, wo.z);
     real average = ggx_lost_average(r.alpha);
     vec3 repeated = repeated_color(r, average);
@@ -185,7 +236,7 @@ FN vec3 bsdf_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, uint lob
     }
     if (may_have(r.absent, LOBE_GLOSSY) && (lobes & LOBE_GLOSSY) != 0u &&
         !alpha_is_delta(r.absent, r.alpha)) {
-        if (!may_have(r.absent, MATERIAL_GGX) || is_phong(r)) {
+        if (!may_have(r.absent, MATERIAL_GGX) || is_phong(r)) { // Phong has no coat
             real power = phong_power(r.exponent, wo, wi);
             pdf += probabilities.y * phong_pdf(r.exponent, power);
             return f + r.f0 * phong_lobe(r.exponent, power);
@@ -193,6 +244,9 @@ FN vec3 bsdf_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, uint lob
         real density;
         f += rough_layer_eval_and_pdf(r, wo, wi, h, h2, cosine, density);
         pdf += probabilities.y * density;
+    }
+    if (is_covered(r)) {
+        return with_sheen(r, wo, wi, f, (lobes & LOBE_DIFFUSE) != 0u);
     }
     return f;
 }
@@ -245,6 +299,99 @@ FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes,
     return true;
 }
 
+// Probability with which coat, not clear, is sampled where one of them is.
+FN real coat_choice(IN(MaterialRecord) m, real cosine, uint lobes) {
+    uint present = lobes & bsdf_lobes(m);
+    if (!wants_lobe(m, present, LOBE_COAT)) {
+        return real(0.0);
+    }
+    ReflectionParameters r = reflection_parameters(m);
+    real coat = coat_albedo(r, cosine) * coverage(m);
+    real clear = wants_lobe(m, present, LOBE_CLEAR)
+                     ? clear_share(m) * max(mean_component(base_color(m)), real(0.04)) *
+                           passes_coat_at(r, cosine)
+                     : real(0.0);
+    return coat / max(coat + clear, real(1e-30));
+}
+
+// Probability with which a sample of the coat is one of repeated reflection (repeated_share).
+FN real coat_repeated_share(real lost, real repeated) {
+    real more = lost * repeated;
+    return more / (more + (real(1.0) - lost) * real(0.04 + 0.96 / 21.0));
+}
+
+// Value of a rough coat without the cosine [1/sr], and density of wi if this lobe is sampled.
+FN vec3 coat_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, OUT(real) pdf) {
+    pdf = real(0.0);
+    ReflectionParameters r = reflection_parameters(m);
+    vec3 h = wo + wi;
+    real h2 = dot3(h, h);
+    if (!has_coat(r) || !coat_is_rough(r) || !(wo.z > real(0.0)) || !(wi.z > real(0.0)) ||
+        !(h2 > real(0.0))) {
+        return vec3(real(0.0));
+    }
+    real cosine = min(real(0.5) * sqrt(h2), real(1.0));
+    real distribution = ggx_distribution(r.coat_alpha, h, h2);
+    real lost = ggx_lost(r.coat_alpha, wo.z);
+    real average = ggx_lost_average(r.coat_alpha);
+    real repeated = ggx_repeated_color(vec3(real(0.04)), real(1.0), average).x;
+    real share = coat_repeated_share(lost, repeated);
+    pdf = (real(1.0) - share) * ggx_reflection_pdf(r.coat_alpha, distribution, wo.z) +
+          share * ggx_repeated_pdf(r.coat_alpha, wi.z);
+    real once = (real(1.0) - real(0.96) * schlick_less(cosine)) * distribution *
+                ggx_visibility(r.coat_alpha, wo.z, wi.z);
+    real more = repeated * (INV_PI * lost * (ggx_lost(r.coat_alpha, wi.z) / average));
+    return vec3(r.coat * coverage(m) * (once + more));
+}
+
+// Value of one of the lobes that are followed though not smooth, clear or coat, without the cosine,
+// and the density with which bsdf_sample, given this mask, returns wi from it.
+FN vec3 spread_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool front, uint lobes,
+                            uint lobe, OUT(real) pdf) {
+    real chosen = lobe_probabilities(m, wo.z, lobes).w;
+    real coat = coat_choice(m, wo.z, lobes);
+    vec3 f;
+    if (lobe == LOBE_COAT) {
+        f = coat_eval_and_pdf(m, wo, wi, pdf);
+        pdf = pdf * chosen * coat;
+    } else {
+        f = rough_clear_eval_and_pdf(m, wo, wi, front, pdf);
+        pdf = pdf * chosen * (real(1.0) - coat);
+    }
+    return f;
+}
+
+// Samples coat or clear. probability: that any of them is chosen. u: in [0, 1).
+FN bool sample_spread_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real probability,
+                           vec3 u, INOUT(BsdfSample) s) {
+    real coat = coat_choice(m, wo.z, lobes);
+    if (!(u.x < coat)) {
+        s.lobe = LOBE_CLEAR;
+        s.probability = probability * (real(1.0) - coat);
+        real left = min((u.x - coat) / (real(1.0) - coat), real(0.99999994));
+        return sample_rough_clear(m, wo, front, vec3(left, u.y, u.z), s);
+    }
+    s.lobe = LOBE_COAT;
+    s.probability = probability * coat;
+    real alpha = reflection_parameters(m).coat_alpha;
+    real lost = ggx_lost(alpha, wo.z);
+    real repeated = ggx_repeated_color(vec3(real(0.04)), real(1.0), ggx_lost_average(alpha)).x;
+    if (u.x / coat < coat_repeated_share(lost, repeated)) {
+        s.wi = ggx_sample_repeated(alpha, vec2(u.y, u.z));
+    } else {
+        vec3 n = ggx_sample_normal(alpha, wo, vec2(u.y, u.z));
+        s.wi = n * (real(2.0) * dot3(wo, n)) - wo;
+    }
+    real pdf;
+    vec3 f = coat_eval_and_pdf(m, wo, s.wi, pdf);
+    s.pdf = s.probability * pdf;
+    if (!(s.pdf > real(0.0))) {
+        return false; // lost below the surface
+    }
+    s.weight = f * (s.wi.z / s.pdf);
+    return true;
+}
+
 // Samples a direction from the masked lobes. u.x chooses the lobe, u.y and u.z the direction; u.w
 // is not used. Returns false where the light is absorbed.
 FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 u,
@@ -260,12 +407,10 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
         return false;
     }
     real not_delta = p.x + p.y;
-    if (may_have(m, LOBE_CLEAR) && p.w > real(0.0) && u.x >= not_delta + p.z) {
+    if (may_have(m, LOBES_SPREAD) && p.w > real(0.0) && u.x >= not_delta + p.z) {
         // The remainder of u.x is uniform again.
         real left = min((u.x - not_delta - p.z) / p.w, real(0.99999994));
-        s.probability = p.w;
-        s.lobe = LOBE_CLEAR;
-        return sample_rough_clear(m, wo, front, vec3(left, u.y, u.z), s);
+        return sample_spread_lobe(m, wo, front, lobes, p.w, vec3(left, u.y, u.z), s);
     }
     if (may_have(m, LOBES_DELTA) && p.z > real(0.0) && u.x >= not_delta) {
         // The remainder of u.x is uniform again.
@@ -296,7 +441,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     if (!(s.pdf > real(0.0))) {
         return false;
     }
-    if (p.x == real(1.0)) {
+    if (p.x == real(1.0) && !is_covered(reflection)) {
         // All other factors cancel exactly.
         s.weight = diffuse_reflectance(reflection, wo.z, s.wi.z);
     } else {

@@ -5,8 +5,10 @@
 
 #include "shared/fresnel.h"
 #include "shared/ggx_energy.h"
+#include "shared/iridescence.h"
 #include "shared/material_record.h"
 #include "shared/phong.h"
+#include "shared/sheen.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -15,20 +17,27 @@ CONSTANT uint LOBE_GLOSSY = 2u;
 CONSTANT uint LOBE_MIRROR = 4u;
 CONSTANT uint LOBE_TRANSMIT = 8u;
 CONSTANT uint LOBE_CLEAR = 16u;
-CONSTANT uint LOBES_DELTA = 12u; // mirror and transmit
-CONSTANT uint LOBES_ALL = 31u;
+CONSTANT uint LOBE_COAT = 32u;
+CONSTANT uint LOBES_DELTA = 12u;  // mirror and transmit
+CONSTANT uint LOBES_SPREAD = 48u; // clear and coat: followed, though not smooth
+CONSTANT uint LOBES_ALL = 63u;
 
 // Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract,
-// those that absorb, unlit surfaces.
-CONSTANT uint MATERIAL_ALPHA = 32u;
-CONSTANT uint MATERIAL_GGX = 64u;
-CONSTANT uint MATERIAL_PHONG = 128u;
-CONSTANT uint MATERIAL_SOLID = 256u;
-CONSTANT uint MATERIAL_ABSORPTION = 512u;
-CONSTANT uint MATERIAL_UNLIT = 1024u;
-CONSTANT uint MATERIAL_ALL = 2047u;
+// those that absorb, unlit surfaces, coats, thin films, solids that refract colours differently,
+// sheen.
+CONSTANT uint MATERIAL_ALPHA = 64u;
+CONSTANT uint MATERIAL_GGX = 128u;
+CONSTANT uint MATERIAL_PHONG = 256u;
+CONSTANT uint MATERIAL_SOLID = 512u;
+CONSTANT uint MATERIAL_ABSORPTION = 1024u;
+CONSTANT uint MATERIAL_UNLIT = 2048u;
+CONSTANT uint MATERIAL_COAT = 4096u;
+CONSTANT uint MATERIAL_FILM = 8192u;
+CONSTANT uint MATERIAL_DISPERSION = 16384u;
+CONSTANT uint MATERIAL_SHEEN = 32768u;
+CONSTANT uint MATERIAL_ALL = 65535u;
 // Features that metals and dielectric layers need.
-CONSTANT uint MATERIAL_LAYER = 68u; // GGX or mirror
+CONSTANT uint MATERIAL_LAYER = 132u; // GGX or mirror
 
 // Below this alpha, single precision cannot tell GGX from a mirror.
 CONSTANT real SMALLEST_ALPHA = real(1e-3);
@@ -100,8 +109,12 @@ struct ReflectionParameters {
     real opaque_share, metal_share;
     real layer_share; // of the surface: dielectric that reflects by Schlick's approximation
     real alpha;
-    real exponent; // of modified Phong, or negative
-    uint absent;   // as in MaterialRecord
+    real exponent;                       // of modified Phong, or negative
+    real coat, coat_alpha;               // share of what is present, GGX
+    real film, film_ior, film_thickness; // as in MaterialRecord
+    vec3 sheen;                          // colour, scaled by alpha
+    real sheen_most, sheen_alpha;        // largest component of the colour
+    uint absent;                         // as in MaterialRecord
 };
 
 // Modified Phong is non-metallic and opaque; its roughness is set to match the width of its lobe.
@@ -123,8 +136,20 @@ FN ReflectionParameters reflection_parameters(IN(MaterialRecord) m) {
     r.layer_share = layer_share(m);
     r.alpha = ggx_alpha(m);
     r.exponent = real(m.exponent);
+    r.coat = real(m.coat);
+    r.coat_alpha = real(m.coat_roughness) * real(m.coat_roughness);
+    r.film = real(m.film);
+    r.film_ior = real(m.film_ior);
+    r.film_thickness = real(m.film_thickness);
+    r.sheen = vec3(m.sheen_r, m.sheen_g, m.sheen_b) * coverage(m);
+    r.sheen_most = max_component(vec3(m.sheen_r, m.sheen_g, m.sheen_b));
+    r.sheen_alpha = max(real(m.sheen_roughness) * real(m.sheen_roughness), SMALLEST_SHEEN_ALPHA);
     r.absent = m.absent;
     return r;
+}
+
+FN bool has_film(IN(ReflectionParameters) r) {
+    return may_have(r.absent, MATERIAL_FILM) && r.film > real(0.0);
 }
 
 // Reflectance of the dielectric's layer.
@@ -146,6 +171,20 @@ FN vec3 layer_reflectance(IN(ReflectionParameters) r, real cosine) {
     }
     return fresnel_schlick(r.base_color, real(1.0), cosine) * r.metal_share +
            dielectric_fresnel(r, cosine) * r.layer_share;
+}
+
+// The same under the material's film, whose interference takes metal and layer as one surface.
+FN vec3 filmed_layer_reflectance(IN(ReflectionParameters) r, real cosine) {
+    vec3 bare = layer_reflectance(r, cosine);
+    real f90 = r.metal_share + r.f90 * r.layer_share;
+    if (!has_film(r) || !(f90 > real(0.0))) {
+        return bare;
+    }
+    vec3 f0 = (r.base_color * r.metal_share + r.f0 * r.layer_share) / f90;
+    vec3 filmed =
+        film_reflectance(f0, r.film_ior, r.film_thickness, clamp(cosine, real(0.0), real(1.0))) *
+        f90;
+    return bare * (real(1.0) - r.film) + filmed * r.film;
 }
 
 // Whether metal and layer are GGX lobes, which reflect some light more than once.
@@ -203,16 +242,36 @@ FN real passes_rough_layer(IN(ReflectionParameters) r, real lost, real grazing) 
     return max(passes_layer(r, real(1.0) - grazing) + lost * (f0 - repeated), real(0.0));
 }
 
-// Part of the light that passes the layer at a cosine to the normal. For a smooth one 1 - (1 -
-// c)^5, expanded.
-FN real passes_layer_at(IN(ReflectionParameters) r, real cosine) {
+// 1 - (1 - c)^5, expanded.
+FN real schlick_less(real cosine) {
+    real c = clamp(cosine, real(0.0), real(1.0));
+    return c * (real(5.0) + c * (real(-10.0) + c * (real(10.0) + c * (real(-5.0) + c))));
+}
+
+// Part of the light that passes the layer at a cosine to the normal.
+FN real passes_bare_layer_at(IN(ReflectionParameters) r, real cosine) {
     if (layer_is_rough(r)) {
         real lost = ggx_lost(r.alpha, cosine);
         return passes_rough_layer(r, lost, ggx_grazing(r.alpha, cosine, lost));
     }
-    real c = clamp(cosine, real(0.0), real(1.0));
-    real less = c * (real(5.0) + c * (real(-10.0) + c * (real(10.0) + c * (real(-5.0) + c))));
-    return passes_layer(r, less);
+    return passes_layer(r, schlick_less(cosine));
+}
+
+// Of the light that passes a layer what a film on it lets through, at any wavelength.
+FN real passes_film_at(IN(ReflectionParameters) r, real bare, real cosine) {
+    real f0 = max_component(r.f0) / max(r.f90, real(1e-30));
+    real filmed = r.f90 * most_film_reflectance(f0, r.film_ior, cosine);
+    return bare * (real(1.0) - r.film) + (real(1.0) - filmed) * r.film;
+}
+
+// Part of the light that passes the layer with its film.
+FN real passes_layer_at(IN(ReflectionParameters) r, real cosine) {
+    real bare = passes_bare_layer_at(r, cosine);
+    return has_film(r) ? passes_film_at(r, bare, cosine) : bare;
+}
+FN real passes_smooth_layer_at(IN(ReflectionParameters) r, real cosine) {
+    real bare = passes_layer(r, schlick_less(cosine));
+    return has_film(r) ? passes_film_at(r, bare, cosine) : bare;
 }
 
 // Albedo of the diffuse lobe under its layer, for light from a direction of this cosine.
@@ -236,7 +295,84 @@ FN vec3 diffuse_reflectance(IN(ReflectionParameters) r, real cosine_o, real cosi
     if (layer_is_rough(r)) {
         average = passes_rough_layer(r, ggx_lost_average(r.alpha), ggx_grazing_average(r.alpha));
     }
+    if (has_film(r)) {
+        // The mean of what passes a film is not known; 1 gains no light.
+        average = average * (real(1.0) - r.film) + r.film;
+    }
     return reflectance * (passes_layer_at(r, cosine_i) / max(average, real(1.0e-6)));
+}
+
+// KHR_materials_clearcoat: a layer of varnish of index 1.5 over all else, as rough as it likes.
+// Like the dielectric's layer it returns what microfacets reflect more than once. What is below
+// gets what passes the coat where that is less, at wo or at wi: reciprocal, and no light is gained.
+// (The extension takes it at wo.)
+FN bool has_coat(IN(ReflectionParameters) r) {
+    return may_have(r.absent, MATERIAL_COAT) && r.coat > real(0.0);
+}
+
+FN bool coat_is_rough(IN(ReflectionParameters) r) {
+    return may_have(r.absent, LOBE_COAT) && r.coat_alpha >= SMALLEST_ALPHA;
+}
+
+// Part of the light that passes the coat at a cosine to the normal: what Fresnel's factor leaves,
+// for rough coats too, as the extension has it.
+FN real passes_coat_at(IN(ReflectionParameters) r, real cosine) {
+    if (!has_coat(r)) {
+        return real(1.0);
+    }
+    return (real(1.0) - r.coat) + r.coat * (real(0.96) * schlick_less(cosine));
+}
+FN real coat_albedo(IN(ReflectionParameters) r, real cosine) {
+    return real(1.0) - passes_coat_at(r, cosine);
+}
+// Sheen lies between the coat and all else, and dims what is below in the same way.
+FN bool has_sheen(IN(ReflectionParameters) r) {
+    return may_have(r.absent, MATERIAL_SHEEN) && r.sheen_most > real(0.0);
+}
+FN bool has_sheen(IN(MaterialRecord) m) {
+    return may_have(m, MATERIAL_SHEEN) &&
+           max_component(vec3(m.sheen_r, m.sheen_g, m.sheen_b)) > real(0.0);
+}
+
+// What sheen scatters at a cosine to the normal, roughly: for choices of lobes and albedos.
+FN vec3 rough_sheen_albedo(IN(ReflectionParameters) r, real cosine) {
+    return has_sheen(r) ? r.sheen * (real(0.15) + real(0.6) * (real(1.0) - cosine))
+                        : vec3(real(0.0));
+}
+
+// Whether coat or sheen cover the rest, and what passes both.
+FN bool is_covered(IN(ReflectionParameters) r) { return has_coat(r) || has_sheen(r); }
+FN real passes_cover_at(IN(ReflectionParameters) r, real cosine) {
+    real passed = passes_coat_at(r, cosine);
+    if (has_sheen(r)) {
+        passed *= real(1.0) - r.sheen_most * min(sheen_albedo(r.sheen_alpha, cosine), real(1.0));
+    }
+    return passed;
+}
+FN real under_cover(IN(ReflectionParameters) r, real cosine_o, real cosine_i) {
+    if (!is_covered(r)) {
+        return real(1.0);
+    }
+    return min(passes_cover_at(r, cosine_o), passes_cover_at(r, cosine_i));
+}
+
+// The value of lobes below coat and sheen and of the sheen: `below` without them [1/sr].
+FN vec3 with_sheen(IN(ReflectionParameters) r, vec3 wo, vec3 wi, vec3 below, bool with_diffuse) {
+    real coat_o = passes_coat_at(r, wo.z);
+    real coat_i = passes_coat_at(r, wi.z);
+    if (!has_sheen(r)) {
+        return below * min(coat_o, coat_i);
+    }
+    real share = r.sheen_most;
+    real albedo_o = sheen_albedo(r.sheen_alpha, wo.z);
+    real albedo_i = sheen_albedo(r.sheen_alpha, wi.z);
+    vec3 f = below * min(coat_o * (real(1.0) - share * min(albedo_o, real(1.0))),
+                         coat_i * (real(1.0) - share * min(albedo_i, real(1.0))));
+    if (with_diffuse) {
+        f += r.sheen *
+             (sheen_value(r.sheen_alpha, wo, wi, max(albedo_o, albedo_i)) * min(coat_o, coat_i));
+    }
+    return f;
 }
 
 ARGAND_SHARED_END

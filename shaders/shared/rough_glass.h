@@ -61,6 +61,27 @@ FN vec3 interface_reflectance(IN(MaterialRecord) m, real cosine, real eta,
            real(m.specular);
 }
 
+// The same under the material's film, which lies outside, where the index is less.
+FN vec3 filmed_interface_reflectance(IN(MaterialRecord) m, real cosine, real eta,
+                                     OUT(real) cosine_refracted) {
+    vec3 bare = interface_reflectance(m, cosine, eta, cosine_refracted);
+    ReflectionParameters r = reflection_parameters(m);
+    if (!has_film(r) || !(cosine_refracted > real(0.0)) || !(r.f90 > real(0.0))) {
+        return bare;
+    }
+    real outside = eta < real(1.0) ? cosine_refracted : cosine;
+    vec3 filmed = film_reflectance(r.f0 / r.f90, r.film_ior, r.film_thickness, outside) * r.f90;
+    return bare * (real(1.0) - r.film) + filmed * r.film;
+}
+
+// What passes coat and sheen on the way of light between wo and wi, on either side.
+FN real clear_under_cover(IN(MaterialRecord) m, real cosine_o, real z_i) {
+    if (!may_have(m, MATERIAL_COAT | MATERIAL_SHEEN)) {
+        return real(1.0);
+    }
+    return under_cover(reflection_parameters(m), cosine_o, abs(z_i));
+}
+
 // What a facet of a solid's interface reflects and lets through.
 struct RoughInterface {
     vec3 reflected, transmitted;
@@ -72,7 +93,7 @@ FN RoughInterface rough_interface(IN(MaterialRecord) m, real cosine, real eta) {
     RoughInterface r;
     r.cosine_refracted = real(0.0);
     vec3 reflectance = m.ior > float32(0.0)
-                           ? interface_reflectance(m, cosine, eta, r.cosine_refracted)
+                           ? filmed_interface_reflectance(m, cosine, eta, r.cosine_refracted)
                            : vec3(real(1.0));
     r.reflected = reflectance * clear_share(m);
     r.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
@@ -93,14 +114,18 @@ FN real thin_repeated_share(IN(ReflectionParameters) r, real lost, real repeated
     return more / max(more + once, real(1.0e-30));
 }
 
-// Albedo of the clear part for light from a direction of this cosine; what facets of solids do is
-// taken to be what a smooth interface does.
+// Albedo of the clear part below coat and sheen for light from a direction of this cosine; what
+// facets of solids do is taken to be what a smooth interface does.
 FN vec3 rough_clear_albedo(IN(MaterialRecord) m, real cosine, bool front) {
     if (!is_solid(m)) {
         return base_color(m) * (clear_share(m) * passes_layer_at(reflection_parameters(m), cosine));
     }
-    RoughInterface r = rough_interface(m, cosine, interface_eta(m, front));
-    return r.reflected + r.transmitted;
+    real refracted;
+    vec3 reflected = m.ior > float32(0.0)
+                         ? interface_reflectance(m, cosine, interface_eta(m, front), refracted)
+                         : vec3(real(1.0));
+    vec3 passed = base_color(m) * (real(1.0) - max_component(reflected));
+    return (reflected + passed) * clear_share(m);
 }
 
 // Value of a thin wall without the cosine, and density of wi. mirrored: wi on the side of wo.
@@ -116,7 +141,8 @@ FN vec3 thin_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 mirrored, OU
     real share = thin_repeated_share(r, lost, repeated);
     pdf = (real(1.0) - share) * ggx_reflection_pdf(r.alpha, distribution, wo.z) +
           share * ggx_repeated_pdf(r.alpha, mirrored.z);
-    real passed = real(1.0) - max_component(dielectric_fresnel(r, cosine));
+    real passed = has_film(r) ? passes_smooth_layer_at(r, cosine)
+                              : real(1.0) - max_component(dielectric_fresnel(r, cosine));
     real once = passed * distribution * ggx_visibility(r.alpha, wo.z, mirrored.z);
     real more = repeated * (INV_PI * lost * (ggx_lost(r.alpha, mirrored.z) / average));
     return base_color(m) * (clear_share(m) * (once + more));
@@ -132,7 +158,8 @@ FN vec3 rough_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool fr
     bool reflects = wi.z > real(0.0);
     if (!is_solid(m)) {
         return reflects ? vec3(real(0.0))
-                        : thin_clear_eval_and_pdf(m, wo, vec3(wi.x, wi.y, -wi.z), pdf);
+                        : thin_clear_eval_and_pdf(m, wo, vec3(wi.x, wi.y, -wi.z), pdf) *
+                              clear_under_cover(m, wo.z, wi.z);
     }
     real eta = interface_eta(m, front);
     real alpha = ggx_alpha(m);
@@ -150,7 +177,8 @@ FN vec3 rough_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool fr
     RoughInterface r = rough_interface(m, min(cosine_o / size, real(1.0)), eta);
     real distribution = ggx_distribution(alpha, h, h2);
     real density = ggx_reflection_pdf(alpha, distribution, wo.z);
-    real value = distribution * ggx_visibility(alpha, wo.z, abs(wi.z));
+    real value =
+        distribution * ggx_visibility(alpha, wo.z, abs(wi.z)) * clear_under_cover(m, wo.z, wi.z);
     if (reflects) {
         pdf = r.choice * density;
         return r.reflected * value;
@@ -191,7 +219,7 @@ FN bool sample_rough_clear(IN(MaterialRecord) m, vec3 wo, bool front, vec3 u, IN
         real pdf;
         vec3 f = thin_clear_eval_and_pdf(m, wo, mirrored, pdf);
         s.pdf = s.probability * pdf;
-        s.weight = f * (mirrored.z / s.pdf);
+        s.weight = f * (clear_under_cover(m, wo.z, s.wi.z) * mirrored.z / s.pdf);
         return s.pdf > real(0.0);
     }
     real eta = interface_eta(m, front);
@@ -215,7 +243,8 @@ FN bool sample_rough_clear(IN(MaterialRecord) m, vec3 wo, bool front, vec3 u, IN
         !is_finite(s.pdf)) {
         return false;
     }
-    real masking = ggx_masking_weight(alpha, wo.z, abs(s.wi.z)) / s.probability;
+    real masking = ggx_masking_weight(alpha, wo.z, abs(s.wi.z)) *
+                   clear_under_cover(m, wo.z, s.wi.z) / s.probability;
     s.weight = reflects ? r.reflected * (masking / r.choice)
                         : r.transmitted * (masking / (real(1.0) - r.choice));
     return true;

@@ -63,6 +63,18 @@ Scene mixed_scene() {
     Material frost = glass(1.4f, true);
     frost.roughness = 0.5f;
     add_sphere(scene, {-0.6f, -0.6f, 0.4f}, 0.15f, 4, true, add_material(scene, frost));
+    Material paint = lambertian({0.3f, 0.5f, 0.2f});
+    paint.coat = 0.8f;
+    paint.coat_roughness = 0.4f;
+    paint.film = 0.5f;
+    paint.sheen_color = {0.5f, 0.4f, 0.3f};
+    paint.sheen_roughness = 0.5f;
+    paint.specular = 1;
+    add_sphere(scene, {0.1f, 0.1f, 0.5f}, 0.15f, 4, true, add_material(scene, paint));
+    Material prism = glass(1.6f, true);
+    prism.dispersion = 2;
+    prism.coat = 1;
+    add_sphere(scene, {-0.3f, 0.1f, 0.5f}, 0.15f, 4, true, add_material(scene, prism));
     Material label = lambertian({0.7f, 0.8f, 0.9f});
     label.unlit = true;
     add_quad(scene, {-0.9f, -0.5f, -0.9f}, {0.3f, 0, 0}, {0, 0.3f, 0}, add_material(scene, label));
@@ -312,9 +324,10 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
             }
         }
     }
-    // Ten features of materials and six of lights. Leaving out transmission alone changes no
-    // constant, because refraction has its bit, too.
-    EXPECT_EQ(smaller.size(), 15u);
+    // Fourteen features of materials and six of lights. Leaving out transmission alone changes no
+    // constant, because refraction has its bit, too, nor
+    // does leaving out coats, because rough ones have theirs.
+    EXPECT_EQ(smaller.size(), 19u);
     for (const auto& [feature, kernels] : smaller) {
         EXPECT_GT(kernels, 0) << text_of(feature).name;
     }

@@ -62,6 +62,10 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.absorption_g = real(0.0);
     m.absorption_b = real(0.0);
     m.unlit = 0u;
+    m.coat = m.coat_roughness = m.dispersion = float32(0.0);
+    m.film = m.film_thickness = m.pad0 = m.pad1 = float32(0.0);
+    m.film_ior = float32(1.3);
+    m.sheen_r = m.sheen_g = m.sheen_b = m.sheen_roughness = float32(0.0);
     m.emission_r = m.emission_g = m.emission_b = float32(0.0);
     m.double_sided = 0u;
     m.absent = m.textures = 0u;

@@ -229,6 +229,39 @@ TEST(GltfMaterial, NotesAColourOfWrongLength) {
     EXPECT_TRUE(has_note(scene, "not quite valid glTF: Array length of `baseColorFactor`"));
 }
 
+TEST(GltfMaterial, CoatsFilmsSheenAndDispersion) {
+    const json extensions{
+        {"extensions",
+         {{"KHR_materials_clearcoat",
+           {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}}},
+          {"KHR_materials_sheen",
+           {{"sheenColorFactor", {0.25, 0.5, 1}}, {"sheenRoughnessFactor", 0.625}}},
+          {"KHR_materials_dispersion", {{"dispersion", 0.5}}},
+          {"KHR_materials_iridescence",
+           {{"iridescenceFactor", 0.75},
+            {"iridescenceIor", 1.25},
+            {"iridescenceThicknessMaximum", 500}}}}}};
+    const Material m = with_material(extensions).load().materials[0];
+    EXPECT_EQ(m.coat, 0.5f);
+    EXPECT_EQ(m.coat_roughness, 0.25f);
+    EXPECT_EQ(m.dispersion, 0.5f);
+    EXPECT_EQ(m.sheen_color, glm::vec3(0.25f, 0.5f, 1));
+    EXPECT_EQ(m.sheen_roughness, 0.625f);
+    EXPECT_EQ(m.film, 0.75f);
+    EXPECT_EQ(m.film_ior, 1.25f);
+    EXPECT_EQ(m.film_thickness, 0.5f);
+    const Material plain = with_material(json::object()).load().materials[0];
+    EXPECT_EQ(plain.coat, 0.0f);
+    EXPECT_EQ(plain.film, 0.0f);
+    EXPECT_EQ(plain.dispersion, 0.0f);
+    EXPECT_TRUE(has_note(
+        with_material(extension("KHR_materials_clearcoat", {{"clearcoatFactor", 2}})).load(),
+        "clearcoatFactor of 2"));
+    EXPECT_THAT(
+        with_material(extension("KHR_materials_iridescence", {{"iridescenceIor", "x"}})).problem(),
+        HasSubstr("\"iridescenceIor\" that is not a number"));
+}
+
 TEST(GltfMaterial, VolumesAbsorb) {
     const auto absorption = [](const json& volume) {
         return with_material(extension("KHR_materials_volume", volume))

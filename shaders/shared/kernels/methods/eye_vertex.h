@@ -5,6 +5,7 @@
 #include "shared/kernels/sky.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/dispersion.h"
 #include "shared/kernels/emission.h"
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
@@ -208,9 +209,9 @@ FN void only_pass(INOUT(Vertex) v) {
     v.pass_probability = real(1.0);
 }
 
-// Whether rough glass scatters the path.
-FN bool scatters_clear(IN(Vertex) v) {
-    return may_have(v.material, LOBE_CLEAR) && (v.followed & LOBE_CLEAR) != 0u;
+// Whether this followed lobe scatters the path.
+FN bool scatters(IN(Vertex) v, uint lobe) {
+    return may_have(v.material, lobe) && (v.followed & lobe) != 0u;
 }
 
 // Probability with which followed lobes scatter the path.
@@ -249,7 +250,7 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
         return false;
     }
     bool above = dot(l.s.wi, surface.geometric_normal) > real(0.0);
-    if (!above && scatters_clear(v)) {
+    if (!above && scatters(v, LOBE_CLEAR)) {
         // The light is behind the glass: its sample as seen from there.
         l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                      -surface.geometric_normal);
@@ -265,24 +266,22 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     return above;
 }
 
-// Radiance that rough glass scatters from a light's sample, on either side of it. It is followed,
-// so the path samples the same light.
-FN vec3 light_through_glass(IN(Vertex) v, IN(SeenLight) l) {
+// Radiance that one of the lobes `clear` and `coat` scatters from a light's sample, for clear on
+// either side. They are followed, so the path samples the same light.
+FN vec3 light_by_spread_lobe(IN(Vertex) v, IN(SeenLight) l, uint lobe) {
     bool passes = l.wi.z < real(0.0);
     if (passes != (dot(l.s.wi, v.surface.geometric_normal) < real(0.0))) {
         return vec3(real(0.0));
     }
     real pdf;
-    vec3 f = rough_clear_eval_and_pdf(v.material, v.wo, l.wi, v.surface.front, pdf);
+    vec3 f = spread_eval_and_pdf(v.material, v.wo, l.wi, v.surface.front, v.followed, lobe, pdf);
     if (passes) {
         real eta = interface_eta(v.material, v.surface.front);
         f = f / (eta * eta);
     }
     real weight = real(1.0);
     if (!l.s.delta) {
-        real chosen =
-            lobe_probabilities(v.material, v.wo.z, v.followed).w * followed_probability(v);
-        weight = power_heuristic(l.choice.probability * l.s.pdf, chosen * pdf);
+        weight = power_heuristic(l.choice.probability * l.s.pdf, followed_probability(v) * pdf);
     }
     vec3 arriving = v.throughput * l.s.radiance * (abs(l.wi.z) / l.choice.probability);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
@@ -302,9 +301,12 @@ FN void sample_light(IN(Vertex) v) {
     LightSample s = l.s;
     bool behind = behind_estimated(v.path);
     bool left_to_photons = final_gather && behind;
-    vec3 through_glass = vec3(real(0.0));
-    if (scatters_clear(v) && !left_to_photons) {
-        through_glass = light_through_glass(v, l);
+    vec3 spread = vec3(real(0.0));
+    if (scatters(v, LOBE_CLEAR) && !left_to_photons) {
+        spread += light_by_spread_lobe(v, l, LOBE_CLEAR);
+    }
+    if (scatters(v, LOBE_COAT) && !left_to_photons) {
+        spread += light_by_spread_lobe(v, l, LOBE_COAT);
     }
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
@@ -325,7 +327,7 @@ FN void sample_light(IN(Vertex) v) {
     vec3 f = s.delta && v.followed != 0u && !left_to_photons
                  ? arriving * bsdf_eval(v.material, v.wo, l.wi, v.followed)
                  : vec3(real(0.0));
-    f += through_glass;
+    f += spread;
     if (!(max_component(e) + max_component(f) > real(0.0))) {
         return;
     }
@@ -345,7 +347,8 @@ FN uint shared_direction_steps(IN(Vertex) v) {
     real all = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated));
     real glossy = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated & LOBE_GLOSSY));
     real share = clamp(glossy / max(all, real(1e-9)), real(0.0), real(1.0));
-    return direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
+    uint steps = direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
+    return has_sheen(m) ? max(steps, 8u) : steps;
 }
 
 // BRDF of a Lambertian surface [1/sr], computed from the packed vectors of a query.
@@ -503,7 +506,7 @@ FN void continue_path(INOUT(Vertex) v) {
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
     }
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
-    if (direct_light && s.lobe == LOBE_CLEAR && scatters_clear(v) &&
+    if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u &&
         !(final_gather && behind_estimated(v.path))) {
         path.pdf = probability * s.pdf; // shadow rays find the same lights
     }
@@ -557,9 +560,14 @@ FN void main() {
     if (ends) {
         only_pass(v);
     } else {
+        if (may_have(v.material, MATERIAL_DISPERSION)) {
+            vec4 w = random4(batch.seed ^ 0xd15be5u, v.path.pixel, v.path.sample_index,
+                             vertices_of(v.path));
+            disperse(v.material, v.throughput, w.x);
+        }
         split_lobes(v);
         if (direct_light && scene[0].light_count > 0u &&
-            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY | LOBE_CLEAR)) != 0u) {
+            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY | LOBES_SPREAD)) != 0u) {
             sample_light(v);
         }
         if (photon_map) {

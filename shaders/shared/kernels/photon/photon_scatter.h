@@ -1,6 +1,7 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/dispersion.h"
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
@@ -188,12 +189,12 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
     real emitted = out_of.concentration / batch.inverse_spread;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
-    } else if (has(LOBE_GLOSSY | LOBE_CLEAR | LOBE_MIRROR | LOBE_TRANSMIT)) {
+    } else if (has(LOBE_GLOSSY | LOBES_SPREAD | LOBE_MIRROR | LOBE_TRANSMIT)) {
         NormalDifferential normal;
         normal.n = a.surface.shading_normal;
         normal.dn_du = normal_change(a.hit, a.surface, d.dp_du);
         normal.dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
-        if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
+        if (has(LOBE_GLOSSY | LOBE_COAT) && (s.lobe == LOBE_GLOSSY || s.lobe == LOBE_COAT)) {
             // The pdf includes the choice of the lobe.
             gloss_differential(d, a.direction, out_of.direction, normal, emitted,
                                s.pdf / s.probability);
@@ -323,12 +324,22 @@ FN void main() {
     MaterialRecord m = material_at(triangles[hit.triangle], hit, cone, direction);
     Arrival a = arrive(hit, direction, m, path);
     absorb(slot, a, m);
+    real channels = real(1.0);
+    if (has(MATERIAL_DISPERSION)) {
+        vec3 flux = a.flux;
+        vec4 w = random4(batch.seed ^ 0xd15be5u, batch.first + slot, a.depth, hit.triangle);
+        channels = disperse(m, a.flux, w.x);
+        ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
+    }
     uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     uint estimated = bsdf_lobes(m) & ~followed;
     PhotonDifferential d;
     if (footprints) {
         d = load_differential(differentials[slot]);
         transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
+        if (has(MATERIAL_DISPERSION) && channels > real(1.0)) {
+            roulette_differential(d, real(1.0) / channels);
+        }
     }
     bool only_followed = (path.state & photon_followed) != 0u;
     bool may_be_estimated = estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
