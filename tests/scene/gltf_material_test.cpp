@@ -259,7 +259,7 @@ TEST(GltfMaterial, CoatsFilmsSheenAndDispersion) {
         "clearcoatFactor of 2"));
     EXPECT_THAT(
         with_material(extension("KHR_materials_iridescence", {{"iridescenceIor", "x"}})).problem(),
-        HasSubstr("\"iridescenceIor\" that is not a number"));
+        ::testing::HasSubstr("\"iridescenceIor\" that is not a number"));
 }
 
 TEST(GltfMaterial, VolumesAbsorb) {
