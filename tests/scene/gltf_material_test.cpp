@@ -312,22 +312,22 @@ TEST(GltfMaterial, TexturesThatDoNotExistAreErrors) {
 
 TEST(GltfExtensions, AreListedWithANoteIfNotSupported) {
     GltfBuilder builder = one_triangle();
-    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen",
-                                      "KHR_materials_sheen"};
+    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_anisotropy",
+                                      "KHR_materials_anisotropy"};
     const Scene scene = builder.load();
     EXPECT_THAT(scene.extensions_used,
-                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_sheen"));
+                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_anisotropy"));
     EXPECT_TRUE(
-        has_note(scene, "the extension KHR_materials_sheen is not supported and is ignored"));
+        has_note(scene, "the extension KHR_materials_anisotropy is not supported and is ignored"));
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
 
 TEST(GltfExtensions, RejectsUnsupportedRequiredExtensions) {
     GltfBuilder builder = one_triangle();
-    builder.root["extensionsUsed"] = {"KHR_materials_sheen"};
-    builder.root["extensionsRequired"] = {"KHR_materials_sheen"};
+    builder.root["extensionsUsed"] = {"KHR_materials_anisotropy"};
+    builder.root["extensionsRequired"] = {"KHR_materials_anisotropy"};
     EXPECT_THAT(builder.problem(),
-                ::testing::HasSubstr("requires the extension KHR_materials_sheen"));
+                ::testing::HasSubstr("requires the extension KHR_materials_anisotropy"));
 }
 
 } // namespace
