@@ -75,9 +75,13 @@ Verdict Judgement::verdict() const {
     if (testimony_.pixels.error < exact * most_of_others_) {
         return probability > 0.5 ? Verdict::confirmed : Verdict::refuted;
     }
-    return probability > confidence       ? Verdict::confirmed
-           : probability < 1 - confidence ? Verdict::refuted
-                                          : Verdict::open;
+    if (probability < 1 - confidence) {
+        return Verdict::refuted;
+    }
+    // What is usual may be so small that it alone would confirm: the witness must have said so too.
+    const bool has_spoken =
+        std::min(testimony_.pixels.error, testimony_.smooth.error) <= most_of_others_;
+    return has_spoken && probability > confidence ? Verdict::confirmed : Verdict::open;
 }
 
 Estimate Judgement::bias() const {

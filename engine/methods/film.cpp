@@ -32,17 +32,20 @@ void persist_film(Archive& archive, Device& device, const Film& film) {
     }
 }
 
-std::vector<FilmRecord> download_film(Device& device, const Film& film) {
-    const auto pixels = static_cast<std::size_t>(film.pixels());
-    std::vector<FilmRecord> records;
-    records.reserve(pixels);
+void visit_film(Device& device, const Film& film, const FilmVisitor& visit) {
+    constexpr std::uint64_t longest_piece = std::uint64_t{1} << 14; // 1.5 MiB
+    std::vector<FilmRecord> piece;
+    std::uint64_t first = 0;
     for (const Buffer& part : film.parts) {
-        const std::size_t count =
-            std::min<std::size_t>(film.pixels_per_part, pixels - records.size());
-        const std::vector<FilmRecord> of_part = download<FilmRecord>(device, part, count);
-        records.insert(records.end(), of_part.begin(), of_part.end());
+        const std::uint64_t end = first + part.size() / sizeof(FilmRecord);
+        for (std::uint64_t in_part = 0; first < end; first += piece.size()) {
+            piece.resize(static_cast<std::size_t>(std::min(longest_piece, end - first)));
+            const std::span<std::byte> bytes = std::as_writable_bytes(std::span(piece));
+            device.download(part, in_part, bytes);
+            in_part += bytes.size();
+            visit(static_cast<std::size_t>(first), piece);
+        }
     }
-    return records;
 }
 
 std::uint64_t finite_samples(const FilmRecord& record) {
@@ -52,28 +55,31 @@ std::uint64_t finite_samples(const FilmRecord& record) {
 
 std::vector<Layer> resolve_film(Device& device, const Film& film, RenderStatistics& statistics) {
     const auto pixels = static_cast<std::size_t>(film.pixels());
-    const std::vector<FilmRecord> records = download_film(device, film);
     std::vector<Layer> layers{{"", {}}, {"direct", {}}, {"indirect", {}}, {"caustic", {}}};
     for (Layer& layer : layers) {
         layer.image.width = film.width;
         layer.image.height = film.height;
         layer.image.pixels.resize(pixels);
     }
-    statistics.samples = pixels > 0 ? joined(records[0].samples, records[0].samples_high) : 0;
-    statistics.non_finite = 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const FilmRecord& r = records[i];
-        const std::uint64_t finite = finite_samples(r);
-        const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
-        const glm::vec3 direct = glm::vec3(r.direct_r, r.direct_g, r.direct_b) * scale;
-        const glm::vec3 indirect = glm::vec3(r.indirect_r, r.indirect_g, r.indirect_b) * scale;
-        const glm::vec3 caustic = glm::vec3(r.caustic_r, r.caustic_g, r.caustic_b) * scale;
-        layers[0].image.pixels[i] = direct + indirect + caustic;
-        layers[1].image.pixels[i] = direct;
-        layers[2].image.pixels[i] = indirect;
-        layers[3].image.pixels[i] = caustic;
-        statistics.non_finite += joined(r.non_finite, r.non_finite_high);
-    }
+    statistics.samples = statistics.non_finite = 0;
+    visit_film(device, film, [&](std::size_t first, std::span<const FilmRecord> records) {
+        if (first == 0) {
+            statistics.samples = joined(records[0].samples, records[0].samples_high);
+        }
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const FilmRecord& r = records[i];
+            const std::uint64_t finite = finite_samples(r);
+            const float scale = finite > 0 ? 1.0f / static_cast<float>(finite) : 0.0f;
+            const glm::vec3 direct = glm::vec3(r.direct_r, r.direct_g, r.direct_b) * scale;
+            const glm::vec3 indirect = glm::vec3(r.indirect_r, r.indirect_g, r.indirect_b) * scale;
+            const glm::vec3 caustic = glm::vec3(r.caustic_r, r.caustic_g, r.caustic_b) * scale;
+            layers[0].image.pixels[first + i] = direct + indirect + caustic;
+            layers[1].image.pixels[first + i] = direct;
+            layers[2].image.pixels[first + i] = indirect;
+            layers[3].image.pixels[first + i] = caustic;
+            statistics.non_finite += joined(r.non_finite, r.non_finite_high);
+        }
+    });
     return layers;
 }
 

@@ -6,6 +6,8 @@
 #include "shared/path_records.h"
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace argand {
@@ -27,8 +29,12 @@ Film make_film(Device& device, int width, int height);
 /// Saves or loads the film's sums. Waits for the device.
 void persist_film(Archive& archive, Device& device, const Film& film);
 
-/// The sums of all pixels. Waits for the device.
-std::vector<FilmRecord> download_film(Device& device, const Film& film);
+/// What visits the sums of successive pixels, of which the first is pixel `first`.
+using FilmVisitor = std::function<void(std::size_t first, std::span<const FilmRecord>)>;
+
+/// Visits the sums of all pixels in their order. They come in pieces that fit into a cache, so that
+/// a large film takes no memory of its size. Waits for the device.
+void visit_film(Device& device, const Film& film, const FilmVisitor& visit);
 
 /// Samples of a pixel that its sums hold.
 std::uint64_t finite_samples(const FilmRecord& record);

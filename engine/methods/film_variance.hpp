@@ -25,6 +25,8 @@ private:
         glm::dvec3 mean{0}, squares{0}; ///< of the passes, weighted by samples (West 1979)
         std::uint32_t passes = 0;
     };
+    static void add_sums(const FilmRecord& r, Pixel& pixel);
+
     std::vector<Pixel> pixels_;
 };
 

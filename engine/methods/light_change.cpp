@@ -91,7 +91,9 @@ SceneChange scene_change(const SeenScene& seen, const DeviceScene& now) {
         change.of_all = infinity_of_change;
     }
     const auto add_box = [&](const Bounds& b) {
-        change.moved.push_back({b.low.x, b.low.y, b.low.z, 0, b.high.x, b.high.y, b.high.z, 0});
+        if (b.low.x <= b.high.x) { // else there is no triangle
+            change.moved.push_back({b.low.x, b.low.y, b.low.z, 0, b.high.x, b.high.y, b.high.z, 0});
+        }
     };
     change.moved.reserve(2 * now.meshes.size());
     for (std::size_t i = 0; i < now.meshes.size(); ++i) {
@@ -104,7 +106,7 @@ SceneChange scene_change(const SeenScene& seen, const DeviceScene& now) {
         add_box(to);
         const double step =
             std::max(glm::distance(from.low, to.low), glm::distance(from.high, to.high));
-        change.of_all = std::max(change.of_all, std::min(step / distance, most_by_meshes));
+        change.by_meshes = std::max(change.by_meshes, std::min(step / distance, most_by_meshes));
     }
     return change;
 }

@@ -28,13 +28,13 @@ SeenScene seen_of(const DeviceScene& scene);
 
 /// How much light has changed since.
 struct SceneChange {
-    /// Of all lights: infinity where materials have changed or the number of lights has; where
-    /// meshes have moved the distance over the scene's radius, up to a quarter.
+    /// Of all lights: infinity where materials have changed or the number of lights has.
     double of_all = 0;
+    double by_meshes = 0; ///< distance by which meshes moved over the scene's radius, to a quarter
     std::vector<double> of_lights; ///< light_changes(); empty if their number has changed
     std::vector<BoxRecord> moved;  ///< boxes that meshes have left and entered
 
-    /// That of what changes most.
+    /// That of what changes most, but for meshes.
     double most() const;
 };
 

@@ -45,6 +45,33 @@ bool is_tree(const CellTree& tree) {
                        [](std::uint32_t level) { return level < most_cell_levels; });
 }
 
+/// Saves or loads the paths of the queue's photons.
+void persist_paths(Archive& archive, Device& device, PhotonQueue& q,
+                   std::span<const std::uint32_t> of_entry) {
+    if (archive.loads()) {
+        q.vertices = device.allocate("queue: vertices of paths",
+                                     q.window * q.vertex_room * sizeof(PathVertex));
+    }
+    const auto ends = persist_elements<QueuePathEnd>(archive, device, q.path_ends,
+                                                     q.window * q.block_room + q.area_room);
+    const auto vertices =
+        persist_elements<PathVertex>(archive, device, q.vertices, q.window * q.vertex_room);
+    // A vertex lies behind the one before, so that each path ends.
+    const auto is_path = [&](std::uint32_t entry) {
+        const std::uint32_t block = entry >> queue_block_shift;
+        std::uint32_t vertex = ends[q.blocks[block].first + (entry & queue_record_mask)].vertex;
+        while (block < q.window && vertex < q.vertex_room) {
+            const std::uint32_t before = vertices[block * q.vertex_room + vertex].previous;
+            if (before == no_vertex) {
+                return true;
+            }
+            vertex = before < vertex ? before : no_vertex;
+        }
+        return block == q.window;
+    };
+    check(std::all_of(of_entry.begin(), of_entry.end(), is_path));
+}
+
 } // namespace
 
 void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
@@ -64,10 +91,15 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
     archive.value(q.crowded_when_divided);
     archive.value(q.divided_for);
     archive.value(q.area_scale);
+    const bool may_keep_paths = q.keeps_paths;
+    archive.flag(q.keeps_paths);
+    archive.value(q.vertex_room);
     if (archive.loads()) {
         const std::uint64_t most = max_stored_photons(device);
         check(is_tree(tree) && (!parts_caustics || tree.cells > 1) &&
               blocks.size() == q.window + 1ull && q.block_room <= most && q.area_room <= most &&
+              (may_keep_paths || !q.keeps_paths) &&
+              q.window * q.vertex_room * sizeof(PathVertex) <= device.info().limits.storage_range &&
               entries <= q.window * q.block_room + q.area_room);
         set_queue_cells(device, q, std::move(tree), parts_caustics);
         for (std::uint32_t b = 0; b < blocks.size(); ++b) {
@@ -98,6 +130,9 @@ void persist_queue(Archive& archive, Device& device, PhotonQueue& q) {
               const std::uint32_t block = entry >> queue_block_shift;
               return block <= q.window && (entry & queue_record_mask) < q.blocks[block].records;
           }));
+    if (q.keeps_paths) {
+        persist_paths(archive, device, q, of_entry);
+    }
 }
 
 } // namespace argand

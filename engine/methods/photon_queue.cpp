@@ -16,6 +16,7 @@
 #include "methods/show_photons.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
+#include "photon/queue_paths.hpp"
 #include "photon/radius.hpp"
 #include "photon/triangle_planes.hpp"
 #include "shared/photon.h"
@@ -88,6 +89,8 @@ private:
         return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
     }
     PhotonQueue empty_queue() const;
+    /// The block that was traced last.
+    std::uint32_t newest() const { return (next_ + options_.window - 1) % options_.window; }
     double learn(const PassNumbers& numbers, std::span<const glm::vec4> queries);
     StoredPhotons trace(const PassNumbers& numbers, std::uint32_t block);
     void add(const PassNumbers& numbers, std::uint32_t block, const StoredPhotons& stored);
@@ -96,6 +99,7 @@ private:
     void divide_if_crowded();
     void update(const PassNumbers& numbers, std::span<const glm::vec4> queries, Budget* budget);
     double age();
+    bool drop_crossed(const SceneChange& change);
     void add_areas(const PassNumbers& numbers, const StoredPhotons& stored);
     Bandwidth bandwidth() const;
     void size_areas(const FootprintScale& scale);
@@ -112,10 +116,12 @@ private:
     std::optional<std::vector<CellNode>> planes_; ///< none: not known yet
     PhotonQueue queue_;
     QueueAges ages_;
-    std::uint32_t moment_ = 0;  ///< of the last update, from 1; 0: there is no queue
-    std::uint32_t next_ = 0;    ///< the block to trace next
-    std::uint32_t emptied_ = 0; ///< moment at which cells were emptied last
-    std::uint32_t still_ = 0;   ///< blocks traced since anything changed
+    std::uint32_t moment_ = 0;          ///< of the last update, from 1; 0: there is no queue
+    std::uint32_t next_ = 0;            ///< the block to trace next
+    std::uint32_t emptied_ = 0;         ///< moment at which cells were emptied last
+    MovedBoxes moved_;                  ///< of the moments since the oldest block
+    std::vector<CrossedShare> crossed_; ///< of the block that was traced last
+    std::uint32_t still_ = 0;           ///< blocks traced since anything changed
     SeenScene seen_;
     Bandwidth learnt_;
     double view_reach_ = 0;
@@ -139,6 +145,7 @@ PhotonQueue QueueMethod::empty_queue() const {
                                           options_.estimator == QueueEstimator::footprints);
     queue.leaves_test = options_.classify == QueueClassify::leaves;
     queue.lights = photons_.lights();
+    queue.keeps_paths = photons_.keeps_paths();
     return queue;
 }
 
@@ -159,8 +166,16 @@ void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
         add_areas(numbers, stored);
     }
     replace_block(c_.device, queue_, block, moment_,
-                  {photons_.workspace().photons, 0, stored.slots, stored.photons,
-                   photons_.workspace().offsets, photons_.workspace().lights});
+                  {.photons = photons_.workspace().photons,
+                   .slots = stored.slots,
+                   .records = stored.photons,
+                   .offsets = photons_.workspace().offsets,
+                   .lights = photons_.workspace().lights,
+                   .vertices = photons_.workspace().vertices,
+                   .paths = stored.emitted});
+    forget_moved_boxes(moved_, moment_ - std::min(moment_, options_.window));
+    mark_crossed(c_.device, queue_, block, moved_);
+    crossed_ = crossed_shares(c_.device, queue_, block);
     renew(ages_, block, stored.emitted);
     next_ = (block + 1) % options_.window;
     ++still_;
@@ -185,8 +200,12 @@ void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& sto
                              .seed = area_seed(numbers)});
     sampled_ = c_.on_device.areas.part;
     replace_block(c_.device, queue_, options_.window, queue_always,
-                  {photons_.workspace().photons, stored.slots, samples, samples,
-                   photons_.workspace().offsets, photons_.workspace().lights});
+                  {.photons = photons_.workspace().photons,
+                   .first = stored.slots,
+                   .slots = samples,
+                   .records = samples,
+                   .offsets = photons_.workspace().offsets,
+                   .lights = photons_.workspace().lights});
     sized_blocks_ = 0;
     areas_moved_ = samples == 0 && stored.photons == 0; // no photon: a later block may have some
 }
@@ -240,6 +259,7 @@ void QueueMethod::refill(const PassNumbers& numbers, std::span<const glm::vec4> 
     areas_moved_ = true;
     still_ = 0;
     emptied_ = 0;
+    moved_ = {};
     if (budget) { // else a light has appeared within an image
         image_.in_view = budget->once([&] { return learn(numbers, queries); });
     }
@@ -264,12 +284,30 @@ void QueueMethod::add_next(const PassNumbers& numbers) {
     divide_if_crowded();
 }
 
+/// Drops the photons on whose paths meshes have moved, if that leaves any worth mentioning.
+bool QueueMethod::drop_crossed(const SceneChange& change) {
+    constexpr double most_dropped = 0.9;
+    constexpr double rounding = 1e-5; // of places, over the scene's radius
+    if (!queue_.keeps_paths) {
+        return false;
+    }
+    MovedBoxes now;
+    add_moved_boxes(now, change.moved, moment_, rounding * c_.on_device.record.radius);
+    if (share_crossed(c_.device, queue_, newest(), now) > most_dropped) {
+        return false;
+    }
+    mark_crossed(c_.device, queue_, every_block, now);
+    moved_.boxes.insert(moved_.boxes.end(), now.boxes.begin(), now.boxes.end());
+    moved_.moments.insert(moved_.moments.end(), now.moments.begin(), now.moments.end());
+    return true;
+}
+
 /// Lets the photons in the queue grow older by what has changed since the last update, and drops
-/// those near surfaces that have moved. Returns how much the light has changed.
+/// those that surfaces which have moved may change. Returns how much the light has changed.
 double QueueMethod::age() {
     const SceneChange change = scene_change(seen_, c_.on_device);
     seen_ = seen_of(c_.on_device);
-    const double most = change.most();
+    double most = change.most();
     if (!(most > 0) && change.moved.empty()) {
         return 0;
     }
@@ -277,17 +315,19 @@ double QueueMethod::age() {
     if (most > most_change) {
         return most;
     }
-    if (!change.moved.empty()) {
+    areas_moved_ = areas_moved_ || !change.moved.empty();
+    double of_all = change.of_all;
+    if (!change.moved.empty() && !drop_crossed(change)) {
         emptied_ = moment_;
         empty_near(c_.device, queue_, change.moved,
                    reach_of_moved * strategy_->typical_radius(learnt_), moment_);
-        areas_moved_ = true;
+        of_all = std::max(of_all, change.by_meshes);
+        most = std::max(most, change.by_meshes);
     }
     const double in_disc = photons_in_disc(static_cast<double>(queue_.entries));
     const std::vector<double> shares = photons_.light_shares();
     for (std::uint32_t light = 0; light < ages_.lights; ++light) {
-        const double of_light =
-            ages_.lights > 1 ? std::max(change.of_all, change.of_lights[light]) : most;
+        const double of_light = ages_.lights > 1 ? std::max(of_all, change.of_lights[light]) : most;
         if (of_light > 0) {
             const double half_life = options_.half_life.value_or(
                 balanced_half_life(of_light, options_.window, in_disc * shares[light]));
@@ -347,7 +387,7 @@ void QueueMethod::begin_frame(Budget& budget) {
 Bandwidth QueueMethod::bandwidth() const {
     constexpr double nearly_all = 0.999;
     const double all = static_cast<double>(photons_.all());
-    const double even = effective_photons(queue_, ages_, photons_.light_shares());
+    const double even = effective_photons(queue_, ages_, photons_.light_shares(), crossed_);
     const double share = even > 0 && all > 0 ? even / all : 1;
     return share < nearly_all ? for_passes(learnt_, 1, share, c_.settings) : learnt_;
 }
@@ -375,7 +415,7 @@ PhotonMap QueueMethod::make_map(const Bandwidth& widths) {
     if (settings.scale) {
         size_areas(*settings.scale);
     }
-    const PhotonMap map = make_queue_map(c_, queue_, workspace_, settings);
+    PhotonMap map = make_queue_map(c_, queue_, workspace_, settings);
     image_.footprint_scale = settings.scale;
     image_.mean_footprints = map.mean_footprints;
     return map;
@@ -437,6 +477,8 @@ void QueueMethod::persist(Archive& archive) {
     archive.value(moment_);
     archive.value(next_);
     archive.value(emptied_);
+    archive.values(moved_.boxes);
+    archive.values(moved_.moments);
     archive.value(still_);
     persist_bandwidth(archive, learnt_);
     archive.value(view_reach_);
@@ -445,7 +487,9 @@ void QueueMethod::persist(Archive& archive) {
     archive.value(sized_blocks_);
     if (ages_.emitted.size() != options_.window || ages_.lights != photons_.lights() ||
         ages_.half_lives.size() != std::size_t(options_.window) * ages_.lights ||
-        next_ >= options_.window || moment_ == 0) {
+        moved_.boxes.size() != moved_.moments.size() ||
+        !std::is_sorted(moved_.moments.begin(), moved_.moments.end()) || next_ >= options_.window ||
+        moment_ == 0) {
         fail("loading a saved state: it is not one of a photons queue of {} blocks",
              options_.window);
     }
@@ -455,6 +499,7 @@ void QueueMethod::persist(Archive& archive) {
         seen_ = seen_of(c_.on_device);
     }
     persist_queue(archive, c_.device, queue_);
+    crossed_ = crossed_shares(c_.device, queue_, newest());
     persist_buffer(archive, c_.device, photons_.workspace().flux_sums,
                    flux_words * sizeof(std::int64_t));
 }

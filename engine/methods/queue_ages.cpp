@@ -60,14 +60,19 @@ void weigh_blocks(PhotonQueue& queue, const QueueAges& ages) {
 }
 
 double effective_photons(const PhotonQueue& queue, const QueueAges& ages,
-                         std::span<const double> shares) {
+                         std::span<const double> shares, std::span<const CrossedShare> crossed) {
     double noise = 0;
-    for (std::uint32_t b = 0; b < queue.window; ++b) {
+    for (const CrossedShare& part : crossed) {
         for (std::uint32_t light = 0; light < ages.lights; ++light) {
-            const double weight = static_cast<double>(weight_of(queue, b, light));
-            noise += weight > 0
-                         ? shares[light] * weight * weight / static_cast<double>(ages.emitted[b])
-                         : 0;
+            double sum = 0, squares = 0;
+            for (std::uint32_t b = 0; b < queue.window; ++b) {
+                const auto weight = static_cast<double>(weight_of(queue, b, light));
+                if (weight > 0 && queue.blocks[b].moment > part.moment) {
+                    sum += weight;
+                    squares += weight * weight / static_cast<double>(ages.emitted[b]);
+                }
+            }
+            noise += sum > 0 ? part.share * shares[light] * squares / (sum * sum) : 0;
         }
     }
     return noise > 0 ? 1 / noise : 0;

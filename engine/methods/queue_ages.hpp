@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/archive.hpp"
-#include "photon/photon_queue.hpp"
+#include "photon/queue_paths.hpp"
 
 #include <cstdint>
 #include <span>
@@ -34,8 +34,8 @@ void weigh_blocks(PhotonQueue& queue, const QueueAges& ages);
 
 /// Photons of even weight that have the noise of those in the queue as they are weighed: Kish's
 /// effective number, (sum w)^2 / sum w^2. 0 if there are none. shares: of each light among the
-/// photons that are emitted; they sum to 1.
+/// photons that are emitted; they sum to 1. crossed: their parts where only some blocks count.
 double effective_photons(const PhotonQueue& queue, const QueueAges& ages,
-                         std::span<const double> shares);
+                         std::span<const double> shares, std::span<const CrossedShare> crossed);
 
 } // namespace argand

@@ -34,6 +34,8 @@ public:
     /// Lights that photons tell apart, so that those of lights that stand still do not grow old
     /// with those of a light that moves; 1: they tell none apart.
     std::uint32_t lights() const;
+    /// Whether the paths of photons are kept, because meshes may come into their way.
+    bool keeps_paths() const { return options_.window > 1 && !c_.scene.motion.meshes.empty(); }
     /// The share of each of these lights among the photons that are emitted.
     std::vector<double> light_shares() const;
 

@@ -56,9 +56,10 @@ std::vector<float> depths_of(RenderContext& c, int width, int height) {
         rays.clear();
         slots.clear();
         for (std::uint64_t i = depths.size(); i < pixels && slots.size() < c.eye.slots; ++i) {
+            const std::uint64_t column = i % std::uint64_t(width), row = i / std::uint64_t(width);
             vec3 o, d;
-            pinhole_ray(camera, static_cast<float>(i % std::uint64_t(width)) + 0.5f,
-                        static_cast<float>(i / std::uint64_t(width)) + 0.5f, o, d);
+            pinhole_ray(camera, static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f,
+                        o, d);
             d = d / std::sqrt(dot3(d, d));
             slots.push_back(static_cast<std::uint32_t>(slots.size()));
             rays.push_back({.origin_x = o.x,

@@ -1,5 +1,7 @@
 #include "photon/photon_kdtree.hpp"
 
+#include "photon/box_around.hpp"
+
 #include <algorithm>
 
 namespace argand {
@@ -106,13 +108,6 @@ private:
     std::vector<Visit> waiting_;
     VolumeTree tree_;
 };
-
-BoxRecord box_around(const BoxRecord& a, const BoxRecord& b) {
-    return {std::min(a.low_x, b.low_x),   std::min(a.low_y, b.low_y),
-            std::min(a.low_z, b.low_z),   0,
-            std::max(a.high_x, b.high_x), std::max(a.high_y, b.high_y),
-            std::max(a.high_z, b.high_z), 0};
-}
 
 } // namespace
 

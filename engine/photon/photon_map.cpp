@@ -48,6 +48,9 @@ void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity)
     w.offsets = device.allocate("photon differentials, stored",
                                 w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
     w.lights = device.allocate("photons' lights", (w.keeps_lights ? capacity : 1) * 4);
+    w.vertices =
+        device.allocate("vertices of photons' paths",
+                        (w.keeps_paths ? 2 * w.most_paths + capacity : 1) * sizeof(PathVertex));
     w.codes = device.allocate("photon codes", capacity * 4);
     w.order = device.allocate("photon order", capacity * 4);
     w.heads = device.allocate("photon map heads", capacity * 4);
@@ -63,10 +66,86 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     const Buffer photons = w.photons;
     const Buffer offsets = w.offsets;
     const Buffer lights = w.lights;
+    const Buffer vertices = w.vertices;
     allocate_stored(device, w, capacity);
     copy_elements(device, photons, 0, w.photons, 0, stored, sizeof(PhotonRecord));
     copy_elements(device, offsets, 0, w.offsets, 0, w.footprints ? stored : 0, sizeof(glm::uvec4));
     copy_elements(device, lights, 0, w.lights, 0, w.keeps_lights ? stored : 0, 4);
+    copy_elements(device, vertices, 0, w.vertices, 0, w.keeps_paths ? 2 * w.most_paths + stored : 0,
+                  sizeof(PathVertex));
+}
+
+std::uint32_t kept_of(const PhotonWorkspace& w) {
+    return (w.keeps_lights ? kept_light : 0) | (w.keeps_paths ? kept_path : 0);
+}
+
+/// Emits the photons of a batch.
+void emit_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                  const PhotonBatch& batch) {
+    const StageScope stage(device, "emit photons");
+    dispatch(device,
+             kernels::photon_emit{.scene = scene.bindings(),
+                                  .texture = scene.texture_bindings(),
+                                  .rays = w.rays,
+                                  .paths = w.paths,
+                                  .ledgers = w.ledgers,
+                                  .active_slots = w.active,
+                                  .differentials = w.differentials,
+                                  .aim_nodes = scene.aim_nodes,
+                                  .sky = scene.sky,
+                                  .path_lights = w.path_lights,
+                                  .path_vertices = w.path_vertices,
+                                  .vertices = w.vertices,
+                                  .batch = batch,
+                                  .constants = {.footprints = w.footprints,
+                                                .numbers = w.numbers,
+                                                .keeps = kept_of(w),
+                                                .scene = scene.constants(),
+                                                .texture = scene.texture_constants()}},
+             batch.count);
+    upload_word(device, w.counters, counter_active, batch.count);
+}
+
+/// Lets the active photons of a batch scatter, and makes those active that go on.
+void scatter_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                     const PhotonBatch& batch, const Count& active) {
+    const StageScope stage(device, "scatter photons");
+    dispatch(device,
+             kernels::photon_scatter{
+                 .scene = scene.bindings(),
+                 .texture = scene.texture_bindings(),
+                 .hits = w.hits,
+                 .active_slots = w.active,
+                 .counters = w.counters,
+                 .rays = w.rays,
+                 .paths = w.paths,
+                 .ledgers = w.ledgers,
+                 .photons = w.photons,
+                 .alive = w.alive,
+                 .differentials = w.differentials,
+                 .offsets = w.offsets,
+                 .path_lights = w.path_lights,
+                 .photon_lights = w.lights,
+                 .path_vertices = w.path_vertices,
+                 .vertices = w.vertices,
+                 .batch = batch,
+                 .constants = {.footprints = w.footprints,
+                               .reemission = w.reemission,
+                               .numbers = w.numbers,
+                               .followed_paths = scene.plan.needs(Feature::followed_paths),
+                               .aims_at_view = scene.record.view_share > 0,
+                               .keeps = kept_of(w),
+                               .scene = scene.constants(),
+                               .material_features = scene.plan.material_features(),
+                               .texture = scene.texture_constants()}},
+             active);
+    compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active}, active);
+    std::swap(w.active, w.next_active);
+    dispatch(
+        device,
+        kernels::photon_advance{.counters = w.counters,
+                                .params = {.stored = batch.has_slots, .capacity = batch.capacity}},
+        1);
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
@@ -75,28 +154,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
     // Photons that pass surfaces scatter in a later round than others.
     const bool any_round = plan.needs(Feature::alpha);
     device.fill(w.traversal.unfinished, 0);
-    {
-        const StageScope stage(device, "emit photons");
-        dispatch(device,
-                 kernels::photon_emit{.scene = scene.bindings(),
-                                      .texture = scene.texture_bindings(),
-                                      .rays = w.rays,
-                                      .paths = w.paths,
-                                      .ledgers = w.ledgers,
-                                      .active_slots = w.active,
-                                      .differentials = w.differentials,
-                                      .aim_nodes = scene.aim_nodes,
-                                      .sky = scene.sky,
-                                      .path_lights = w.path_lights,
-                                      .batch = batch,
-                                      .constants = {.footprints = w.footprints,
-                                                    .numbers = w.numbers,
-                                                    .keeps_lights = w.keeps_lights,
-                                                    .scene = scene.constants(),
-                                                    .texture = scene.texture_constants()}},
-                 batch.count);
-        upload_word(device, w.counters, counter_active, batch.count);
-    }
+    emit_photons(device, scene, w, batch);
     for (std::uint32_t bounce = 0;; ++bounce) {
         const bool last = bounce >= batch.bounces;
         batch.has_slots =
@@ -106,42 +164,7 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
             const StageScope stage(device, "trace photons");
             trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
         }
-        const StageScope stage(device, "scatter photons");
-        dispatch(device,
-                 kernels::photon_scatter{
-                     .scene = scene.bindings(),
-                     .texture = scene.texture_bindings(),
-                     .hits = w.hits,
-                     .active_slots = w.active,
-                     .counters = w.counters,
-                     .rays = w.rays,
-                     .paths = w.paths,
-                     .ledgers = w.ledgers,
-                     .photons = w.photons,
-                     .alive = w.alive,
-                     .differentials = w.differentials,
-                     .offsets = w.offsets,
-                     .path_lights = w.path_lights,
-                     .photon_lights = w.lights,
-                     .batch = batch,
-                     .constants = {.footprints = w.footprints,
-                                   .reemission = w.reemission,
-                                   .numbers = w.numbers,
-                                   .followed_paths = plan.needs(Feature::followed_paths),
-                                   .aims_at_view = scene.record.view_share > 0,
-                                   .keeps_lights = w.keeps_lights,
-                                   .scene = scene.constants(),
-                                   .material_features = plan.material_features(),
-                                   .texture = scene.texture_constants()}},
-                 active);
-        compact(device, w.alive, w.active, w.next_active, {w.counters, counter_next_active},
-                active);
-        std::swap(w.active, w.next_active);
-        dispatch(device,
-                 kernels::photon_advance{
-                     .counters = w.counters,
-                     .params = {.stored = batch.has_slots, .capacity = batch.capacity}},
-                 1);
+        scatter_photons(device, scene, w, batch, active);
         device.submit();
         const bool looks = last || bounce % bounces_between_checks == bounces_between_checks - 1;
         if ((last && !any_round) ||
@@ -280,10 +303,12 @@ std::uint64_t max_photons_per_pass(const Device& device) {
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints, bool keeps_lights) {
+                                      bool footprints, bool keeps_lights, bool keeps_paths) {
     PhotonWorkspace w;
     w.footprints = footprints;
     w.keeps_lights = keeps_lights;
+    w.keeps_paths = keeps_paths;
+    w.most_paths = photons_per_pass;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
                        std::max<std::uint64_t>(photons_per_pass, 1));
     w.slots = std::min(w.slots, device.info().limits.storage_range / sizeof(FluxLedger));
@@ -300,6 +325,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.differentials = device.allocate("photon differentials",
                                       (footprints ? w.slots : 1) * sizeof(DifferentialRecord));
     w.path_lights = device.allocate("photon paths' lights", (keeps_lights ? w.slots : 1) * 4);
+    w.path_vertices = device.allocate("photon paths' vertices", (keeps_paths ? w.slots : 1) * 4);
     w.counters = device.allocate("photon counters", counter_count * 4);
     w.flux_sums = device.allocate("flux sums", 12 * 8);
     device.fill(w.flux_sums, 0);
@@ -317,6 +343,8 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
         batch.seed = pass.seed;
         batch.first = static_cast<std::uint32_t>(pass.first + first);
         batch.count = static_cast<std::uint32_t>(std::min(w.slots, pass.count - first));
+        batch.first_path = static_cast<std::uint32_t>(first);
+        batch.paths = static_cast<std::uint32_t>(pass.count);
         batch.inverse_total = static_cast<float>(1.0 / static_cast<double>(pass.count));
         batch.inverse_spread = pass.spread > 0
                                    ? static_cast<float>(1.0 / static_cast<double>(pass.spread))

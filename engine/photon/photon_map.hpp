@@ -62,9 +62,13 @@ struct PhotonWorkspace {
     Buffer differentials; ///< DifferentialRecord per slot
     Buffer offsets;       ///< uvec4 per stored photon: its positional differentials, pack_dual of
                           ///< shared/footprint.h
-    bool keeps_lights = false; ///< whether photons keep the indices of their lights
-    Buffer path_lights;        ///< uint per slot: the photon's light
-    Buffer lights;             ///< uint per stored photon: its light
+    bool keeps_lights = false;    ///< whether photons keep the indices of their lights
+    Buffer path_lights;           ///< uint per slot: the photon's light
+    Buffer lights;                ///< uint per stored photon: its light
+    bool keeps_paths = false;     ///< whether the vertices of photons' paths are kept
+    std::uint64_t most_paths = 0; ///< photons of a pass whose paths are kept
+    Buffer path_vertices;         ///< uint per slot: the last vertex of the photon's path
+    Buffer vertices;              ///< PathVertex: 2 per photon of the pass, and 1 per stored photon
     Buffer flux_sums; ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
     Traversal traversal;
     Buffer last_sorted, last_footprints; ///< of the map that was built last: the next map takes
@@ -72,7 +76,8 @@ struct PhotonWorkspace {
 };
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints = false, bool keeps_lights = false);
+                                      bool footprints = false, bool keeps_lights = false,
+                                      bool keeps_paths = false);
 
 /// The most photons that a map may hold on this device.
 std::uint64_t max_stored_photons(const Device& device);

@@ -16,6 +16,7 @@
 #include "parallel/radix_sort.hpp"
 #include "parallel/scan.hpp"
 #include "photon/queue_parts.hpp"
+#include "photon/queue_paths.hpp"
 #include "shared/morton.h"
 #include "shared/photon.h"
 
@@ -146,7 +147,9 @@ Buffer rank_kept(Device& device, const PhotonQueue& q) {
                                  .blocks = block_table(device, q),
                                  .emptied = q.emptied,
                                  .flags = ranks,
-                                 .params = queue_params(q, q.entries)},
+                                 .ends = q.path_ends ? q.path_ends : q.starts,
+                                 .params = queue_params(q, q.entries),
+                                 .constants = {.keeps_paths = q.keeps_paths}},
              q.entries + 1);
     exclusive_scan(device, ranks, ranks, q.entries + 1);
     return ranks;
@@ -169,8 +172,13 @@ void add_points(Device& device, const QueueRecords& records, double photon_weigh
 }
 
 QueueRecords records_of(const QueueBlock& block, const PhotonQueue& memory) {
-    return {memory.stored, block.first,    block.records,
-            block.records, memory.offsets, memory.light_indices};
+    return {.photons = memory.stored,
+            .first = block.first,
+            .slots = block.records,
+            .records = block.records,
+            .offsets = memory.offsets,
+            .lights = memory.light_indices,
+            .path_ends = memory.path_ends};
 }
 
 } // namespace
@@ -247,6 +255,7 @@ void allocate_queue(Device& device, PhotonQueue& q, const std::vector<QueueBlock
     };
     beside("queue: differentials", q.offsets, q.footprints, sizeof(glm::uvec4));
     beside("queue: lights", q.light_indices, q.lights > 1, 4);
+    beside("queue: ends of paths", q.path_ends, q.keeps_paths, sizeof(QueuePathEnd));
     q.of_entry = grown("queue: entries", q.of_entry, q.entries);
     q.cell_of_entry = grown("queue: cells of entries", q.cell_of_entry, q.entries);
     q.next_of_entry = grown("queue: next entries", Buffer(), 0);
@@ -322,20 +331,28 @@ void replace_block(Device& device, PhotonQueue& q, std::uint32_t block, std::uin
     QueueParams params = queue_params(q, records.slots);
     params.first = static_cast<uint>(records.first);
     params.block = block;
+    params.first_vertex = static_cast<uint>(2 * records.paths);
+    if (q.keeps_paths && records.vertices) {
+        keep_paths(device, q, block, records);
+    }
     dispatch(device,
-             kernels::queue_store{
-                 .photons = records.photons,
-                 .cells = fresh.cells,
-                 .order = fresh.order,
-                 .blocks = block_table(device, q),
-                 .boxes = q.boxes,
-                 .stored = q.stored,
-                 .offsets = q.footprints ? records.offsets : q.distances,
-                 .stored_offsets = q.offsets,
-                 .photon_lights = q.lights > 1 ? records.lights : q.distances,
-                 .stored_lights = q.light_indices,
-                 .params = params,
-                 .constants = {.footprints = q.footprints, .keeps_lights = q.lights > 1}},
+             kernels::queue_store{.photons = records.photons,
+                                  .cells = fresh.cells,
+                                  .order = fresh.order,
+                                  .blocks = block_table(device, q),
+                                  .boxes = q.boxes,
+                                  .stored = q.stored,
+                                  .offsets = q.footprints ? records.offsets : q.distances,
+                                  .stored_offsets = q.offsets,
+                                  .photon_lights = q.lights > 1 ? records.lights : q.distances,
+                                  .stored_lights = q.light_indices,
+                                  .ends = records.path_ends ? records.path_ends : q.distances,
+                                  .stored_ends = q.path_ends,
+                                  .params = params,
+                                  .constants = {.footprints = q.footprints,
+                                                .keeps_lights = q.lights > 1,
+                                                .keeps_paths = q.keeps_paths,
+                                                .new_paths = q.keeps_paths && !records.path_ends}},
              records.slots);
     dispatch(device,
              kernels::queue_move{.entries = q.of_entry,

@@ -23,6 +23,7 @@ struct PhotonQueue {
     const char* stage = "update queue"; ///< in which it is updated, and its maps are made
     std::uint32_t lights = 1;         ///< that photons tell apart; 1: they do not keep their lights
     std::vector<float> light_weights; ///< of photons, by block and light: block * lights + light
+    bool keeps_paths = false;         ///< of photons (queue_paths.hpp)
     CellTree tree;                    ///< without nodes before the first block
     std::uint32_t cells = 0;          ///< twice those of the tree if caustic photons lie apart
     std::uint32_t caustic = 0;        ///< the first cell of caustic photons; 0: none
@@ -32,6 +33,7 @@ struct PhotonQueue {
     std::uint64_t divided_for = 0;  ///< records for which space was divided
     std::vector<QueueBlock> blocks; ///< window + 1
     std::uint64_t block_room = 0, area_room = 0;
+    std::uint64_t vertex_room = 0; ///< of the paths of each block
 
     Buffer nodes;     ///< CellNode; empty: the cells are the leaves of a kd-tree
     Buffer kd_words;  ///< of this kd-tree
@@ -44,6 +46,8 @@ struct PhotonQueue {
     /// (PhotonWorkspace::offsets), and dual axes of area samples (queue_footprints.hpp).
     Buffer offsets;
     Buffer light_indices;  ///< uint for each of these: its light, if photons keep it
+    Buffer path_ends;      ///< QueuePathEnd for each of these, if paths are kept
+    Buffer vertices;       ///< PathVertex, by block: vertex_room * block + index
     double area_scale = 0; ///< FootprintScale::diffuse for which the latter were made; 0: not yet
     Buffer of_entry, cell_of_entry, starts;                ///< see queue_move.h
     Buffer next_of_entry, next_cell_of_entry, next_starts; ///< memory for the next ones
@@ -61,6 +65,9 @@ struct QueueRecords {
     std::uint64_t records = 0; ///< that are not empty
     Buffer offsets;            ///< of photons with footprints: PhotonWorkspace::offsets
     Buffer lights;             ///< of photons that keep their lights: PhotonWorkspace::lights
+    Buffer vertices;           ///< of new photons whose paths are kept: PhotonWorkspace::vertices
+    std::uint64_t paths = 0;   ///< photons emitted, to which these belong
+    Buffer path_ends;          ///< QueuePathEnd of photons whose paths are in the queue
 };
 
 /// Empties the queue, and divides space into cells for these records, of whose photons there will

@@ -17,7 +17,7 @@ Buffer add_queue_footprints(Device& device, PhotonQueue& q, const QueueFootprint
     map.footprints = unshared(device, q.last_footprints, "photon footprints",
                               queue_room(q) * sizeof(glm::uvec4));
     map.flatness = how.scale.flatness;
-    const Buffer boxes = scratch_words(device, "queue: boxes around footprints", 6ull * q.cells);
+    Buffer boxes = scratch_words(device, "queue: boxes around footprints", 6ull * q.cells);
     device.fill(boxes, 0xffffffffu);
     const FootprintParams params = footprint_params(how.scene, how.scale, map.area_samples);
     const double widening = q.area_scale > 0 ? double(how.scale.diffuse) / q.area_scale : 1;

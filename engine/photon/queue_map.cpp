@@ -53,17 +53,19 @@ PhotonMap map_of_queue(Device& device, PhotonQueue& q, const SampledPart& correc
     map.photons =
         unshared(device, q.last_sorted, "photons, sorted", queue_room(q) * sizeof(PhotonRecord));
     dispatch(device,
-             kernels::queue_map{.entries = q.of_entry,
-                                .cells = q.cell_of_entry,
-                                .blocks = blocks,
-                                .scales = scales,
-                                .stored = q.stored,
-                                .sorted = map.photons,
-                                .weights = weights_by_light(device, q),
-                                .stored_lights = q.light_indices,
-                                .emptied = q.emptied,
-                                .params = queue_params(q, q.entries),
-                                .constants = {.keeps_lights = q.lights > 1}},
+             kernels::queue_map{
+                 .entries = q.of_entry,
+                 .cells = q.cell_of_entry,
+                 .blocks = blocks,
+                 .scales = scales,
+                 .stored = q.stored,
+                 .sorted = map.photons,
+                 .weights = weights_by_light(device, q),
+                 .stored_lights = q.light_indices,
+                 .emptied = q.emptied,
+                 .ends = q.path_ends,
+                 .params = queue_params(q, q.entries),
+                 .constants = {.keeps_lights = q.lights > 1, .keeps_paths = q.keeps_paths}},
              q.entries);
     std::vector<std::uint32_t> counters(counter_count, 0);
     counters[counter_stored] = static_cast<std::uint32_t>(q.entries);

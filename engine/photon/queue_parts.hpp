@@ -27,6 +27,7 @@ inline QueueParams queue_params(const PhotonQueue& q, std::uint64_t count) {
     params.blocks = q.window;
     params.leaf_size = q.leaf_size;
     params.lights = q.lights;
+    params.vertex_room = static_cast<uint>(q.vertex_room);
     return params;
 }
 

@@ -14,6 +14,7 @@
 
 namespace argand {
 
+// NOLINTNEXTLINE(readability-function-size): a table, of which the compiler tells what is missing
 FeatureText text_of(Feature feature) {
     constexpr std::size_t lane = 4 * sizeof(float);
     constexpr std::size_t word = sizeof(std::uint32_t);

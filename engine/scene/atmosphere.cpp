@@ -39,7 +39,8 @@ Environment sun_and_sky(const SunPosition& sun) {
     // The sun is at azimuth 0, in the middle of the picture, whose halves are mirror images.
     std::vector<glm::vec3> texels(std::size_t(picture_width) * picture_height);
     const auto texel = [&](int row, int column) -> glm::vec3& {
-        return texels[static_cast<std::size_t>(row * picture_width + column)];
+        return texels[static_cast<std::size_t>(row) * picture_width +
+                      static_cast<std::size_t>(column)];
     };
     for_each_on_all_cores(upper_rows, [&](std::size_t at) {
         const int row = static_cast<int>(at);

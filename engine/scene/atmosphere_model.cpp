@@ -114,7 +114,8 @@ T looked_up(const std::vector<T>& table, int width, int height, double x, double
     const int i = std::min(static_cast<int>(across), std::max(width - 2, 0));
     const int j = std::min(static_cast<int>(down), std::max(height - 2, 0));
     const auto at = [&](int column, int row) -> const T& {
-        return table[static_cast<std::size_t>(row * width + column)];
+        return table[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(column)];
     };
     return mix(mix(at(i, j), at(i + 1, j), across - i),
                mix(at(i, j + 1), at(i + 1, j + 1), across - i), down - j);
@@ -274,8 +275,9 @@ Spectrum Atmosphere::often_scattered_at(double r, double mu_s) const {
 void Atmosphere::fill_scattered_often() {
     often_.resize(std::size_t(often_heights) * often_angles);
     for_each_on_all_cores(often_.size(), [&](std::size_t i) {
-        const double share = double(i / often_angles) / (often_heights - 1);
-        const double mu_s = 2.0 * double(i % often_angles) / (often_angles - 1) - 1;
+        const std::size_t height = i / often_angles, angle = i % often_angles;
+        const double share = double(height) / (often_heights - 1);
+        const double mu_s = 2.0 * double(angle) / (often_angles - 1) - 1;
         often_[i] = often_scattered_at(ground + share * share * (top - ground), mu_s);
     });
 }

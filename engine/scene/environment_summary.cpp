@@ -35,8 +35,9 @@ std::string place_text(const json& object) {
 /// The middle of a texel, in the picture's frame.
 glm::dvec3 direction_of_texel(const SkyPicture& picture, std::size_t index) {
     const auto width = static_cast<std::size_t>(picture.width);
-    const double turn = 2 * pi * ((static_cast<double>(index % width) + 0.5) / picture.width - 0.5);
-    const double angle = pi * (static_cast<double>(index / width) + 0.5) / picture.height;
+    const std::size_t column = index % width, row = index / width;
+    const double turn = 2 * pi * ((static_cast<double>(column) + 0.5) / picture.width - 0.5);
+    const double angle = pi * (static_cast<double>(row) + 0.5) / picture.height;
     return {std::sin(angle) * std::cos(turn), std::cos(angle), std::sin(angle) * std::sin(turn)};
 }
 

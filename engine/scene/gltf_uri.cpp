@@ -56,7 +56,7 @@ std::filesystem::path path_of_uri(const std::filesystem::path& directory, const 
     if (decoded.find('\0') != std::string::npos) {
         fail("{} is at '{}', which is not the name of a file", what, one_line(uri, 60));
     }
-    const std::filesystem::path path = directory / decoded;
+    std::filesystem::path path = directory / decoded;
     if (!allow_external && leads_out(directory, path)) {
         fail("{} is at '{}', outside the scene's folder; --allow-external reads it all the same",
              what, one_line(uri, 60));

@@ -206,7 +206,8 @@ glm::dvec3 TreeBuilder::mean_color(const Cell& leaf) const {
     const int side = leaf.vain > 0 || of.image->texels.size() > 1 ? lookups_of_side : 1;
     glm::dvec3 sum(0);
     for (int i = 0; i < side * side; ++i) {
-        const glm::dvec2 inside((i % side + 0.5) / side, (double(i / side) + 0.5) / side);
+        const int column = i % side, row = i / side;
+        const glm::dvec2 inside((column + 0.5) / side, (row + 0.5) / side);
         sum += of.color(of.place(leaf.low + leaf.size * inside));
     }
     return sum / double(side * side);

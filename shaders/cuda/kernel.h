@@ -78,11 +78,13 @@ FN uint atomicMin(uint& to, uint value) {
 #define LeafSums(...) LeafSums{__VA_ARGS__}
 #define NearestRecord(...) NearestRecord{__VA_ARGS__}
 #define PathRecord(...) PathRecord{__VA_ARGS__}
+#define PathVertex(...) PathVertex{__VA_ARGS__}
 #define PhotonPathRecord(...) PhotonPathRecord{__VA_ARGS__}
 #define PhotonRange(...) PhotonRange{__VA_ARGS__}
 #define PhotonRecord(...) PhotonRecord{__VA_ARGS__}
 #define PoseBox(...) PoseBox{__VA_ARGS__}
 #define QueryRecord(...) QueryRecord{__VA_ARGS__}
+#define QueuePathEnd(...) QueuePathEnd{__VA_ARGS__}
 #define RayRecord(...) RayRecord{__VA_ARGS__}
 #define ShadowRecord(...) ShadowRecord{__VA_ARGS__}
 #define SegmentRange(...) SegmentRange{__VA_ARGS__}

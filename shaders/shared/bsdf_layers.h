@@ -36,6 +36,9 @@ CONSTANT uint MATERIAL_FILM = 8192u;
 CONSTANT uint MATERIAL_DISPERSION = 16384u;
 CONSTANT uint MATERIAL_SHEEN = 32768u;
 CONSTANT uint MATERIAL_ALL = 65535u;
+// All but rough glass, coats, films, dispersion and sheen. Few scenes have these, and they double
+// the size of kernels. A kernel for scenes without them is compiled apart, with ARGAND_LEAN.
+CONSTANT uint MATERIAL_LEAN = 4047u;
 // Features that metals and dielectric layers need.
 CONSTANT uint MATERIAL_LAYER = 132u; // GGX or mirror
 
@@ -45,7 +48,13 @@ CONSTANT real SMALLEST_ALPHA = real(1e-3);
 // Whether any material of the scene may have one of these features. Kernels specialised to a scene
 // know the answer at compile time, so code for absent features vanishes. The result is the same for
 // every material of the scene.
-FN bool may_have(uint absent, uint bits) { return (absent & bits) != bits; }
+FN bool may_have(uint absent, uint bits) {
+#ifdef ARGAND_LEAN
+    return (bits & MATERIAL_LEAN) != 0u && (absent & bits) != bits;
+#else
+    return (absent & bits) != bits;
+#endif
+}
 FN bool may_have(IN(MaterialRecord) m, uint bits) { return may_have(m.absent, bits); }
 FN bool wants_lobe(IN(MaterialRecord) m, uint lobes, uint lobe) {
     return may_have(m, lobe) && (lobes & lobe) != 0u;

@@ -43,6 +43,19 @@ struct FluxLedger {
     uvec4 emitted, absorbed, escaped, cut;
 };
 
+// Where a photon's path begins or meets a surface, and the index of the vertex before. Those of a
+// photon of the pass lie at twice its number, light and first hit, and those of slots behind all.
+struct PathVertex {
+    float32 x, y, z;
+    uint previous; // no_vertex: the path begins here
+};
+
+CONSTANT uint no_vertex = 0xffffffffu;
+
+// What may be kept of photons: the index of their light, and the vertices of their path.
+CONSTANT uint kept_light = 1u;
+CONSTANT uint kept_path = 2u;
+
 // A batch of the pass's photons, traced together.
 struct PhotonBatch {
     uint seed;
@@ -58,7 +71,8 @@ struct PhotonBatch {
     // Whether photons have slots in this round of tracing. Those that pass surfaces are in the same
     // round as others with more scatterings.
     uint has_slots;
-    uint pad0, pad1;
+    uint first_path; // number of the batch's first photon within its pass
+    uint paths;      // photons of the pass
 };
 
 struct PhotonAdvanceParams {

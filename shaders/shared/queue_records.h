@@ -35,6 +35,14 @@ CONSTANT uint queue_always = 0xffffffffu;
 CONSTANT uint queue_block_shift = 24u;
 CONSTANT uint queue_record_mask = 0xffffffu;
 
+// Beside each record whose path is kept.
+struct QueuePathEnd {
+    uint vertex;  // among its block's
+    uint crossed; // blocks up to this moment lack some of such paths, so that they do not count
+};
+
+CONSTANT uint every_block = 0xffffffffu;
+
 struct QueueParams {
     uint count;   // what the invocations go through
     uint cells;   // of all kinds
@@ -44,10 +52,13 @@ struct QueueParams {
     uint first;   // of the records
     uint blocks;
     uint moment;
-    uint leaf_size; // records that a cell should hold at most
-    float32 reach;  // about moved boxes
-    uint lights;    // that photons tell apart; 1: none
-    uint pad0, pad1;
+    uint leaf_size;    // records that a cell should hold at most
+    float32 reach;     // about moved boxes
+    uint lights;       // that photons tell apart; 1: none
+    uint first_vertex; // of the slots of a block whose path ends are new
+    uint vertex_room;  // of each block
+    uint boxes;        // moved ones
+    uint pad0, pad1, pad2;
 };
 
 struct QueueFootprintParams {

@@ -46,6 +46,13 @@ TEST(Witness, ConfirmsOnlyWhatItHasMeasured) {
               Verdict::refuted);
 }
 
+TEST(Witness, DoesNotConfirmWhatOnlyTheUsualBiasSays) {
+    // A usual bias far below the bound makes a larger one unlikely, whatever a noisy witness saw.
+    constexpr Prior far_below{.usual = 1e-7, .factor = 2};
+    EXPECT_EQ(Judgement(far_below, testimony(0, 0.008), 0.004).verdict(), Verdict::open);
+    EXPECT_EQ(Judgement(far_below, testimony(0, 0.002), 0.004).verdict(), Verdict::confirmed);
+}
+
 TEST(Witness, AnExactTestimonyDecidesWithoutConfidence) {
     EXPECT_EQ(Judgement(usual, testimony(0.0037, 0.0005), 0.004).verdict(), Verdict::confirmed);
     EXPECT_EQ(Judgement(usual, testimony(0.0044, 0.0005), 0.004).verdict(), Verdict::refuted);

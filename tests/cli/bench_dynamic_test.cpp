@@ -56,7 +56,10 @@ TEST_F(BenchDynamic, SlowMeasuresEveryFrameOnce) {
         EXPECT_EQ(row[12], "0");
         ++rows;
     }
-    EXPECT_EQ(rows, 2 * 6); // by six methods
+    // By five methods, and by the photons queue with four windows and two trees.
+    EXPECT_EQ(rows, 2 * (5 + 6));
+    EXPECT_NE(table.find("\ncornell_glass,photon-queue W=64,1,"), std::string::npos);
+    EXPECT_NE(table.find("\ncornell_glass,photon-queue rebuild=kdtree,1,"), std::string::npos);
     // It has been measured.
     const auto before = std::filesystem::last_write_time(file("out/cornell_glass.json"));
     run = argand(command, on_host);

@@ -4,6 +4,8 @@
 #include "rendering.hpp"
 #include "world/world.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -353,6 +355,47 @@ TEST_F(PhotonQueueFrames, SurfacesThatMoveLeaveNoPhotonsBehind) {
     expect_equal_to_rounding(frame(session), frame(session));
     EXPECT_RELATIVE(mean(layer(frame(session), "indirect")).y,
                     mean(layer(render(scene, settings), "indirect")).y, 1e-3);
+}
+
+TEST_F(PhotonQueueFrames, SlowShadowsOfWhatMovesAreNotLate) {
+    // A plate comes before the lamp and goes away again. Photons elsewhere stay, whose paths it
+    // does not cross.
+    const auto scene_at = [](double time) {
+        Scene scene = moving_scene();
+        scene.lights.resize(1);
+        scene.motion.lights.clear();
+        const glm::dvec3 lamp(scene.lights[0].position);
+        const glm::dvec3 before = lamp + glm::dvec3(-0.2, -0.4, 0);
+        scene.motion.nodes[0].rest.rotation = glm::dquat(1, 1, 0, 0) * std::sqrt(0.5); // level
+        scene.motion.nodes[0].keys.translation =
+            between(before - glm::dvec3(0.8, 0, 0), before + glm::dvec3(0.8, 0, 0));
+        move_to(time, scene);
+        return scene;
+    };
+    RenderSettings settings = queue_settings(6);
+    settings.photons = 40'000;
+    settings.radius = 0.3;
+    constexpr std::uint32_t seeds = 4;
+    const std::array<double, 6> times{0, 0.2, 0.4, 0.6, 0.8, 1};
+    std::array<double, 6> found{}, expected{};
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        Scene scene = scene_at(0);
+        World world(device(), scene);
+        Session session(world, scene, settings);
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            move_to(times[i], scene);
+            world.update(scene);
+            found[i] += mean(layer(frame(session, seed), "indirect")).y;
+            RenderSettings fresh = settings;
+            fresh.seed = seed;
+            expected[i] += mean(layer(render(scene_at(times[i]), fresh), "indirect")).y;
+        }
+    }
+    const auto [least, most] = std::minmax_element(expected.begin(), expected.end());
+    EXPECT_GT(*most, 1.15 * *least); // else the test could not fail
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        EXPECT_RELATIVE(found[i], expected[i], 0.02) << i;
+    }
 }
 
 TEST_F(PhotonQueueFrames, FurtherPassesOfAnImageAddABlockEach) {

@@ -71,6 +71,27 @@ TEST_P(Repeat, ThreadsGiveTheSameBits) {
     EXPECT_TRUE(pictures[0] == pictures[1]);
 }
 
+TEST(RepeatFilm, ThreadsGiveThePhotonsQueueTheSameBits) {
+    const ScratchDirectory directory;
+    const std::string output = (directory / "frame_%d.exr").string();
+    for (const char* backend : {"", " --backend cpu"}) {
+        std::string last[2];
+        for (int i = 0; i < 2; ++i) {
+            const std::string threads = std::to_string(1 + 2 * i);
+            const std::string command =
+                "LP_NUM_THREADS=" + threads + " OMP_NUM_THREADS=" + threads +
+                " '" ARGAND_EXECUTABLE "' render '" + ARGAND_SOURCE_DIR +
+                "/assets/dynamic_block.glb' -q --frames 0:3 --size 16x16 --spp 2 --photons 8000 "
+                "--method photon-queue --window 4 -o '" +
+                output + "'" + backend;
+            ASSERT_EQ(std::system(command.c_str()), 0) << command;
+            last[i] = read_text(directory / "frame_2.exr");
+        }
+        EXPECT_FALSE(last[0].empty());
+        EXPECT_TRUE(last[0] == last[1]) << backend;
+    }
+}
+
 INSTANTIATE_METHODS(Repeat);
 
 } // namespace

@@ -178,6 +178,39 @@ TEST_P(Sessions, SlowGoOnFromWhatTheyHaveSavedWithTheSameBits) {
     }
 }
 
+// A film in which lights and meshes move: photons that are kept from frame to frame have lights and
+// paths.
+TEST_P(Sessions, GoOnFromAFrameOfAFilmWithTheSameBits) {
+    Scene scene = moving_scene();
+    World world(device(), scene);
+    Session session(world, scene, settings());
+    for (const double time : {0.0, 0.02, 0.04}) {
+        move_to(time, scene);
+        world.update(scene);
+        session.begin_frame(0);
+        EXPECT_TRUE(session.step({}, go_on));
+    }
+    const std::vector<std::uint8_t> state = session.save();
+    Session other(world, scene, settings());
+    other.resume(state, 0);
+    const auto next = [](Session& from) {
+        EXPECT_TRUE(from.step({}, go_on));
+        return from.result();
+    };
+    EXPECT_TRUE(same_bits(next(other), next(session)));
+    // And the frame after it.
+    move_to(0.06, scene);
+    world.update(scene);
+    const auto next_frame = [&](Session& from) {
+        from.begin_frame(0);
+        return next(from);
+    };
+    EXPECT_TRUE(same_bits(next_frame(other), next_frame(session)));
+    for (std::size_t length = 0; length < state.size(); length += 1 + length / 2) {
+        EXPECT_THROW(other.resume(std::span(state).first(length), 0), Error) << length;
+    }
+}
+
 TEST_P(Sessions, RefuseStatesThatAreCutShortOrTooLong) {
     const Scene scene = moving_scene();
     World world(device(), scene);

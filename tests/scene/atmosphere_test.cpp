@@ -114,7 +114,8 @@ TEST(Atmosphere, BelowTheHorizon) {
     // Half of the disc is above the horizon at sunset.
     ASSERT_TRUE(sun_and_sky({0, 90, 1}).sun);
     for (const double elevation : {-90.0, -0.2, 0.1, 90.0}) {
-        for (const glm::vec3& texel : sun_and_sky({elevation, 0, 10}).picture->texels) {
+        const Environment hazy = sun_and_sky({elevation, 0, 10});
+        for (const glm::vec3& texel : hazy.picture->texels) {
             ASSERT_TRUE(std::isfinite(texel.r + texel.g + texel.b) && texel.r >= 0);
         }
     }

@@ -55,7 +55,8 @@ std::string kept_text(const Scene& scene) {
         words.emplace_back("none while materials change");
     }
     if (!motion.meshes.empty()) {
-        words.emplace_back(fmt::format("those away from {} moving {}", motion.meshes.size(),
+        words.emplace_back(fmt::format("those whose paths cross no box of {} moving {}",
+                                       motion.meshes.size(),
                                        motion.meshes.size() == 1 ? "mesh" : "meshes"));
     }
     if (!motion.lights.empty()) {

@@ -13,9 +13,12 @@ layout(set = 0, binding = 5) writeonly buffer Sorted { PhotonRecord sorted[]; };
 layout(set = 0, binding = 6) readonly buffer Weights { float weights[]; };
 layout(set = 0, binding = 7) readonly buffer Lights { uint stored_lights[]; };
 layout(set = 0, binding = 8) readonly buffer Emptied { uint emptied[]; };
+layout(set = 0, binding = 9) readonly buffer Ends { QueuePathEnd ends[]; };
 layout(push_constant) uniform Push { QueueParams params; };
 
 // Whether photons keep the index of their light.
 layout(constant_id = 0) const bool keeps_lights = false;
+// Whether the paths of photons are kept.
+layout(constant_id = 1) const bool keeps_paths = false;
 
 #include "shared/kernels/photon/queue_map.h"

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -24,7 +25,9 @@ using Json = nlohmann::ordered_json;
 /// Sizes of a measurement.
 struct DynamicSizes {
     int side = 128; ///< of the pictures, in pixels
-    std::uint32_t samples = 8, reference_samples = 4096;
+    std::uint32_t samples = 8;
+    /// Few, for each reference is two images, whose noise cancels out of squared errors.
+    std::uint32_t reference_samples = 256;
     std::uint64_t photons = 200'000;
     std::vector<std::uint32_t> seeds{1, 2, 3, 4};
 };
@@ -36,6 +39,43 @@ DynamicSizes sizes(bool quick) {
                                 .photons = 20'000,
                                 .seeds = {1, 2}}
                  : DynamicSizes();
+}
+
+/// A method with options of its own.
+struct Measured {
+    std::string name; ///< of the rows
+    std::string method;
+    std::map<std::string, std::string> own;
+};
+
+/// What is measured: every method, and photons queues of several windows and with trees that are
+/// built anew for each frame.
+std::vector<Measured> measured_by(MethodTable methods) {
+    std::vector<Measured> all;
+    for (const MethodInfo& method : methods) {
+        if (!method.abilities.keeps_photons) {
+            all.push_back({method.name, method.name, {}});
+            continue;
+        }
+        for (const char* window : {"1", "4", "10", "64"}) {
+            all.push_back(
+                {fmt::format("{} W={}", method.name, window), method.name, {{"window", window}}});
+        }
+        for (const char* tree : {"kdtree", "lbvh"}) {
+            all.push_back({fmt::format("{} rebuild={}", method.name, tree),
+                           method.name,
+                           {{"rebuild", tree}}});
+        }
+    }
+    return all;
+}
+
+Json names_of(const std::vector<Measured>& all) {
+    Json names = Json::array();
+    for (const Measured& measured : all) {
+        names.push_back(measured.name);
+    }
+    return names;
 }
 
 std::string contents_of(const std::filesystem::path& file) {
@@ -55,7 +95,7 @@ Json run_of(const DynamicScene& film, const DynamicSizes& sizes, const DeviceInf
             {"photons", sizes.photons},
             {"reference_samples", sizes.reference_samples},
             {"seeds", sizes.seeds},
-            {"methods", methods.names()},
+            {"methods", names_of(measured_by(methods))},
             {"build", program_fingerprint()},
             {"backend", device.backend},
             {"device", device.name},
@@ -130,34 +170,44 @@ std::string csv_of(const Json& rows) {
     fail("measuring '{}': interrupted; the same command goes on with this film", film.name);
 }
 
-Json measure(const OpenDevice& open, const DynamicScene& film, const DynamicSizes& sizes,
-             const DynamicOptions& options, MethodTable methods) {
-    const auto go_on = [] { return !interrupted(); };
+RenderSettings settings_of(const DynamicSizes& sizes) {
     RenderSettings settings;
     settings.width = settings.height = sizes.side;
     settings.samples = sizes.samples;
     settings.photons = sizes.photons;
-    const std::filesystem::path folder = options.folder;
-    std::optional<Progress> progress;
-    progress.emplace("references of " + film.name);
-    progress->update(0);
-    const std::optional<FilmReferences> references = film_references(
-        open, film, settings, sizes.reference_samples, folder / "references", go_on, methods);
+    return settings;
+}
+
+FilmReferences references_of(const OpenDevice& open, const DynamicScene& film,
+                             const DynamicSizes& sizes, const std::filesystem::path& folder,
+                             MethodTable methods) {
+    Progress progress("references of " + film.name);
+    progress.update(0);
+    std::optional<FilmReferences> references = film_references(
+        open, film, settings_of(sizes), sizes.reference_samples, folder / "references",
+        [] { return !interrupted(); }, methods);
     if (!references) {
         fail_interrupted(film);
     }
+    return std::move(*references);
+}
+
+Json measure(const OpenDevice& open, const DynamicScene& film, const DynamicSizes& sizes,
+             const FilmReferences& references, MethodTable methods) {
+    RenderSettings settings = settings_of(sizes);
     Json rows = Json::array();
-    for (const MethodInfo& method : methods) {
-        progress.emplace(film.name + " by " + method.name);
-        progress->update(0);
-        settings.method = method.name;
-        const auto frames =
-            measure_film(open, film, settings, sizes.seeds, *references, go_on, methods);
+    for (const auto& [name, method, own] : measured_by(methods)) {
+        Progress progress(film.name + " by " + name);
+        progress.update(0);
+        settings.method = method;
+        settings.own = own;
+        const auto frames = measure_film(
+            open, film, settings, sizes.seeds, references, [] { return !interrupted(); }, methods);
         if (!frames) {
             fail_interrupted(film);
         }
         for (const MeasuredFrame& frame : *frames) {
-            rows.push_back(to_json(film.name, method.name, frame));
+            rows.push_back(to_json(film.name, name, frame));
         }
     }
     return rows;
@@ -240,15 +290,26 @@ void bench_dynamic(const OpenDevice& open, const DynamicOptions& options, Method
     const std::filesystem::path folder = options.folder;
     std::filesystem::create_directories(folder / "references");
     const DeviceInfo device = open()->info();
+    const auto sizes_of = [&](const BenchFilm& film) {
+        DynamicSizes of_film = sizes(options.quick);
+        of_film.reference_samples *= film.reference_factor;
+        return of_film;
+    };
+    // All references come first: they take the longest, and no film is measured twice for them.
+    std::map<std::string, FilmReferences> references;
+    for (const BenchFilm& film : films) {
+        references[film.scene.name] =
+            references_of(open, film.scene, sizes_of(film), folder, methods);
+    }
     Json all = Json::array();
-    for (const auto& [film, reference_factor] : films) {
-        DynamicSizes of_run = sizes(options.quick);
-        of_run.reference_samples *= reference_factor;
+    for (const BenchFilm& bench_film : films) {
+        const DynamicScene& film = bench_film.scene;
+        const DynamicSizes of_run = sizes_of(bench_film);
         const std::filesystem::path file = folder / (film.name + ".json");
         const Json run = run_of(film, of_run, device, methods);
         std::optional<Json> rows = read_rows(file, run);
         if (!rows) {
-            rows = measure(open, film, of_run, options, methods);
+            rows = measure(open, film, of_run, references.at(film.name), methods);
             write_json(file, {{"run", run}, {"rows", *rows}});
         }
         all.insert(all.end(), rows->begin(), rows->end());

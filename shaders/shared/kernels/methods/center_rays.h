@@ -8,9 +8,10 @@ FN void main() {
         return;
     }
     uint pixel = pixel_in_image(batch.first_pixel + slot);
+    uint column = pixel % batch.width;
+    uint row = pixel / batch.width;
     vec3 origin, direction;
-    pinhole_ray(camera[0], real(pixel % batch.width) + real(0.5),
-                real(pixel / batch.width) + real(0.5), origin, direction);
+    pinhole_ray(camera[0], real(column) + real(0.5), real(row) + real(0.5), origin, direction);
     rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
                            direction.z, 0u);
     active_slots[slot] = slot;

@@ -100,7 +100,12 @@ FN void main() {
     ledgers[slot] =
         FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u), uvec4(0u));
     active_slots[slot] = slot;
-    if (keeps_lights) {
+    if ((keeps & kept_light) != 0u) {
         path_lights[slot] = chosen.index;
+    }
+    if ((keeps & kept_path) != 0u) {
+        uint vertex = 2u * (batch.first_path + slot);
+        vertices[vertex] = PathVertex(p.origin.x, p.origin.y, p.origin.z, no_vertex);
+        path_vertices[slot] = vertex;
     }
 }

@@ -6,7 +6,7 @@
 #include "shared/kernels/normals.h"
 
 // Whether any material of the scene has one of these lobes.
-FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
+FN bool has(uint lobes) { return may_have(~material_features, lobes); }
 
 // Change of the shading normal along one of a photon's differentials.
 FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
@@ -223,11 +223,28 @@ FN void absorb(uint slot, INOUT(Arrival) a, IN(MaterialRecord) m) {
     ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
 }
 
+// Whether a photon of this depth has a slot in this round, stored there or not.
+FN bool has_slot_at(uint depth) {
+    return has(MATERIAL_ALPHA) ? batch.has_slots != 0u
+                               : depth >= batch.least_scatterings && depth <= batch.bounces;
+}
+
+// Adds the hit to the photon's path. Returns the index of the vertex.
+FN uint add_vertex(uint slot, uint store, Arrival a) {
+    bool in_slot = has_slot_at(a.depth);
+    uint vertex = in_slot ? 2u * batch.paths + store : 2u * (batch.first_path + slot) + 1u;
+    if (!in_slot || store < batch.capacity) {
+        vec3 p = a.surface.position;
+        vertices[vertex] = PathVertex(p.x, p.y, p.z, path_vertices[slot]);
+    }
+    return vertex;
+}
+
 // Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
 // scheduling. Returns whether the photon may be stored.
 FN bool reserve(uint store, uint depth) {
     bool stores = depth >= batch.least_scatterings && depth <= batch.bounces;
-    bool has_slot = has(MATERIAL_ALPHA) ? batch.has_slots != 0u : stores;
+    bool has_slot = has_slot_at(depth);
     if (has_slot && store >= batch.capacity) {
         atomicAdd(counters[counter_overflow], 1u);
         has_slot = false;
@@ -303,6 +320,97 @@ FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability,
     alive[i] = 1u;
 }
 
+// Leaves one colour channel where the surface disperses. Returns the inverse of the probability
+// with which it was chosen.
+FN real disperse_photon(uint slot, INOUT(Arrival) a, MaterialRecord m, uint triangle) {
+    if (!has(MATERIAL_DISPERSION)) {
+        return real(1.0);
+    }
+    uvec4 before = units_of(a.flux);
+    vec4 w = random4(batch.seed ^ 0xd15be5u, batch.first + slot, a.depth, triangle);
+    real channels = disperse(m, a.flux, w.x);
+    ledgers[slot].absorbed += before - units_of(a.flux);
+    return channels;
+}
+
+// Stores the photon with what is kept beside it.
+FN void store_with_details(uint slot, uint store, Arrival a, bool caustic,
+                           IN(PhotonDifferential) d) {
+    store_photon(store, a, caustic);
+    if (footprints) {
+        offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
+    }
+    if ((keeps & kept_light) != 0u) {
+        photon_lights[store] = path_lights[slot];
+    }
+}
+
+// What a photon's scattering depends on, beside the arrival and the material.
+struct Scattering {
+    uint state; // of the path
+    uint triangle, cone;
+    real distance; // of the hit
+    uint followed, estimated;
+    bool only_followed; // lobes have scattered it so far
+    real scattered;     // share of the photons that do not go straight on
+};
+
+// Samples the direction in which a photon goes on. Returns false if it is absorbed.
+FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) how,
+                       INOUT(PhotonDifferential) d) {
+    vec4 u = scattering_random(slot, a.depth);
+    Cone view;
+    view.height = real(0.0);
+    real choice = real(1.0);
+    if (aims_at_view) {
+        view = view_from(a);
+        choice =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).x;
+    }
+    bool is_elsewhere = view.height > real(0.0);
+    real mirrored = real(0.0);
+    if (normal_maps) {
+        mirrored =
+            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).y;
+    }
+    Departure out_of = depart(a, m, how.followed, how.estimated, view, u, choice, mirrored);
+    if (has(MATERIAL_ALPHA)) {
+        out_of.flux = out_of.flux / how.scattered;
+        out_of.sampled.probability *= how.scattered;
+        out_of.sampled.pdf *= how.scattered;
+    }
+    bool stays_followed = how.only_followed && (out_of.sampled.lobe & how.followed) != 0u;
+    uint for_view = (how.state >> photon_view_shift) & photon_view_mask;
+    uint leaves =
+        stays_followed ? 0u : (how.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
+    real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
+    if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
+        ledgers[slot].absorbed += units_of(a.flux);
+        return false;
+    }
+    vec3 flux = out_of.flux / survival;
+    // Roulette moves flux from one photon to another, so absorption is a difference and may be
+    // negative.
+    ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
+    if (footprints) {
+        scatter_differential(d, a, out_of, survival);
+        differentials[slot] = differential_record(d);
+    }
+    uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
+    uint cone = how.cone;
+    if (mip_maps) {
+        cone = pack_cone(cone_width(cone, how.distance),
+                         scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
+                                          out_of.sampled.pdf));
+    }
+    continue_path(slot, a, out_of.direction, flux, cone,
+                  medium_after(a.medium, triangles[how.triangle].w, m, a.surface.front,
+                               out_of.sampled.wi.z < real(0.0)),
+                  stays_followed ? how.state & ~photon_depth_mask
+                                 : next_for_view << photon_view_shift);
+    return true;
+}
+
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_active]) {
@@ -320,19 +428,17 @@ FN void main() {
         return;
     }
 
-    uint cone = rays[slot].cone;
-    MaterialRecord m = material_at(triangles[hit.triangle], hit, cone, direction);
+    Scattering how;
+    how.state = path.state;
+    how.triangle = hit.triangle;
+    how.distance = hit.t;
+    how.cone = rays[slot].cone;
+    MaterialRecord m = material_at(triangles[hit.triangle], hit, how.cone, direction);
     Arrival a = arrive(hit, direction, m, path);
     absorb(slot, a, m);
-    real channels = real(1.0);
-    if (has(MATERIAL_DISPERSION)) {
-        vec3 flux = a.flux;
-        vec4 w = random4(batch.seed ^ 0xd15be5u, batch.first + slot, a.depth, hit.triangle);
-        channels = disperse(m, a.flux, w.x);
-        ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
-    }
-    uint followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
-    uint estimated = bsdf_lobes(m) & ~followed;
+    real channels = disperse_photon(slot, a, m, hit.triangle);
+    how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
+    how.estimated = bsdf_lobes(m) & ~how.followed;
     PhotonDifferential d;
     if (footprints) {
         d = load_differential(differentials[slot]);
@@ -341,19 +447,14 @@ FN void main() {
             roulette_differential(d, real(1.0) / channels);
         }
     }
-    bool only_followed = (path.state & photon_followed) != 0u;
-    bool may_be_estimated = estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
+    how.only_followed = (path.state & photon_followed) != 0u;
+    bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
     if (stores && may_be_estimated && a.surface.above_horizon) {
-        store_photon(store, a, followed_paths && only_followed && a.depth > 0u);
-        if (footprints) {
-            offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
-        }
-        if (keeps_lights) {
-            photon_lights[store] = path_lights[slot];
-        }
+        store_with_details(slot, store, a, followed_paths && how.only_followed && a.depth > 0u, d);
     }
-    real scattered = real(1.0); // share of the photons that do not go straight on
+    uint vertex = (keeps & kept_path) != 0u ? add_vertex(slot, store, a) : 0u;
+    how.scattered = real(1.0);
     if (has(MATERIAL_ALPHA)) {
         // A ray meets a triangle once, so the triangle tells one pass from another.
         vec4 w = random4(batch.seed ^ 0x7a55e5u, batch.first + slot, a.depth, hit.triangle);
@@ -362,61 +463,16 @@ FN void main() {
             pass_surface(i, slot, a, pass_share(m), passes, w.y);
             return;
         }
-        scattered = real(1.0) - passes;
+        how.scattered = real(1.0) - passes;
     }
     if (a.depth >= batch.bounces) {
         ledgers[slot].cut += units_of(a.flux);
         return;
     }
-
-    vec4 u = scattering_random(slot, a.depth);
-    Cone view;
-    view.height = real(0.0);
-    real choice = real(1.0);
-    if (aims_at_view) {
-        view = view_from(a);
-        choice =
-            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).x;
+    if (scatter_photon(slot, a, m, how, d)) {
+        if ((keeps & kept_path) != 0u) {
+            path_vertices[slot] = vertex;
+        }
+        alive[i] = 1u;
     }
-    bool is_elsewhere = view.height > real(0.0);
-    real mirrored = real(0.0);
-    if (normal_maps) {
-        mirrored =
-            photon_random4(batch.seed, batch.first + slot, dimension_of_aims + a.depth, numbers).y;
-    }
-    Departure out_of = depart(a, m, followed, estimated, view, u, choice, mirrored);
-    if (has(MATERIAL_ALPHA)) {
-        out_of.flux = out_of.flux / scattered;
-        out_of.sampled.probability *= scattered;
-        out_of.sampled.pdf *= scattered;
-    }
-    bool stays_followed = only_followed && (out_of.sampled.lobe & followed) != 0u;
-    uint for_view = (path.state >> photon_view_shift) & photon_view_mask;
-    uint leaves =
-        stays_followed ? 0u : (path.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
-    real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
-    if (!(max_component(a.flux) > real(0.0)) || !(u.w < survival)) {
-        ledgers[slot].absorbed += units_of(a.flux);
-        return;
-    }
-    vec3 flux = out_of.flux / survival;
-    // Roulette moves flux from one photon to another, so absorption is a difference and may be
-    // negative.
-    ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
-    if (footprints) {
-        scatter_differential(d, a, out_of, survival);
-        differentials[slot] = differential_record(d);
-    }
-    uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
-    if (mip_maps) {
-        cone = pack_cone(cone_width(cone, hit.t),
-                         scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
-                                          out_of.sampled.pdf));
-    }
-    continue_path(slot, a, out_of.direction, flux, cone,
-                  medium_after(a.medium, triangles[hit.triangle].w, m, a.surface.front,
-                               out_of.sampled.wi.z < real(0.0)),
-                  stays_followed ? path.state & ~photon_depth_mask
-                                 : next_for_view << photon_view_shift);
-    alive[i] = 1u;
 }

@@ -17,5 +17,12 @@ FN void main() {
     if (keeps_lights) {
         stored_lights[place] = photon_lights[slot];
     }
+    if (keeps_paths) {
+        QueuePathEnd end = QueuePathEnd(params.first_vertex + slot, 0u);
+        if (!new_paths) {
+            end = ends[slot];
+        }
+        stored_ends[place] = end;
+    }
     grow(cells[i], vec3(p.x, p.y, p.z), vec3(p.x, p.y, p.z));
 }
