@@ -2,6 +2,7 @@
 #include "methods/plan_render.hpp"
 #include "rendering.hpp"
 #include "scene/studio.hpp"
+#include "shared/bsdf.h"
 #include "shared/geometry_records.h"
 #include "shared/query_record.h"
 #include "support/recording_device.hpp"
@@ -180,6 +181,29 @@ TEST_P(Specialisation, SlowChangesNoBitOfAnyScene) {
         }
     }
     EXPECT_GT(seen.size(), 8u);
+}
+
+// Kernels have modules without coats, sheen, films, dispersion and rough glass (docs/device.md).
+TEST_P(Specialisation, RunsLeanModulesUnlessAMaterialNeedsMore) {
+    const auto lean_modules = [this](const Scene& scene) {
+        std::pair<int, int> count; // lean, whole
+        for (const auto& [kernel, constants] : recorded(scene, false)->variants()) {
+            if (!kernel->lean.spirv.empty()) {
+                EXPECT_EQ(kernel->lean.bits, MATERIAL_LEAN) << kernel->name;
+                EXPECT_LT(kernel->lean.spirv.size(), kernel->spirv.size()) << kernel->name;
+                const bool is_lean =
+                    module_for(*kernel, constants).data() == kernel->lean.spirv.data();
+                ++(is_lean ? count.first : count.second);
+            }
+        }
+        return count;
+    };
+    const auto [lean, whole] = lean_modules(with_glass_sphere(diffuse_box()));
+    EXPECT_GE(lean, has_map(GetParam()) ? 3 : 1);
+    EXPECT_EQ(whole, 0);
+    const auto [mixed_lean, mixed_whole] = lean_modules(mixed_scene());
+    EXPECT_EQ(mixed_lean, 0);
+    EXPECT_EQ(mixed_whole, lean);
 }
 
 TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {

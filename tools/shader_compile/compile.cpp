@@ -92,9 +92,8 @@ Compiled compile_text(const std::string& path, const std::string& text,
     const int length = static_cast<int>(text.size());
     const char* const name = path.c_str();
     shader.setStringsWithLengthsAndNames(&string, &length, &name, 1);
-    const std::string preamble =
-        fmt::format("#extension GL_GOOGLE_include_directive : require\n{}",
-                    lean ? fmt::format("#define {}\n", lean_macro) : "");
+    const std::string preamble = fmt::format("#extension GL_GOOGLE_include_directive : require\n{}",
+                                             lean ? fmt::format("#define {}\n", lean_macro) : "");
     shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
