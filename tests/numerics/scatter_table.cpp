@@ -288,7 +288,7 @@ std::vector<Function> bsdfs() {
                  for (std::size_t i = 3; i < 5; ++i) {
                      d.x[i] /= index > 1 ? index : 1; // near the refracted direction
                  }
-                 d.x[5] = -std::sqrt(1 - d.x[3] * d.x[3] - d.x[4] * d.x[4]);
+                 d.x[5] = -std::sqrt(std::max(1 - d.x[3] * d.x[3] - d.x[4] * d.x[4], 0.0f));
              }
              d.put(static_cast<float>(d.bits() % 2));
          },

@@ -37,7 +37,7 @@ glm::dvec3 film_by_the_extension(const glm::dvec3& f0, double index, double nano
     const double inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
     const double r12 = schlick(std::pow((index - 1) / (index + 1), 2), cosine);
     const double t121 = 1 - r12;
-    glm::dvec3 r23, shift;
+    glm::dvec3 r23(0), shift(0);
     for (int i = 0; i < 3; ++i) {
         const double root = std::sqrt(std::min(f0[i], 0.9999));
         const double base = (1 + root) / (1 - root);
