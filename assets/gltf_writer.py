@@ -155,12 +155,18 @@ def metal(color, roughness):
     return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 1, "roughnessFactor": roughness}}
 
 
-def glass(thickness, ior=1.5):
+def glass(thickness, ior=1.5, roughness=0):
     """A solid that refracts. The thickness is the extent of the object; its surface is traced all the same."""
-    return {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0},
+    return {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": roughness},
             "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
                            "KHR_materials_volume": {"thicknessFactor": thickness},
                            "KHR_materials_ior": {"ior": ior}}}
+
+
+def frosted_pane(color, roughness):
+    """A thin wall."""
+    return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 0, "roughnessFactor": roughness},
+            "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
 
 
 def phong(diffuse, specular, exponent):

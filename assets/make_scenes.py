@@ -10,7 +10,7 @@ import math
 import pathlib
 import sys
 
-from gltf_writer import (Mesh, Scene, add, blended, box, cross, emitter, glass, lambertian, metal, phong, quad,
+from gltf_writer import (Mesh, Scene, add, blended, box, cross, emitter, frosted_pane, glass, lambertian, metal, phong, quad,
                          revolved, rotation_towards, scaled, sphere, textured_quad, unit)
 
 WHITE, RED, GREEN, WOOD = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091), (0.63, 0.3, 0.1)
@@ -82,6 +82,15 @@ def cornell_glass():
     scene = cornell(light=True)
     scene.add("tall box", tall_box(), lambertian(WHITE))
     scene.add("glass sphere", resting_sphere(0.4, 0.35, 0.3), glass(0.8))
+    return scene
+
+
+def frosted_glass():
+    scene = cornell(light=True)
+    scene.add("tall box", tall_box(), lambertian(WHITE))
+    scene.add("frosted sphere", resting_sphere(0.4, 0.35, 0.3), glass(0.8, roughness=0.4))
+    scene.add("frosted pane", quad((-0.75, 0.05, 0.75), (-0.15, 0.05, 0.55), (-0.15, 1.1, 0.55), (-0.75, 1.1, 0.75)),
+              frosted_pane((0.6, 0.85, 0.95), 0.35))
     return scene
 
 
@@ -515,7 +524,7 @@ def dynamic_camera():
     return scene
 
 
-BINARY = (cornell_point, cornell_area, cornell_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
+BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
           inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
           glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls,
           textures, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,

@@ -66,6 +66,14 @@ struct KernelConstant {
     std::uint32_t id;
 };
 
+/// A module with less code, for those values of a specialization constant that have no bits but
+/// `bits`. Drivers take long to compile what they then leave out.
+struct LeanModule {
+    std::span<const std::uint32_t> spirv; ///< empty: the kernel has none
+    std::uint32_t constant = 0;           ///< index among the kernel's constants
+    std::uint32_t bits = 0;
+};
+
 struct TwinArguments;
 
 /// Runs the invocations i of a kernel's twin with first <= i < end on the host.
@@ -81,6 +89,7 @@ struct KernelInfo {
     const char* name;
     const char* stage; ///< the name of its twin: that of `x_texels` is `x`; else the kernel's name
     std::span<const std::uint32_t> spirv;
+    LeanModule lean = {};
     std::span<const KernelBinding> bindings;   ///< in the order of the binding numbers
     std::span<const KernelConstant> constants; ///< in the order of their ids
     std::uint32_t push_bytes;                  ///< size of the push constants; 0: none
@@ -89,6 +98,14 @@ struct KernelInfo {
     RunOnHost* host = nullptr; ///< its twin on the host; null: only Vulkan runs the kernel
     LaunchOnCuda* cuda = nullptr;
 };
+
+/// The SPIR-V that a device compiles for these values of the specialization constants.
+inline std::span<const std::uint32_t> module_for(const KernelInfo& kernel,
+                                                 std::span<const std::uint32_t> constants) {
+    const LeanModule& lean = kernel.lean;
+    const bool is_lean = !lean.spirv.empty() && (constants[lean.constant] & ~lean.bits) == 0;
+    return is_lean ? lean.spirv : kernel.spirv;
+}
 
 inline constexpr std::size_t max_bindings = 24;
 inline constexpr std::size_t max_push_bytes = 128;

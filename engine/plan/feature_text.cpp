@@ -31,8 +31,20 @@ FeatureText text_of(Feature feature) {
         return {"transmission", "transmission", ""};
     case Feature::refraction:
         return {"refraction", "refraction", ""};
+    case Feature::rough_glass:
+        return {"rough_glass", "rough transmission", ""};
     case Feature::absorption:
         return {"absorption", "absorption inside solids", ""};
+    case Feature::coat:
+        return {"coat", "coats", ""};
+    case Feature::rough_coat:
+        return {"rough_coat", "rough coats", ""};
+    case Feature::sheen:
+        return {"sheen", "sheen", ""};
+    case Feature::iridescence:
+        return {"iridescence", "thin films", ""};
+    case Feature::dispersion:
+        return {"dispersion", "dispersion", ""};
     case Feature::unlit:
         return {"unlit", "unlit surfaces", ""};
     case Feature::alpha:

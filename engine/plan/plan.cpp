@@ -28,7 +28,13 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::mirror, LOBE_MIRROR},
                                  {Feature::transmission, LOBE_TRANSMIT},
                                  {Feature::refraction, LOBE_TRANSMIT | MATERIAL_SOLID},
+                                 {Feature::rough_glass, LOBE_CLEAR},
                                  {Feature::absorption, MATERIAL_ABSORPTION},
+                                 {Feature::coat, MATERIAL_COAT},
+                                 {Feature::rough_coat, LOBE_COAT | MATERIAL_COAT},
+                                 {Feature::sheen, MATERIAL_SHEEN},
+                                 {Feature::iridescence, MATERIAL_FILM},
+                                 {Feature::dispersion, MATERIAL_DISPERSION},
                                  {Feature::unlit, MATERIAL_UNLIT},
                                  {Feature::alpha, MATERIAL_ALPHA}};
 
@@ -74,8 +80,15 @@ bool add_material(Requirements& requirements, const Material& material, const st
     requirements.add(Feature::mirror, by, (lobes & LOBE_MIRROR) != 0);
     requirements.add(Feature::transmission, by, (lobes & LOBE_TRANSMIT) != 0);
     requirements.add(Feature::refraction, by, is_solid(record));
+    requirements.add(Feature::rough_glass, by, (lobes & LOBE_CLEAR) != 0);
     requirements.add(Feature::absorption, by,
                      is_solid(record) && material.absorption != glm::vec3(0));
+    requirements.add(Feature::coat, by, record.coat > 0 && lobes != 0);
+    requirements.add(Feature::rough_coat, by, (lobes & LOBE_COAT) != 0);
+    requirements.add(Feature::sheen, by, has_sheen(record));
+    requirements.add(Feature::iridescence, by,
+                     record.film > 0 && (lobes & (LOBE_GLOSSY | LOBE_MIRROR | LOBE_CLEAR)) != 0);
+    requirements.add(Feature::dispersion, by, record.dispersion > 0 && is_solid(record));
     requirements.add(Feature::unlit, by, material.unlit);
     requirements.add(Feature::alpha, by, record.coverage < 1);
     requirements.add(Feature::emissive_triangles, by, emits(material));
@@ -216,7 +229,8 @@ Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& req
     const std::string light = first_light(found);
     const auto has = [&](Feature feature) { return !found.by(feature).empty(); };
     // Delta lobes cannot use light samples.
-    const bool rough = has(Feature::diffuse) || has(Feature::ggx) || has(Feature::phong);
+    const bool rough = has(Feature::diffuse) || has(Feature::ggx) || has(Feature::phong) ||
+                       has(Feature::rough_glass) || has(Feature::rough_coat);
     found.add(Feature::direct_light, light, !light.empty() && rough);
     found.add(Feature::photon_map, "the method");
     found.add(Feature::differentials, "the method");

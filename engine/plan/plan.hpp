@@ -18,8 +18,14 @@ enum class Feature : std::uint8_t {
     phong, ///< glossy reflection by modified Phong
     mirror,
     transmission,
-    refraction,     ///< at the interface of a solid
-    absorption,     ///< inside a solid
+    refraction,  ///< at the interface of a solid
+    rough_glass, ///< transmission and refraction by rough surfaces
+    absorption,  ///< inside a solid
+    coat,        ///< of varnish
+    rough_coat,
+    sheen,
+    iridescence,    ///< thin films
+    dispersion,     ///< of colours by a solid
     unlit,          ///< surfaces that show their base colour
     alpha,          ///< some surface lets light pass
     smooth_normals, ///< interpolated from the vertices' normals

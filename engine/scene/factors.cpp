@@ -10,6 +10,10 @@ namespace argand {
 namespace {
 
 constexpr double largest_float = std::numeric_limits<float>::max();
+// Films of more than a tenth of a millimetre interfere no more. [micrometres]
+constexpr double largest_film = 100;
+// Beyond it, red has an index of 1.
+constexpr double largest_dispersion = 40;
 constexpr double smallest_float = std::numeric_limits<float>::min(); // above 0
 
 float clamped(double value, double high) {
@@ -76,6 +80,14 @@ void set_factors(const MaterialFactors& factors, Material& material) {
         factors.ior == 0 ? 0.0f : static_cast<float>(std::clamp(factors.ior, 1.0, largest_float));
     material.thickness = clamped(factors.thickness, largest_float);
     material.absorption = absorption_of(factors);
+    material.coat = clamped(factors.coat, 1);
+    material.coat_roughness = clamped(factors.coat_roughness, 1);
+    material.dispersion = clamped(factors.dispersion, largest_dispersion);
+    material.film = clamped(factors.iridescence, 1);
+    material.film_ior = static_cast<float>(std::clamp(factors.iridescence_ior, 1.0, largest_float));
+    material.film_thickness = clamped(factors.iridescence_thickness * 1e-3, largest_film);
+    material.sheen_color = clamped(factors.sheen_color, 1);
+    material.sheen_roughness = clamped(factors.sheen_roughness, 1);
     material.unlit = factors.unlit;
     if (material.unlit) {
         material.emission = glm::vec3(0); // only the base colour counts

@@ -26,6 +26,11 @@ struct MaterialFactors {
     double transmission = 0, ior = 1.5, thickness = 0;
     glm::dvec3 attenuation_color{1};
     double attenuation_distance = std::numeric_limits<double>::infinity();
+    double coat = 0, coat_roughness = 0; ///< KHR_materials_clearcoat
+    double dispersion = 0;
+    double iridescence = 0, iridescence_ior = 1.3, iridescence_thickness = 400; ///< [nanometres]
+    glm::dvec3 sheen_color{0};
+    double sheen_roughness = 0;
     bool unlit = false;
 };
 

@@ -11,12 +11,23 @@ bool supports_extension(std::string_view name) {
     if (missing_package(name)) {
         return false;
     }
-    constexpr std::array<std::string_view, 13> supported{
-        meshopt_extension,       "EXT_mesh_gpu_instancing", draco_extension,
-        "KHR_animation_pointer", "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-        "KHR_materials_ior",     "KHR_materials_specular",  "KHR_materials_transmission",
-        "KHR_materials_unlit",   "KHR_materials_volume",    "KHR_mesh_quantization",
-        "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 17> supported{meshopt_extension,
+                                                         "EXT_mesh_gpu_instancing",
+                                                         draco_extension,
+                                                         "KHR_animation_pointer",
+                                                         "KHR_lights_punctual",
+                                                         "KHR_materials_emissive_strength",
+                                                         "KHR_materials_clearcoat",
+                                                         "KHR_materials_dispersion",
+                                                         "KHR_materials_iridescence",
+                                                         "KHR_materials_ior",
+                                                         "KHR_materials_sheen",
+                                                         "KHR_materials_specular",
+                                                         "KHR_materials_transmission",
+                                                         "KHR_materials_unlit",
+                                                         "KHR_materials_volume",
+                                                         "KHR_mesh_quantization",
+                                                         "KHR_texture_transform"};
     return std::find(supported.begin(), supported.end(), name) != supported.end();
 }
 

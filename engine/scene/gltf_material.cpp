@@ -58,10 +58,21 @@ void list_textures(const json& value, std::set<std::string>& keys) {
 
 /// Textures that are read, or that rendering does not need.
 bool is_read(const std::string& texture) {
-    constexpr std::array<std::string_view, 9> known{
-        "baseColorTexture",     "metallicRoughnessTexture", "emissiveTexture",
-        "normalTexture",        "occlusionTexture",         "specularTexture",
-        "specularColorTexture", "transmissionTexture",      "thicknessTexture"};
+    constexpr std::array<std::string_view, 15> known{"baseColorTexture",
+                                                     "metallicRoughnessTexture",
+                                                     "emissiveTexture",
+                                                     "normalTexture",
+                                                     "occlusionTexture",
+                                                     "specularTexture",
+                                                     "specularColorTexture",
+                                                     "transmissionTexture",
+                                                     "thicknessTexture",
+                                                     "clearcoatTexture",
+                                                     "clearcoatRoughnessTexture",
+                                                     "iridescenceTexture",
+                                                     "iridescenceThicknessTexture",
+                                                     "sheenColorTexture",
+                                                     "sheenRoughnessTexture"};
     return std::find(known.begin(), known.end(), texture) != known.end();
 }
 
@@ -126,6 +137,24 @@ void read_extensions(const FactorReader& read, const json* object, MaterialFacto
                              factors.attenuation_distance);
         }
     }
+    const json* coat = find_extension(object, "KHR_materials_clearcoat");
+    factors.coat = read.number(coat, "clearcoatFactor", 0, 1);
+    factors.coat_roughness = read.number(coat, "clearcoatRoughnessFactor", 0, 1);
+    factors.dispersion =
+        read.number(find_extension(object, "KHR_materials_dispersion"), "dispersion", 0, unlimited);
+    const json* sheen = find_extension(object, "KHR_materials_sheen");
+    factors.sheen_color =
+        read.in_range(vector_of(read.source, sheen, "sheenColorFactor", glm::dvec3(0), read.what),
+                      1, "sheenColorFactor");
+    factors.sheen_roughness = read.number(sheen, "sheenRoughnessFactor", 0, 1);
+    const json* film = find_extension(object, "KHR_materials_iridescence");
+    factors.iridescence = read.number(film, "iridescenceFactor", 0, 1);
+    factors.iridescence_ior =
+        read.in_range(number_of(read.source, film, "iridescenceIor", 1.3, read.what), 1, unlimited,
+                      "iridescenceIor");
+    // Without a texture the film has its greatest thickness everywhere.
+    factors.iridescence_thickness =
+        read.number(film, "iridescenceThicknessMaximum", 400, unlimited);
     factors.unlit = find_extension(object, "KHR_materials_unlit") != nullptr;
     factors.ior =
         number_of(read.source, find_extension(object, "KHR_materials_ior"), "ior", 1.5, read.what);
@@ -133,15 +162,6 @@ void read_extensions(const FactorReader& read, const json* object, MaterialFacto
     if (factors.ior != 0 && !(factors.ior >= 1 && factors.ior <= unlimited)) {
         read.source.fail("{} has an index of refraction of {}; it must be 0 or at least 1",
                          read.what, factors.ior);
-    }
-}
-
-/// Notes what the material, now or as its keys move it, asks for in vain.
-void note_unsupported(const MaterialFactors& factors, const MaterialKeys& keys, Scene& scene) {
-    if ((factors.transmission > 0 || keys.transmission) &&
-        (factors.metallic < 1 || keys.metallic) && (factors.roughness > 0 || keys.roughness)) {
-        add_note(scene,
-                 "rough transmission is not supported yet: such surfaces are rendered smooth");
     }
 }
 
@@ -179,7 +199,7 @@ void read_phong(const FactorReader& read, const json* object, Material& material
 
 /// What textures may change of a material, now or at another time.
 struct TextureNeeds {
-    bool emission, specular, transmission, thickness;
+    bool emission, specular, transmission, thickness, coat, film, sheen;
 };
 
 TextureNeeds needs_of(const MaterialFactors& factors, const MaterialKeys& keys) {
@@ -187,7 +207,10 @@ TextureNeeds needs_of(const MaterialFactors& factors, const MaterialKeys& keys) 
                         keys.emissive || keys.emissive_strength,
             .specular = factors.specular > 0 || keys.specular,
             .transmission = factors.transmission > 0 || keys.transmission,
-            .thickness = factors.thickness > 0 || keys.thickness};
+            .thickness = factors.thickness > 0 || keys.thickness,
+            .coat = factors.coat > 0 || keys.coat,
+            .film = factors.iridescence > 0 || keys.iridescence,
+            .sheen = factors.sheen_color != glm::dvec3(0) || keys.sheen_color};
 }
 
 /// Adds a texture, or if it changes nothing only checks it.
@@ -230,6 +253,25 @@ void read_textures(TextureReader& textures, const FactorReader& read, const json
         TextureUse::transmission, transmits, material_other_textures);
     add(find_extension(object, "KHR_materials_volume"), "thicknessTexture", TextureUse::thickness,
         transmits && needs.thickness, material_other_textures);
+    const json* coat = find_extension(object, "KHR_materials_clearcoat");
+    add(coat, "clearcoatTexture", TextureUse::coat, has_metal && needs.coat,
+        material_other_textures);
+    add(coat, "clearcoatRoughnessTexture", TextureUse::coat_roughness, has_metal && needs.coat,
+        material_other_textures);
+    const json* film = find_extension(object, "KHR_materials_iridescence");
+    add(film, "iridescenceTexture", TextureUse::film, has_metal && needs.film,
+        material_other_textures);
+    const json* sheen = find_extension(object, "KHR_materials_sheen");
+    add(sheen, "sheenColorTexture", TextureUse::sheen_color, has_metal && needs.sheen,
+        material_other_textures);
+    add(sheen, "sheenRoughnessTexture", TextureUse::sheen_roughness, has_metal && needs.sheen,
+        material_other_textures);
+    const double most = number_of(read.source, film, "iridescenceThicknessMaximum", 400, read.what);
+    const double least =
+        number_of(read.source, film, "iridescenceThicknessMinimum", 100, read.what);
+    add(film, "iridescenceThicknessTexture", TextureUse::film_thickness, has_metal && needs.film,
+        material_other_textures,
+        most > 0 ? static_cast<float>(std::clamp(least / most, 0.0, 1000.0)) : 1.0f);
     textures.check(object, "occlusionTexture", read.what); // its effect is that of the light paths
     if (material.texture_bits == 0) {
         material.first_texture = 0;
@@ -268,7 +310,6 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         read_core(read, from, factors);
         read_emission(read, from, object, factors);
         read_extensions(read, object, factors);
-        note_unsupported(factors, keys[i], scene);
         Material material;
         material.name = one_line(from.name);
         material.double_sided = from.doubleSided;

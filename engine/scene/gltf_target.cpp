@@ -49,7 +49,21 @@ constexpr Property<MaterialKeys> material_properties[] = {
     {"extensions/KHR_materials_volume/attenuationColor", &MaterialKeys::attenuation_color, 3,
      "attenuation colour"},
     {"extensions/KHR_materials_volume/attenuationDistance", &MaterialKeys::attenuation_distance, 1,
-     "attenuation distance"}};
+     "attenuation distance"},
+    {"extensions/KHR_materials_clearcoat/clearcoatFactor", &MaterialKeys::coat, 1, "coat"},
+    {"extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", &MaterialKeys::coat_roughness,
+     1, "coat's roughness"},
+    {"extensions/KHR_materials_dispersion/dispersion", &MaterialKeys::dispersion, 1, "dispersion"},
+    {"extensions/KHR_materials_sheen/sheenColorFactor", &MaterialKeys::sheen_color, 3,
+     "sheen's colour"},
+    {"extensions/KHR_materials_sheen/sheenRoughnessFactor", &MaterialKeys::sheen_roughness, 1,
+     "sheen's roughness"},
+    {"extensions/KHR_materials_iridescence/iridescenceFactor", &MaterialKeys::iridescence, 1,
+     "iridescence"},
+    {"extensions/KHR_materials_iridescence/iridescenceIor", &MaterialKeys::iridescence_ior, 1,
+     "film's index of refraction"},
+    {"extensions/KHR_materials_iridescence/iridescenceThicknessMaximum",
+     &MaterialKeys::iridescence_thickness, 1, "film's thickness"}};
 
 /// A pointer "LIST/INDEX/PROPERTY".
 struct Pointed {

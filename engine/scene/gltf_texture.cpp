@@ -232,7 +232,7 @@ bool TextureReader::add(const json* owner, const char* key, TextureUse use, cons
     texture->use = use;
     texture->scale = scale;
     texture->srgb = use == TextureUse::base_color || use == TextureUse::emissive ||
-                    use == TextureUse::specular_color;
+                    use == TextureUse::specular_color || use == TextureUse::sheen_color;
     scene_.textures.push_back(*texture);
     scene_.uv_sets = std::max(scene_.uv_sets, texture->uv_set + 1);
     return true;

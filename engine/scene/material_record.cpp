@@ -28,7 +28,19 @@ MaterialRecord material_record(const Material& m) {
                           m.absorption.r,
                           m.absorption.g,
                           m.absorption.b,
-                          m.unlit ? 1u : 0u};
+                          m.unlit ? 1u : 0u,
+                          m.coat,
+                          m.coat_roughness,
+                          m.dispersion,
+                          m.film,
+                          m.film_ior,
+                          m.film_thickness,
+                          m.sheen_roughness,
+                          0,
+                          m.sheen_color.r,
+                          m.sheen_color.g,
+                          m.sheen_color.b,
+                          0};
     if (m.alpha_varies && m.alpha_mode == AlphaMode::blend) {
         record.textures |= material_alpha_blend;
     } else if (m.alpha_varies && m.alpha_mode == AlphaMode::mask && m.coverage > 0) {
@@ -40,6 +52,10 @@ MaterialRecord material_record(const Material& m) {
         record.metallic = 0;
         record.transmission = 0;
         record.thickness = 0;
+        record.coat = 0;
+        record.film = 0;
+        record.sheen_r = record.sheen_g = record.sheen_b = 0;
+        record.dispersion = 0;
         record.specular_r = specular.r;
         record.specular_g = specular.g;
         record.specular_b = specular.b;

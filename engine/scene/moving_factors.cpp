@@ -62,6 +62,14 @@ MaterialFactors factors_at(const MovingMaterial& material, double seconds) {
     move_number(keys.thickness, seconds, factors.thickness);
     move_vector(keys.attenuation_color, seconds, factors.attenuation_color);
     move_number(keys.attenuation_distance, seconds, factors.attenuation_distance);
+    move_number(keys.coat, seconds, factors.coat);
+    move_number(keys.coat_roughness, seconds, factors.coat_roughness);
+    move_number(keys.dispersion, seconds, factors.dispersion);
+    move_vector(keys.sheen_color, seconds, factors.sheen_color);
+    move_number(keys.sheen_roughness, seconds, factors.sheen_roughness);
+    move_number(keys.iridescence, seconds, factors.iridescence);
+    move_number(keys.iridescence_ior, seconds, factors.iridescence_ior);
+    move_number(keys.iridescence_thickness, seconds, factors.iridescence_thickness);
     return factors;
 }
 
@@ -89,10 +97,27 @@ const MovingMaterial* moving_material(const Motion& motion, std::size_t index) {
 
 std::vector<double> key_times(const MaterialKeys& keys) {
     std::vector<double> times;
-    for (const OptionalKeys* property :
-         {&keys.base_color, &keys.metallic, &keys.roughness, &keys.alpha_cutoff, &keys.emissive,
-          &keys.emissive_strength, &keys.specular, &keys.specular_color, &keys.transmission,
-          &keys.ior, &keys.thickness, &keys.attenuation_color, &keys.attenuation_distance}) {
+    for (const OptionalKeys* property : {&keys.base_color,
+                                         &keys.metallic,
+                                         &keys.roughness,
+                                         &keys.alpha_cutoff,
+                                         &keys.emissive,
+                                         &keys.emissive_strength,
+                                         &keys.specular,
+                                         &keys.specular_color,
+                                         &keys.transmission,
+                                         &keys.ior,
+                                         &keys.thickness,
+                                         &keys.attenuation_color,
+                                         &keys.attenuation_distance,
+                                         &keys.coat,
+                                         &keys.coat_roughness,
+                                         &keys.dispersion,
+                                         &keys.sheen_color,
+                                         &keys.sheen_roughness,
+                                         &keys.iridescence,
+                                         &keys.iridescence_ior,
+                                         &keys.iridescence_thickness}) {
         if (*property) {
             times.insert(times.end(), (*property)->times.begin(), (*property)->times.end());
         }

@@ -38,9 +38,18 @@ struct Material {
     float ior = 1.5f;        ///< KHR_materials_ior
     float thickness = 0;     ///< KHR_materials_volume; 0: thin wall, else a refracting solid
     glm::vec3 absorption{0}; ///< KHR_materials_volume: inside a solid [1/length]
-    bool unlit = false;      ///< KHR_materials_unlit: shows its base colour, and scatters nothing
+    float coat = 0;          ///< KHR_materials_clearcoat: share of the surface
+    float coat_roughness = 0;
+    float dispersion = 0; ///< KHR_materials_dispersion: of a solid, 20 over Abbe's number
+    float film = 0;       ///< KHR_materials_iridescence: share of the surface with a thin film
+    float film_ior = 1.3f;
+    float film_thickness = 0.4f; ///< [micrometres]
+    glm::vec3 sheen_color{0};    ///< KHR_materials_sheen
+    float sheen_roughness = 0;
+    bool unlit = false; ///< KHR_materials_unlit: shows its base colour, and scatters nothing
     bool double_sided = false;
-    std::optional<Phong> phong; ///< if present, replaces metal, dielectric and transmission
+    /// If present, replaces metal, dielectric, transmission, coat, film and sheen.
+    std::optional<Phong> phong;
     /// Which textures it has: material_*_texture(s) of shared/texture_record.h. They follow one
     /// another in Scene::textures, in the order of these bits; the others are the last.
     std::uint32_t texture_bits = 0;

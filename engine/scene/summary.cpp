@@ -36,6 +36,14 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"ior", material.ior},
             {"thickness", material.thickness},
             {"absorption", numbers(material.absorption)},
+            {"coat", material.coat},
+            {"coat_roughness", material.coat_roughness},
+            {"dispersion", material.dispersion},
+            {"sheen_color", numbers(material.sheen_color)},
+            {"sheen_roughness", material.sheen_roughness},
+            {"iridescence", material.film},
+            {"film_ior", material.film_ior},
+            {"film_thickness", material.film_thickness},
             {"alpha", material.coverage},
             {"phong", material.phong ? json{{"specular", numbers(material.phong->specular)},
                                             {"exponent", material.phong->exponent}}
@@ -62,6 +70,18 @@ const char* name_of(TextureUse use) {
         return "transmission";
     case TextureUse::thickness:
         return "thickness";
+    case TextureUse::coat:
+        return "coat";
+    case TextureUse::coat_roughness:
+        return "coat_roughness";
+    case TextureUse::sheen_color:
+        return "sheen_color";
+    case TextureUse::sheen_roughness:
+        return "sheen_roughness";
+    case TextureUse::film:
+        return "film";
+    case TextureUse::film_thickness:
+        return "film_thickness";
     }
     return "base_color";
 }
@@ -169,6 +189,28 @@ std::string quoted_name(const json& object) {
     return name.empty() ? "(no name)" : name;
 }
 
+/// What lies over metal and dielectric, and how a solid disperses.
+std::string layers_text(const json& material) {
+    const auto value = [&](const char* key) { return material[key].get<double>(); };
+    std::string text;
+    if (value("dispersion") > 0 && value("transmission") > 0 && value("thickness") > 0) {
+        text += fmt::format(", dispersion {:.4g}", value("dispersion"));
+    }
+    if (value("iridescence") > 0) {
+        text += fmt::format(", film {:.4g} of {:.4g} nm with index {:.4g}", value("iridescence"),
+                            1000 * value("film_thickness"), value("film_ior"));
+    }
+    if (material["sheen_color"] != json::array({0.0f, 0.0f, 0.0f})) {
+        text += fmt::format(", sheen {} of roughness {:.4g}", short_text(material["sheen_color"]),
+                            value("sheen_roughness"));
+    }
+    if (value("coat") > 0) {
+        text += fmt::format(", coat {:.4g} of roughness {:.4g}", value("coat"),
+                            value("coat_roughness"));
+    }
+    return text;
+}
+
 std::string material_line(const json& material) {
     std::string line =
         fmt::format("{}: {}, base colour {}", quoted_name(material),
@@ -189,6 +231,9 @@ std::string material_line(const json& material) {
             material["absorption"] != json::array({0.0f, 0.0f, 0.0f})) {
             line += fmt::format(", absorption {} per metre", short_text(material["absorption"]));
         }
+    }
+    if (phong.is_null()) {
+        line += layers_text(material);
     }
     if (material["alpha"].get<double>() < 1) {
         line += fmt::format(", alpha {:.4g}", material["alpha"].get<double>());

@@ -28,7 +28,13 @@ enum class TextureUse : std::uint8_t {
     specular,
     specular_color,
     transmission,
-    thickness
+    thickness,
+    coat,
+    coat_roughness,
+    film,
+    film_thickness,
+    sheen_color,
+    sheen_roughness
 };
 
 /// How a material uses an image (glTF 2.0, sections 3.8 and 3.9, KHR_texture_transform).
@@ -41,7 +47,8 @@ struct Texture {
     bool srgb = false;           ///< colours are encoded; alpha never is
     glm::mat3x2 transform{1.0f}; ///< of texture coordinates (u, v, 1)
     TextureUse use = TextureUse::base_color;
-    float scale = 1; ///< of the slopes of a normal texture
+    /// Of the slopes of a normal texture; of a film's thickness: its least over its greatest.
+    float scale = 1;
 };
 
 } // namespace argand

@@ -50,6 +50,18 @@ std::vector<Material> at_extreme_texels(const Scene& scene, const Material& mate
         case TextureUse::thickness:
             vary([&](Material& m, bool high) { m.thickness *= texel(high).g; });
             break;
+        case TextureUse::coat:
+            vary([&](Material& m, bool high) { m.coat *= texel(high).r; });
+            break;
+        case TextureUse::coat_roughness:
+            vary([&](Material& m, bool high) { m.coat_roughness *= texel(high).g; });
+            break;
+        case TextureUse::sheen_color:
+            vary([&](Material& m, bool high) { m.sheen_color *= glm::vec3(texel(high)); });
+            break;
+        case TextureUse::film:
+            vary([&](Material& m, bool high) { m.film *= texel(high).r; });
+            break;
         default:
             break;
         }

@@ -50,6 +50,18 @@ std::uint32_t use_flag(TextureUse use) {
         return texture_of_transmission << texture_use_shift;
     case TextureUse::thickness:
         return texture_of_thickness << texture_use_shift;
+    case TextureUse::coat:
+        return texture_of_coat << texture_use_shift;
+    case TextureUse::coat_roughness:
+        return texture_of_coat_roughness << texture_use_shift;
+    case TextureUse::sheen_color:
+        return texture_of_sheen_color << texture_use_shift;
+    case TextureUse::sheen_roughness:
+        return texture_of_sheen_roughness << texture_use_shift;
+    case TextureUse::film:
+        return texture_of_film << texture_use_shift;
+    case TextureUse::film_thickness:
+        return texture_of_film_thickness << texture_use_shift;
     default:
         return 0;
     }

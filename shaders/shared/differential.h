@@ -221,20 +221,56 @@ FN PhotonDifferential reemitted_differential(IN(PhotonDifferential) d, IN(Frame)
     return next;
 }
 
+// How a facet's normal turns with the shading normal.
+FN NormalDifferential turned_with(IN(NormalDifferential) normal, vec3 facet) {
+    NormalDifferential turned;
+    turned.n = facet;
+    real cosine = dot3(normal.n, facet);
+    turned.dn_du = normal.dn_du * cosine - normal.n * dot3(normal.dn_du, facet);
+    turned.dn_dv = normal.dn_dv * cosine - normal.n * dot3(normal.dn_dv, facet);
+    return turned;
+}
+
+// Adds the spread of a rough lobe that sampled the outgoing direction with this solid-angle
+// density.
+FN void add_lobe_spread(INOUT(PhotonDifferential) d, vec3 outgoing, real photons, real density) {
+    real least = SMALLEST_EMISSION_COSINE * INV_PI;
+    add_independent_spread(d, outgoing, photon_spacing(photons, max(density, least)));
+}
+
 // Glossy reflection into a direction sampled with this solid-angle density. The incoming
 // differential is mirrored at the half vector, which turns with the shading normal; the lobe's own
 // spread is independent of it.
 FN void gloss_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing,
                            IN(NormalDifferential) normal, real photons, real density) {
     real size;
-    NormalDifferential half_vector;
-    half_vector.n = unit_and_length(outgoing - incoming, size);
-    real cosine = dot3(normal.n, half_vector.n);
-    half_vector.dn_du = normal.dn_du * cosine - normal.n * dot3(normal.dn_du, half_vector.n);
-    half_vector.dn_dv = normal.dn_dv * cosine - normal.n * dot3(normal.dn_dv, half_vector.n);
-    reflect_differential(d, incoming, half_vector);
-    real least = SMALLEST_EMISSION_COSINE * INV_PI;
-    add_independent_spread(d, outgoing, photon_spacing(photons, max(density, least)));
+    vec3 facet = unit_and_length(outgoing - incoming, size);
+    reflect_differential(d, incoming, turned_with(normal, facet));
+    add_lobe_spread(d, outgoing, photons, density);
+}
+
+// Rough glass, into a direction sampled with this solid-angle density: reflection, refraction at a
+// facet, or what a thin wall lets through, which is a reflection mirrored at the surface. eta:
+// index of the far side over that of the near side, 1 for the other two.
+FN void rough_clear_differential(INOUT(PhotonDifferential) d, vec3 incoming, vec3 outgoing,
+                                 IN(NormalDifferential) normal, real eta, real photons,
+                                 real density) {
+    real size;
+    if (dot3(outgoing, normal.n) > real(0.0)) {
+        gloss_differential(d, incoming, outgoing, normal, photons, density);
+        return;
+    }
+    if (eta == real(1.0)) {
+        vec3 mirrored = outgoing - normal.n * (real(2.0) * dot3(outgoing, normal.n));
+        vec3 facet = unit_and_length(mirrored - incoming, size);
+        reflect_differential(d, incoming, turned_with(normal, facet));
+        reflect_differential(d, mirrored, normal);
+    } else {
+        vec3 facet = unit_and_length(outgoing * eta - incoming, size);
+        facet = dot3(facet, normal.n) < real(0.0) ? -facet : facet;
+        refract_differential(d, incoming, turned_with(normal, facet), eta);
+    }
+    add_lobe_spread(d, outgoing, photons, density);
 }
 
 ARGAND_SHARED_END

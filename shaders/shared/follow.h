@@ -6,14 +6,15 @@
 
 ARGAND_SHARED_BEGIN
 
-// A path continues through *followed* lobes: smooth ones, and glossy ones up to the roughness given
-// by --follow-roughness. Light that arrives at any other lobe is *estimated*, from light samples
-// and photons. docs/path-classes.md lists which method accounts for which paths.
+// A path continues through *followed* lobes: smooth ones, rough glass and coats, and glossy ones up
+// to the roughness given by --follow-roughness. Light that arrives at any other lobe is
+// *estimated*, from light samples and photons. docs/path-classes.md lists which method accounts for
+// which paths.
 FN uint followed_lobes(IN(MaterialRecord) material, real follow_roughness) {
     uint glossy = may_have(material, LOBE_GLOSSY) && material.roughness <= follow_roughness
                       ? LOBE_GLOSSY
                       : 0u;
-    return bsdf_lobes(material) & (LOBES_DELTA | glossy);
+    return bsdf_lobes(material) & (LOBES_DELTA | LOBES_SPREAD | glossy);
 }
 
 FN uint estimated_lobes(IN(MaterialRecord) material, real follow_roughness) {

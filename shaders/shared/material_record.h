@@ -22,6 +22,13 @@ struct MaterialRecord {
     uint textures; // material_* of texture_record.h; 0: it has none
     float32 absorption_r, absorption_g, absorption_b; // inside a solid [1/length]
     uint unlit; // 1: shows its base colour and scatters nothing
+    float32 coat, coat_roughness;
+    float32 dispersion; // of a solid: 20 over Abbe's number
+    // Thin film on metal or dielectric: its share of the surface, index of refraction, thickness
+    // [micrometres].
+    float32 film, film_ior, film_thickness;
+    float32 sheen_roughness, pad0;
+    float32 sheen_r, sheen_g, sheen_b, pad1;
 };
 
 ARGAND_SHARED_END

@@ -21,6 +21,16 @@ FN QueryBsdfRecord query_bsdf(IN(ReflectionParameters) r, uint direction, uint s
     q.layer_share = float32(r.layer_share);
     q.alpha = float32(r.alpha);
     q.exponent = float32(r.exponent);
+    q.coat = float32(r.coat);
+    q.coat_alpha = float32(r.coat_alpha);
+    q.film = float32(r.film);
+    q.film_ior = float32(r.film_ior);
+    q.film_thickness = float32(r.film_thickness);
+    q.sheen_r = float32(r.sheen.x);
+    q.sheen_g = float32(r.sheen.y);
+    q.sheen_b = float32(r.sheen.z);
+    q.sheen_most = float32(r.sheen_most);
+    q.sheen_alpha = float32(r.sheen_alpha);
     q.direction = direction;
     q.shading_normal = shading_normal;
     return q;
@@ -37,6 +47,14 @@ FN ReflectionParameters reflection_parameters(IN(QueryBsdfRecord) q) {
     r.layer_share = real(q.layer_share);
     r.alpha = real(q.alpha);
     r.exponent = real(q.exponent);
+    r.coat = real(q.coat);
+    r.coat_alpha = real(q.coat_alpha);
+    r.film = real(q.film);
+    r.film_ior = real(q.film_ior);
+    r.film_thickness = real(q.film_thickness);
+    r.sheen = vec3(q.sheen_r, q.sheen_g, q.sheen_b);
+    r.sheen_most = real(q.sheen_most);
+    r.sheen_alpha = real(q.sheen_alpha);
     r.absent = 0u;
     return r;
 }

@@ -14,7 +14,7 @@ struct TextureRecord {
     uint first;         // index of the first texel
     uint uv_set;        // which of the vertices' texture coordinates
     uint flags;         // texture_*
-    float32 scale;      // of a normal texture's slopes
+    float32 scale;      // of a normal texture's slopes; see also texture_of_film_thickness
 };
 
 // How coordinates outside [0,1] are treated; the second is shifted by texture_wrap_v.
@@ -30,13 +30,20 @@ CONSTANT uint texture_mips = 64u;    // its mip levels follow the image, see tex
 // What a texture of `material_other_textures` multiplies, in these bits of its flags; they follow
 // one another up to one with texture_last.
 CONSTANT uint texture_use_shift = 8u;
-CONSTANT uint texture_use_mask = 7u;
+CONSTANT uint texture_use_mask = 15u;
 CONSTANT uint texture_of_specular = 0u;       // by alpha
 CONSTANT uint texture_of_specular_color = 1u; // by red, green and blue
 CONSTANT uint texture_of_transmission = 2u;   // by red
 CONSTANT uint texture_of_thickness = 3u;      // by green
-CONSTANT uint texture_last = 2048u;
-CONSTANT uint most_other_textures = 4u;
+CONSTANT uint texture_of_coat = 4u;           // by red
+CONSTANT uint texture_of_coat_roughness = 5u; // by green
+CONSTANT uint texture_of_film = 6u;           // by red
+// From a share `scale` of the film's thickness to all of it, by green.
+CONSTANT uint texture_of_film_thickness = 7u;
+CONSTANT uint texture_of_sheen_color = 8u;     // by red, green and blue
+CONSTANT uint texture_of_sheen_roughness = 9u; // by alpha
+CONSTANT uint texture_last = 4096u;
+CONSTANT uint most_other_textures = 10u;
 
 // Words before the first texel: the linear values of the 256 codes of sRGB, as bits of floats.
 CONSTANT uint srgb_codes = 256u;

@@ -2,6 +2,7 @@
 #include "methods/plan_render.hpp"
 #include "rendering.hpp"
 #include "scene/studio.hpp"
+#include "shared/bsdf.h"
 #include "shared/geometry_records.h"
 #include "shared/query_record.h"
 #include "support/recording_device.hpp"
@@ -60,6 +61,21 @@ Scene mixed_scene() {
     Material amber = glass(1.3f, true);
     amber.absorption = {1, 2, 4};
     add_sphere(scene, {0.5f, -0.6f, 0.3f}, 0.2f, 4, true, add_material(scene, amber));
+    Material frost = glass(1.4f, true);
+    frost.roughness = 0.5f;
+    add_sphere(scene, {-0.6f, -0.6f, 0.4f}, 0.15f, 4, true, add_material(scene, frost));
+    Material paint = lambertian({0.3f, 0.5f, 0.2f});
+    paint.coat = 0.8f;
+    paint.coat_roughness = 0.4f;
+    paint.film = 0.5f;
+    paint.sheen_color = {0.5f, 0.4f, 0.3f};
+    paint.sheen_roughness = 0.5f;
+    paint.specular = 1;
+    add_sphere(scene, {0.1f, 0.1f, 0.5f}, 0.15f, 4, true, add_material(scene, paint));
+    Material prism = glass(1.6f, true);
+    prism.dispersion = 2;
+    prism.coat = 1;
+    add_sphere(scene, {-0.3f, 0.1f, 0.5f}, 0.15f, 4, true, add_material(scene, prism));
     Material label = lambertian({0.7f, 0.8f, 0.9f});
     label.unlit = true;
     add_quad(scene, {-0.9f, -0.5f, -0.9f}, {0.3f, 0, 0}, {0, 0.3f, 0}, add_material(scene, label));
@@ -165,6 +181,30 @@ TEST_P(Specialisation, SlowChangesNoBitOfAnyScene) {
         }
     }
     EXPECT_GT(seen.size(), 8u);
+}
+
+// Kernels have modules without coats, sheen, films, dispersion and rough glass (docs/device.md).
+TEST_P(Specialisation, RunsLeanModulesUnlessAMaterialNeedsMore) {
+    const auto lean_modules = [this](const Scene& scene) {
+        std::pair<int, int> count; // lean, whole
+        const auto recording = recorded(scene, false);
+        for (const auto& [kernel, constants] : recording->variants()) {
+            if (!kernel->lean.spirv.empty()) {
+                EXPECT_EQ(kernel->lean.bits, MATERIAL_LEAN) << kernel->name;
+                EXPECT_LT(kernel->lean.spirv.size(), kernel->spirv.size()) << kernel->name;
+                const bool is_lean =
+                    module_for(*kernel, constants).data() == kernel->lean.spirv.data();
+                ++(is_lean ? count.first : count.second);
+            }
+        }
+        return count;
+    };
+    const auto [lean, whole] = lean_modules(with_glass_sphere(diffuse_box()));
+    EXPECT_GE(lean, has_map(GetParam()) ? 3 : 1);
+    EXPECT_EQ(whole, 0);
+    const auto [mixed_lean, mixed_whole] = lean_modules(mixed_scene());
+    EXPECT_EQ(mixed_lean, 0);
+    EXPECT_GE(mixed_whole, lean); // it may have normals, which add a variant
 }
 
 TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {
@@ -309,9 +349,10 @@ TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
             }
         }
     }
-    // Nine features of materials and six of lights. Leaving out transmission alone changes no
-    // constant, because refraction has its bit, too.
-    EXPECT_EQ(smaller.size(), 14u);
+    // Fourteen features of materials and six of lights. Leaving out transmission alone changes no
+    // constant, because refraction has its bit, too, nor
+    // does leaving out coats, because rough ones have theirs.
+    EXPECT_EQ(smaller.size(), 19u);
     for (const auto& [feature, kernels] : smaller) {
         EXPECT_GT(kernels, 0) << text_of(feature).name;
     }

@@ -38,7 +38,8 @@ CONSTANT uint of_bsdf_eval = 54u;
 CONSTANT uint of_bsdf_pdf = 55u;
 CONSTANT uint of_followed_lobes = 56u;
 CONSTANT uint of_path_state = 57u;
-CONSTANT uint end_of_scatter = 58u;
+CONSTANT uint of_rough_clear = 58u;
+CONSTANT uint end_of_scatter = 59u;
 
 // A material from the sixteen numbers from k on.
 FN MaterialRecord material_at(IN(Arguments) a, int k) {
@@ -61,6 +62,10 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.absorption_g = real(0.0);
     m.absorption_b = real(0.0);
     m.unlit = 0u;
+    m.coat = m.coat_roughness = m.dispersion = float32(0.0);
+    m.film = m.film_thickness = m.pad0 = m.pad1 = float32(0.0);
+    m.film_ior = float32(1.3);
+    m.sheen_r = m.sheen_g = m.sheen_b = m.sheen_roughness = float32(0.0);
     m.emission_r = m.emission_g = m.emission_b = float32(0.0);
     m.double_sided = 0u;
     m.absent = m.textures = 0u;
@@ -136,7 +141,9 @@ FN bool evaluate_lobes(uint function, IN(Arguments) a, INOUT(Values) r) {
 // Evaluates whole BSDFs and states of paths. Returns false for any other.
 FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
     if (function == of_lobe_probabilities) {
-        put3(r, 0, lobe_probabilities(material_at(a, 1), number_at(a, 0), LOBES_ALL));
+        vec4 p = lobe_probabilities(material_at(a, 1), number_at(a, 0), LOBES_ALL);
+        put3(r, 0, vec3(p.x, p.y, p.z));
+        r.y[3] = p.w;
     } else if (function == of_bsdf_albedo) {
         put3(r, 0, bsdf_albedo(material_at(a, 3), vec3_at(a, 0), small_at(a, 17) != 0u, LOBES_ALL));
     } else if (function == of_bsdf_eval_and_pdf) {
@@ -165,6 +172,12 @@ FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
             r.y[0] = alone + negligible;
             r.y[1] = must_be(alone == pdf ? real(1.0) : real(0.0), real(1.0));
         }
+    } else if (function == of_rough_clear) {
+        real pdf;
+        put3(r, 0,
+             rough_clear_eval_and_pdf(material_at(a, 6), vec3_at(a, 0), vec3_at(a, 3),
+                                      small_at(a, 20) != 0u, pdf));
+        r.y[3] = pdf;
     } else if (function == of_followed_lobes) {
         MaterialRecord m = material_at(a, 1);
         uint followed = followed_lobes(m, number_at(a, 0));

@@ -259,7 +259,7 @@ std::vector<Function> bsdfs() {
              d.put(d.share());
              put_material(d);
          },
-         15, "3", conditioned, 5},
+         15, "31", conditioned, 5},
         {"bsdf_albedo", of_bsdf_albedo, "upright and grazing, any material",
          [](Draw& d) {
              d.put(d.upper());
@@ -277,6 +277,22 @@ std::vector<Function> bsdfs() {
          "as bsdf_eval_and_pdf, whose value is equal; any lobes, from below as well (below 10^-30 "
          "of absolute error)",
          put_scattering_by_lobes, 20, "3d", conditioned, 1e4},
+        {"rough_clear_eval_and_pdf", of_rough_clear,
+         "upright and grazing, near the mirror's and the refracted direction, any material with "
+         "transmission",
+         [](Draw& d) {
+             put_scattering(d);
+             d.x[15] = d.once_in(2) ? 1 : d.unit(); // transmission
+             const float index = d.x[16];
+             if (!d.once_in(3)) {
+                 for (std::size_t i = 3; i < 5; ++i) {
+                     d.x[i] /= index > 1 ? index : 1; // near the refracted direction
+                 }
+                 d.x[5] = -std::sqrt(std::max(1 - d.x[3] * d.x[3] - d.x[4] * d.x[4], 0.0f));
+             }
+             d.put(static_cast<float>(d.bits() % 2));
+         },
+         20, "31", conditioned, 100},
         {"bsdf_pdf", of_bsdf_pdf,
          "as bsdf_eval_and_pdf, whose density is equal; any lobes, from below as well (below "
          "10^-30 of absolute error)",

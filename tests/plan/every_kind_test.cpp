@@ -28,6 +28,13 @@ TEST(EveryKind, IsInThePlanForEverything) {
     EXPECT_EQ(plan.light_kinds(), all_light_kinds);
 }
 
+// What needs the whole module of a kernel, and not the lean one.
+TEST(EveryKind, OfAMaterialIsInLeanModulesOrNamedHere) {
+    EXPECT_EQ(MATERIAL_ALL & ~MATERIAL_LEAN, LOBE_CLEAR | LOBE_COAT | MATERIAL_COAT |
+                                                 MATERIAL_FILM | MATERIAL_DISPERSION |
+                                                 MATERIAL_SHEEN);
+}
+
 TEST(EveryKind, IsInTheKernelsByDefault) {
     EXPECT_EQ(default_of("material_features.glsl", "material_features"), MATERIAL_ALL);
     EXPECT_EQ(default_of("scene_bindings.glsl", "light_kinds"), all_light_kinds);

@@ -93,11 +93,32 @@ TEST(Plan, EachMaterialAddsItsFeatures) {
     EXPECT_THAT(added(room, with_quad(room, glass(1.5f, false))),
                 UnorderedElementsAre(Feature::mirror, Feature::transmission,
                                      Feature::followed_paths, Feature::caustics));
+    Material frosted = glass(1.5f, true);
+    frosted.roughness = 0.5f;
+    EXPECT_THAT(added(room, with_quad(room, frosted)),
+                UnorderedElementsAre(Feature::refraction, Feature::rough_glass,
+                                     Feature::followed_paths, Feature::caustics));
     for (const bool solid : {false, true}) {
         Material amber = glass(1.5f, solid);
         amber.absorption = {1, 2, 3};
         const auto found = added(room, with_quad(room, amber));
         EXPECT_EQ(std::count(found.begin(), found.end(), Feature::absorption), solid ? 1 : 0);
+    }
+    for (const float share : {0.0f, 1.0f}) {
+        Material soap = mirror();
+        soap.film = share;
+        soap.coat = share;
+        soap.coat_roughness = 0.5f;
+        soap.sheen_color.g = share;
+        const auto found = added(room, with_quad(room, soap));
+        for (const Feature feature :
+             {Feature::iridescence, Feature::coat, Feature::rough_coat, Feature::sheen}) {
+            EXPECT_EQ(std::count(found.begin(), found.end(), feature), share > 0 ? 1 : 0);
+        }
+        Material prism = glass(1.5f, share > 0);
+        prism.dispersion = 1;
+        const auto colors = added(room, with_quad(room, prism));
+        EXPECT_EQ(std::count(colors.begin(), colors.end(), Feature::dispersion), share > 0 ? 1 : 0);
     }
     Material label = lambertian(glm::vec3(0.5f));
     label.unlit = true;

@@ -229,10 +229,37 @@ TEST(GltfMaterial, NotesAColourOfWrongLength) {
     EXPECT_TRUE(has_note(scene, "not quite valid glTF: Array length of `baseColorFactor`"));
 }
 
-TEST(GltfMaterial, NotesUnsupportedFeatures) {
-    const json rough{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
-                     {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
-    EXPECT_TRUE(has_note(with_material(rough).load(), "rough transmission"));
+TEST(GltfMaterial, CoatsFilmsSheenAndDispersion) {
+    const json extensions{
+        {"extensions",
+         {{"KHR_materials_clearcoat",
+           {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}}},
+          {"KHR_materials_sheen",
+           {{"sheenColorFactor", {0.25, 0.5, 1}}, {"sheenRoughnessFactor", 0.625}}},
+          {"KHR_materials_dispersion", {{"dispersion", 0.5}}},
+          {"KHR_materials_iridescence",
+           {{"iridescenceFactor", 0.75},
+            {"iridescenceIor", 1.25},
+            {"iridescenceThicknessMaximum", 500}}}}}};
+    const Material m = with_material(extensions).load().materials[0];
+    EXPECT_EQ(m.coat, 0.5f);
+    EXPECT_EQ(m.coat_roughness, 0.25f);
+    EXPECT_EQ(m.dispersion, 0.5f);
+    EXPECT_EQ(m.sheen_color, glm::vec3(0.25f, 0.5f, 1));
+    EXPECT_EQ(m.sheen_roughness, 0.625f);
+    EXPECT_EQ(m.film, 0.75f);
+    EXPECT_EQ(m.film_ior, 1.25f);
+    EXPECT_EQ(m.film_thickness, 0.5f);
+    const Material plain = with_material(json::object()).load().materials[0];
+    EXPECT_EQ(plain.coat, 0.0f);
+    EXPECT_EQ(plain.film, 0.0f);
+    EXPECT_EQ(plain.dispersion, 0.0f);
+    EXPECT_TRUE(has_note(
+        with_material(extension("KHR_materials_clearcoat", {{"clearcoatFactor", 2}})).load(),
+        "clearcoatFactor of 2"));
+    EXPECT_THAT(
+        with_material(extension("KHR_materials_iridescence", {{"iridescenceIor", "x"}})).problem(),
+        ::testing::HasSubstr("\"iridescenceIor\" that is not a number"));
 }
 
 TEST(GltfMaterial, VolumesAbsorb) {
@@ -285,22 +312,22 @@ TEST(GltfMaterial, TexturesThatDoNotExistAreErrors) {
 
 TEST(GltfExtensions, AreListedWithANoteIfNotSupported) {
     GltfBuilder builder = one_triangle();
-    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen",
-                                      "KHR_materials_sheen"};
+    builder.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_anisotropy",
+                                      "KHR_materials_anisotropy"};
     const Scene scene = builder.load();
     EXPECT_THAT(scene.extensions_used,
-                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_sheen"));
+                ::testing::ElementsAre("KHR_materials_ior", "KHR_materials_anisotropy"));
     EXPECT_TRUE(
-        has_note(scene, "the extension KHR_materials_sheen is not supported and is ignored"));
+        has_note(scene, "the extension KHR_materials_anisotropy is not supported and is ignored"));
     EXPECT_FALSE(has_note(scene, "KHR_materials_ior"));
 }
 
 TEST(GltfExtensions, RejectsUnsupportedRequiredExtensions) {
     GltfBuilder builder = one_triangle();
-    builder.root["extensionsUsed"] = {"KHR_materials_sheen"};
-    builder.root["extensionsRequired"] = {"KHR_materials_sheen"};
+    builder.root["extensionsUsed"] = {"KHR_materials_anisotropy"};
+    builder.root["extensionsRequired"] = {"KHR_materials_anisotropy"};
     EXPECT_THAT(builder.problem(),
-                ::testing::HasSubstr("requires the extension KHR_materials_sheen"));
+                ::testing::HasSubstr("requires the extension KHR_materials_anisotropy"));
 }
 
 } // namespace

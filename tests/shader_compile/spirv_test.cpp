@@ -185,5 +185,43 @@ TEST_F(FinalSpirv, IsTheSameEveryTime) {
     EXPECT_EQ(once(), once());
 }
 
+/// A kernel with a specialization constant of this declaration, which chooses between two results.
+std::string kernel_of_kinds(const std::string& declaration) {
+    return "layout(set = 0, binding = 0) writeonly buffer Out { float result[]; };\n" +
+           declaration +
+           "\nvoid main() {\n"
+           "    uint i = gl_GlobalInvocationID.x;\n"
+           "    if ((kinds & 1u) != 0u) { result[i] = 1.0; }\n"
+           "#ifndef ARGAND_LEAN\n"
+           "    if ((kinds & 2u) != 0u) { result[i] = sin(float(i)); }\n"
+           "#endif\n"
+           "}\n";
+}
+
+TEST_F(ShaderCompile, AnotherDefaultUnderTheMacroGivesALeanModule) {
+    const Outcome outcome =
+        compile_body(kernel_of_kinds("#ifdef ARGAND_LEAN\n"
+                                     "layout(constant_id = 3) const uint kinds = 1u;\n"
+                                     "#else\n"
+                                     "layout(constant_id = 3) const uint kinds = 3u;\n"
+                                     "#endif\n"));
+    EXPECT_EQ(outcome.status, 0) << outcome.said;
+    const std::string source = generated("bad.cpp");
+    EXPECT_NE(source.find(".lean = {bad_lean_spirv, 0, 1u},"), std::string::npos);
+    const std::size_t lean = source.find("bad_lean_spirv[] = {"),
+                      whole = source.find("bad_spirv[] = {");
+    ASSERT_NE(lean, std::string::npos);
+    ASSERT_NE(whole, std::string::npos);
+    const auto length = [&](std::size_t from) { return source.find("};", from) - from; };
+    EXPECT_LT(length(lean), length(whole));
+    EXPECT_NE(generated("bad.hpp").find("kinds = 3u"), std::string::npos);
+}
+
+TEST_F(ShaderCompile, WithoutAnotherDefaultThereIsNoLeanModule) {
+    EXPECT_EQ(
+        compile_body(kernel_of_kinds("layout(constant_id = 3) const uint kinds = 3u;")).status, 0);
+    EXPECT_EQ(generated("bad.cpp").find("lean"), std::string::npos);
+}
+
 } // namespace
 } // namespace argand::shader_compile

@@ -54,9 +54,9 @@ TEST(Bsdf, MaterialsHaveTheirLobes) {
     EXPECT_EQ(bsdf_lobes(lambertian(vec3(0))), 0u);
     MaterialRecord m = glass(1.5f, 0);
     m.roughness = 0.5f;
-    EXPECT_EQ(bsdf_lobes(m), LOBE_GLOSSY | LOBE_TRANSMIT);
+    EXPECT_EQ(bsdf_lobes(m), LOBE_GLOSSY | LOBE_CLEAR);
     m.transmission = 0.5f;
-    EXPECT_EQ(bsdf_lobes(m), LOBE_DIFFUSE | LOBE_GLOSSY | LOBE_TRANSMIT);
+    EXPECT_EQ(bsdf_lobes(m), LOBE_DIFFUSE | LOBE_GLOSSY | LOBE_CLEAR);
     m.metallic = 1;
     EXPECT_EQ(bsdf_lobes(m), LOBE_GLOSSY);
     EXPECT_TRUE(roughness_is_delta(glossy_dielectric(0.03f)));

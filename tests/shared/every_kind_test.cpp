@@ -21,19 +21,25 @@ Found find(uint lobe) {
     const vec3 wo = at_angle(30);
     Found found;
     for (int i = 0; i < 3000; ++i) {
-        const MaterialRecord m = i % 3 == 0 ? any_phong(bits) : any_material(bits);
+        const MaterialRecord m = i % 3 == 0   ? any_phong(bits)
+                                 : i % 3 == 1 ? any_coated(bits)
+                                              : any_material(bits);
         if ((bsdf_lobes(m) & lobe) == 0u) {
             continue;
         }
         ++found.materials;
         found.albedo += max_component(bsdf_albedo(m, wo, true, lobe)) > 0 ? 1 : 0;
-        const vec3 p = lobe_probabilities(m, wo.z, lobe);
-        found.probability += p.x + p.y + p.z > 0 ? 1 : 0;
+        const vec4 p = lobe_probabilities(m, wo.z, lobe);
+        found.probability += p.x + p.y + p.z + p.w > 0 ? 1 : 0;
         BsdfSample s;
         const vec4 u(to_unit_float(bits), to_unit_float(bits), to_unit_float(bits), 0);
         const bool sampled = bsdf_sample(m, wo, true, lobe, u, s) && s.lobe == lobe;
         found.samples += sampled ? 1 : 0;
-        found.value += sampled && max_component(bsdf_eval(m, wo, s.wi, lobe)) > 0 ? 1 : 0;
+        float pdf = 0;
+        const vec3 value = (lobe & LOBES_SPREAD) != 0u
+                               ? spread_eval_and_pdf(m, wo, s.wi, true, lobe, lobe, pdf)
+                               : bsdf_eval(m, wo, s.wi, lobe);
+        found.value += sampled && max_component(value) > 0 ? 1 : 0;
         const uint followed = followed_lobes(m, 0.5f);
         found.transported += ((followed ^ estimated_lobes(m, 0.5f)) & lobe) != 0u ? 1 : 0;
     }
@@ -58,7 +64,8 @@ TEST(EveryLobe, IsAmongTheRandomMaterialsAndInEveryFunction) {
 // Kernels are specialised to the lobes and kinds of a scene: bits must not overlap.
 TEST(EveryLobe, HasABitOfItsOwnInTheFeatures) {
     const uint features = MATERIAL_ALPHA | MATERIAL_GGX | MATERIAL_PHONG | MATERIAL_SOLID |
-                          MATERIAL_ABSORPTION | MATERIAL_UNLIT;
+                          MATERIAL_ABSORPTION | MATERIAL_UNLIT | MATERIAL_COAT | MATERIAL_FILM |
+                          MATERIAL_DISPERSION | MATERIAL_SHEEN;
     EXPECT_EQ(LOBES_ALL & features, 0u);
     EXPECT_EQ(LOBES_ALL | features, MATERIAL_ALL);
     EXPECT_EQ(LOBES_ALL & (LOBE_GLOSSY | MATERIAL_LAYER), LOBE_GLOSSY | LOBE_MIRROR);
@@ -68,7 +75,9 @@ TEST(EveryLobe, HasABitOfItsOwnInTheFeatures) {
 TEST(EveryLobe, HasItsParametersInQueries) {
     std::mt19937 bits(72);
     for (int i = 0; i < 3000; ++i) {
-        const MaterialRecord m = i % 3 == 0 ? any_phong(bits) : any_material(bits);
+        const MaterialRecord m = i % 3 == 0   ? any_phong(bits)
+                                 : i % 3 == 1 ? any_coated(bits)
+                                              : any_material(bits);
         const ReflectionParameters queried =
             reflection_parameters(query_bsdf(reflection_parameters(m), 0, 0));
         const vec3 wo = any_upper(bits), wi = any_upper(bits);

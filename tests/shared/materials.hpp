@@ -100,6 +100,20 @@ inline MaterialRecord any_material(std::mt19937& bits) {
     return m;
 }
 
+/// The same under a coat, sheen and a thin film.
+inline MaterialRecord any_coated(std::mt19937& bits) {
+    std::uniform_real_distribution<float> uniform;
+    MaterialRecord m = any_material(bits);
+    m.coat = bits() % 2 == 0 ? 1 : uniform(bits);
+    m.coat_roughness = bits() % 3 == 0 ? 0 : uniform(bits);
+    m.sheen_r = m.sheen_g = bits() % 2 == 0 ? 0 : uniform(bits);
+    m.sheen_roughness = uniform(bits);
+    m.film = bits() % 2 == 0 ? 0 : uniform(bits);
+    m.film_ior = 1 + uniform(bits);
+    m.film_thickness = 0.1f + uniform(bits);
+    return m;
+}
+
 /// A number as the renderer's random streams produce it.
 inline float to_unit_float(std::mt19937& bits) { return float(bits() >> 8) * 0x1p-24f; }
 

@@ -30,6 +30,11 @@ double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, uns
     return oracle::bsdf_pdf(as<MaterialRecord>(material), wo, wi, lobes);
 }
 
+glm::dvec3 rough_clear_eval_and_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi,
+                                    bool front, double& pdf) {
+    return oracle::rough_clear_eval_and_pdf(as<MaterialRecord>(material), wo, wi, front, pdf);
+}
+
 BsdfSample bsdf_sample(const MaterialBytes& material, glm::dvec3 wo, bool front, unsigned lobes,
                        glm::dvec4 u) {
     oracle::BsdfSample s;

@@ -12,10 +12,14 @@ namespace argand::truth {
 /// The bytes of a LightRecord or CameraRecord.
 using Record = std::array<std::byte, 64>;
 /// The bytes of a MaterialRecord.
-using MaterialBytes = std::array<std::byte, 96>;
+using MaterialBytes = std::array<std::byte, 144>;
 
 glm::dvec3 bsdf_eval(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
 double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
+
+/// Value and density of the clear lobe of rough glass.
+glm::dvec3 rough_clear_eval_and_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi,
+                                    bool front, double& pdf);
 
 struct BsdfSample {
     bool scattered;

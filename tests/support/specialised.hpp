@@ -45,7 +45,8 @@ inline SpecialisedCode specialised(const KernelInfo& kernel,
     std::vector<std::uint32_t> code;
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
-    EXPECT_TRUE(optimizer.Run(kernel.spirv.data(), kernel.spirv.size(), &code, options))
+    const std::span<const std::uint32_t> spirv = module_for(kernel, constants);
+    EXPECT_TRUE(optimizer.Run(spirv.data(), spirv.size(), &code, options))
         << kernel.name;
 
     SpecialisedCode found;

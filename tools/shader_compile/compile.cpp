@@ -72,13 +72,14 @@ Messages messages(const std::string& log, const std::string& kernel) {
 
 } // namespace
 
-Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories) {
+Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories,
+                 bool lean) {
     const std::string path = std::filesystem::path(kernel).lexically_normal().string();
-    return compile_text(path, read_text(path), include_directories);
+    return compile_text(path, read_text(path), include_directories, lean);
 }
 
 Compiled compile_text(const std::string& path, const std::string& text,
-                      const std::vector<std::string>& include_directories) {
+                      const std::vector<std::string>& include_directories, bool lean) {
     const Process process;
     Compiled result;
     result.sources.push_back({path, text});
@@ -91,7 +92,9 @@ Compiled compile_text(const std::string& path, const std::string& text,
     const int length = static_cast<int>(text.size());
     const char* const name = path.c_str();
     shader.setStringsWithLengthsAndNames(&string, &length, &name, 1);
-    shader.setPreamble("#extension GL_GOOGLE_include_directive : require\n");
+    const std::string preamble = fmt::format("#extension GL_GOOGLE_include_directive : require\n{}",
+                                             lean ? fmt::format("#define {}\n", lean_macro) : "");
+    shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);

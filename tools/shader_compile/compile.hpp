@@ -14,11 +14,15 @@ struct Compiled {
     std::string warnings; ///< lines "file:line: warning: ...", empty if there are none
 };
 
+/// Defined while the lean module of a kernel is compiled, see device/kernel.hpp.
+inline constexpr const char* lean_macro = "ARGAND_LEAN";
+
 /// Compiles a GLSL compute shader for Vulkan 1.2. Throws Error "file:line: error: ...".
-Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories);
+Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories,
+                 bool lean = false);
 
 /// The same for the text of a kernel that `path` would hold.
 Compiled compile_text(const std::string& path, const std::string& text,
-                      const std::vector<std::string>& include_directories);
+                      const std::vector<std::string>& include_directories, bool lean = false);
 
 } // namespace argand::shader_compile

@@ -188,6 +188,10 @@ void emit_info(Out out, const Kernel& kernel) {
     fmt::format_to(out, "constinit const KernelInfo {0}::info{{\n    .name = \"{0}\",\n", name);
     fmt::format_to(out, "    .stage = \"{}\",\n", has_twin ? kernel.twin : name);
     fmt::format_to(out, "    .spirv = {}_spirv,\n", name);
+    if (kernel.lean) {
+        fmt::format_to(out, "    .lean = {{{}_lean_spirv, {}, {}}},\n", name, kernel.lean->constant,
+                       kernel.lean->bits);
+    }
     fmt::format_to(out, "    .bindings = {},\n",
                    interface.bindings.empty() ? "{}" : name + "_bindings");
     fmt::format_to(out, "    .constants = {},\n",
@@ -309,6 +313,11 @@ std::string emit_source(const Kernel& kernel) {
     fmt::format_to(out, "\nconstexpr std::uint32_t {}_spirv[] = {{", kernel.name);
     emit_words(out, kernel.spirv);
     fmt::format_to(out, "\n}};\n");
+    if (kernel.lean) {
+        fmt::format_to(out, "\nconstexpr std::uint32_t {}_lean_spirv[] = {{", kernel.name);
+        emit_words(out, kernel.lean->spirv);
+        fmt::format_to(out, "\n}};\n");
+    }
     if (!interface.bindings.empty()) {
         emit_bindings(out, kernel);
     }

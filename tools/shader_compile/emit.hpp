@@ -4,6 +4,13 @@
 
 namespace argand::shader_compile {
 
+/// A kernel's lean module, see device/kernel.hpp.
+struct Lean {
+    Spirv spirv;          ///< final
+    std::size_t constant; ///< index among the kernel's specialization constants
+    std::string bits;     ///< a C++ literal
+};
+
 /// A kernel, or a group of bindings, of which files are generated.
 struct Kernel {
     std::string name; ///< of a group: NAME in NAME_bindings.glsl
@@ -11,6 +18,7 @@ struct Kernel {
     Reflection interface;
     Spirv spirv;      ///< final; a group has none
     std::string twin; ///< the kernel whose body other backends run; empty: none
+    std::optional<Lean> lean = {};
 };
 
 /// NAME.hpp: the typed binding.

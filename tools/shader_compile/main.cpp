@@ -11,6 +11,7 @@
 #include "optimise.hpp"
 #include "write.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace argand::shader_compile {
@@ -89,6 +90,30 @@ void run_group(const Options& options) {
     write_if_changed(header, emit_group(group));
 }
 
+/// The kernel's lean module, if it has one: if a macro changes the default of one of its constants,
+/// and makes the kernel shorter.
+std::optional<Lean> compile_lean(const Options& options, const Compiled& whole,
+                                 const Kernel& kernel) {
+    const bool has_one = std::any_of(whole.sources.begin(), whole.sources.end(), [](const auto& s) {
+        return s.text.find(lean_macro) != std::string::npos;
+    });
+    if (!has_one) {
+        return {};
+    }
+    const Compiled compiled = compile(options.kernel, options.include_directories, true);
+    const Reflection lean = reflect(compiled, options.include_directories);
+    for (std::size_t i = 0; i < lean.constants.size(); ++i) {
+        if (lean.constants[i].value != kernel.interface.constants[i].value) {
+            Lean result{optimise(compiled.spirv, options.kernel), i, lean.constants[i].value};
+            validate(result.spirv, options.kernel);
+            if (result.spirv.size() < kernel.spirv.size()) {
+                return result;
+            }
+        }
+    }
+    return {};
+}
+
 void run(const Options& options) {
     const std::string name = fs::path(options.kernel).stem().string();
     if (!is_cpp_name(name)) {
@@ -102,6 +127,7 @@ void run(const Options& options) {
     Kernel kernel{name, options.kernel, reflect(compiled, options.include_directories),
                   optimise(compiled.spirv, options.kernel), options.twin};
     validate(kernel.spirv, options.kernel);
+    kernel.lean = compile_lean(options, compiled, kernel);
 
     const std::string header = in(options.out, name + ".hpp");
     const std::string source = in(options.out, name + ".cpp");

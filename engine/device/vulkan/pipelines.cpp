@@ -137,8 +137,9 @@ const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& 
                                               arguments.constants.data()};
 
     VkShaderModuleCreateInfo module_create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    module_create.codeSize = kernel.spirv.size_bytes();
-    module_create.pCode = kernel.spirv.data();
+    const std::span<const std::uint32_t> spirv = module_for(kernel, key.second);
+    module_create.codeSize = spirv.size_bytes();
+    module_create.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device_, &module_create, nullptr, &module), doing);
 

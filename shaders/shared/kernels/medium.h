@@ -22,9 +22,9 @@ FN uint medium_before(uint known, uint material, IN(MaterialRecord) m, bool fron
     return known == 0u && !front && is_solid(m) ? material + 1u : known;
 }
 
-// The solid in which a path goes on. before: the one in which it came.
-FN uint medium_after(uint before, uint material, IN(MaterialRecord) m, bool front, uint lobe) {
-    if (!may_have(m, MATERIAL_ABSORPTION) || lobe != LOBE_TRANSMIT || !is_solid(m)) {
+// The solid in which a path goes on. before: the one in which it came; passes: to the other side.
+FN uint medium_after(uint before, uint material, IN(MaterialRecord) m, bool front, bool passes) {
+    if (!may_have(m, MATERIAL_ABSORPTION) || !passes || !is_solid(m)) {
         return before;
     }
     return front ? material + 1u : 0u;

@@ -30,8 +30,23 @@ FN void multiply_others(INOUT(MaterialRecord) m, uint next, uvec4 triangle, vec2
             m.specular_b *= texel.z;
         } else if (use == texture_of_transmission) {
             m.transmission *= texel.x;
-        } else {
+        } else if (use == texture_of_thickness) {
             m.thickness *= texel.y;
+        } else if (use == texture_of_coat) {
+            m.coat *= texel.x;
+        } else if (use == texture_of_coat_roughness) {
+            m.coat_roughness *= texel.y;
+        } else if (use == texture_of_film) {
+            m.film *= texel.x;
+        } else if (use == texture_of_sheen_color) {
+            m.sheen_r *= texel.x;
+            m.sheen_g *= texel.y;
+            m.sheen_b *= texel.z;
+        } else if (use == texture_of_sheen_roughness) {
+            m.sheen_roughness *= texel.w;
+        } else if (use == texture_of_film_thickness) {
+            real least = real(textures[next + i].scale);
+            m.film_thickness *= least + (real(1.0) - least) * texel.y;
         }
         if ((flags & texture_last) != 0u) {
             break;

@@ -5,6 +5,7 @@
 #include "shared/kernels/sky.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/dispersion.h"
 #include "shared/kernels/emission.h"
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
@@ -208,6 +209,19 @@ FN void only_pass(INOUT(Vertex) v) {
     v.pass_probability = real(1.0);
 }
 
+// Whether this followed lobe scatters the path.
+FN bool scatters(IN(Vertex) v, uint lobe) {
+    return may_have(v.material, lobe) && (v.followed & lobe) != 0u;
+}
+
+// Probability with which followed lobes scatter the path.
+FN real followed_probability(IN(Vertex) v) {
+    real scattered = may_have(v.material, MATERIAL_ALPHA) && v.pass_probability > real(0.0)
+                         ? real(1.0) - v.pass_probability
+                         : real(1.0);
+    return scattered - v.estimated_probability;
+}
+
 // A sample of a light, as seen from the vertex.
 struct SeenLight {
     vec3 origin; // of the shadow ray
@@ -235,9 +249,47 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
     }
+    bool above = dot(l.s.wi, surface.geometric_normal) > real(0.0);
+    if (!above && scatters(v, LOBE_CLEAR)) {
+        // The light is behind the glass: its sample as seen from there.
+        l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
+                                     -surface.geometric_normal);
+        if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
+            return false;
+        }
+        l.s.pdf *= density;
+        l.wi = to_local(v.frame, l.s.wi);
+        return dot(l.s.wi, surface.geometric_normal) < real(0.0);
+    }
     l.s.pdf *= density;
     l.wi = to_local(v.frame, l.s.wi);
-    return dot(l.s.wi, surface.geometric_normal) > real(0.0);
+    return above;
+}
+
+// Radiance that one of the lobes `clear` and `coat` scatters from a light's sample, for clear on
+// either side. They are followed, so the path samples the same light.
+FN vec3 light_by_spread_lobe(IN(Vertex) v, IN(SeenLight) l, uint lobe) {
+    bool passes = l.wi.z < real(0.0);
+    if (passes != (dot(l.s.wi, v.surface.geometric_normal) < real(0.0))) {
+        return vec3(real(0.0));
+    }
+    real pdf;
+    vec3 f = spread_eval_and_pdf(v.material, v.wo, l.wi, v.surface.front, v.followed, lobe, pdf);
+    if (passes) {
+        real eta = interface_eta(v.material, v.surface.front);
+        f = f / (eta * eta);
+    }
+    real weight = real(1.0);
+    if (!l.s.delta) {
+        weight = power_heuristic(l.choice.probability * l.s.pdf, followed_probability(v) * pdf);
+    }
+    vec3 arriving = v.throughput * l.s.radiance * (abs(l.wi.z) / l.choice.probability);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        arriving *= transmittance(
+            medium_after(v.medium, triangles[v.triangle].w, v.material, v.surface.front, passes),
+            l.s.distance);
+    }
+    return arriving * f * weight;
 }
 
 // Writes a shadow ray to a light, and the radiance that it adds if nothing blocks it.
@@ -247,6 +299,15 @@ FN void sample_light(IN(Vertex) v) {
         return;
     }
     LightSample s = l.s;
+    bool behind = behind_estimated(v.path);
+    bool left_to_photons = final_gather && behind;
+    vec3 spread = vec3(real(0.0));
+    if (scatters(v, LOBE_CLEAR) && !left_to_photons) {
+        spread += light_by_spread_lobe(v, l, LOBE_CLEAR);
+    }
+    if (scatters(v, LOBE_COAT) && !left_to_photons) {
+        spread += light_by_spread_lobe(v, l, LOBE_COAT);
+    }
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
         arriving *= transmittance(v.medium, s.distance);
@@ -263,11 +324,10 @@ FN void sample_light(IN(Vertex) v) {
     if (v.onward != v.estimated) {
         e += arriving * bsdf_eval(v.material, v.wo, l.wi, v.estimated & ~v.onward);
     }
-    bool behind = behind_estimated(v.path);
-    bool left_to_photons = final_gather && behind;
     vec3 f = s.delta && v.followed != 0u && !left_to_photons
                  ? arriving * bsdf_eval(v.material, v.wo, l.wi, v.followed)
                  : vec3(real(0.0));
+    f += spread;
     if (!(max_component(e) + max_component(f) > real(0.0))) {
         return;
     }
@@ -287,7 +347,8 @@ FN uint shared_direction_steps(IN(Vertex) v) {
     real all = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated));
     real glossy = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated & LOBE_GLOSSY));
     real share = clamp(glossy / max(all, real(1e-9)), real(0.0), real(1.0));
-    return direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
+    uint steps = direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
+    return has_sheen(m) ? max(steps, 8u) : steps;
 }
 
 // BRDF of a Lambertian surface [1/sr], computed from the packed vectors of a query.
@@ -438,13 +499,17 @@ FN void continue_path(INOUT(Vertex) v) {
     }
     rays[v.slot] = make_ray(v.surface, wi,
                             unbounded_in(medium_after(v.medium, triangles[v.triangle].w, v.material,
-                                                      v.surface.front, s.lobe)));
+                                                      v.surface.front, s.wi.z < real(0.0))));
     if (mip_maps) {
         rays[v.slot].cone = pack_cone(
             cone_width(v.cone, v.distance),
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
     }
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
+    if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u &&
+        !(final_gather && behind_estimated(v.path))) {
+        path.pdf = probability * s.pdf; // shadow rays find the same lights
+    }
     path.state = state_after(path.state, !takes_estimated);
     if (v.ends && takes_estimated) {
         path.state |= path_seeks_emission;
@@ -495,9 +560,14 @@ FN void main() {
     if (ends) {
         only_pass(v);
     } else {
+        if (may_have(v.material, MATERIAL_DISPERSION)) {
+            vec4 w = random4(batch.seed ^ 0xd15be5u, v.path.pixel, v.path.sample_index,
+                             vertices_of(v.path));
+            disperse(v.material, v.throughput, w.x);
+        }
         split_lobes(v);
         if (direct_light && scene[0].light_count > 0u &&
-            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
+            ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY | LOBES_SPREAD)) != 0u) {
             sample_light(v);
         }
         if (photon_map) {

@@ -8,7 +8,7 @@ FN void main() {
         return;
     }
     MaterialRecord material = load_material(triangles[hits[i].triangle].w);
-    bool passes = (bsdf_lobes(material) & LOBE_TRANSMIT) != 0u;
+    bool passes = (bsdf_lobes(material) & (LOBE_TRANSMIT | LOBE_CLEAR)) != 0u;
     if (may_have(material, MATERIAL_ALPHA) && (material.textures & material_alpha_mask) == 0u) {
         passes = passes || material.coverage < float32(1.0) ||
                  (material.textures & material_alpha_blend) != 0u;

@@ -1,11 +1,12 @@
 #include "shared/kernels/scene.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/dispersion.h"
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
 // Whether any material of the scene has one of these lobes.
-FN bool has(uint lobes) { return (material_features & lobes) != 0u; }
+FN bool has(uint lobes) { return may_have(~material_features, lobes); }
 
 // Change of the shading normal along one of a photon's differentials.
 FN vec3 normal_change(HitRecord hit, Surface surface, vec3 offset) {
@@ -69,7 +70,7 @@ FN bool aim_at_view(Arrival a, MaterialRecord m, uint lobes, Cone view, vec2 u, 
                     INOUT(Departure) d) {
     real share = real(scene[0].view_share);
     vec3 wo = a.wo;
-    vec3 probabilities = lobe_probabilities(m, wo.z, lobes);
+    vec4 probabilities = lobe_probabilities(m, wo.z, lobes);
     bool aims = choice < share;
     if (aims) {
         d.sampled.wi = to_local(a.frame, sample_cone(view, u));
@@ -188,15 +189,18 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
     real emitted = out_of.concentration / batch.inverse_spread;
     if (s.lobe == LOBE_DIFFUSE) {
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
-    } else if (has(LOBE_GLOSSY | LOBE_MIRROR | LOBE_TRANSMIT)) {
+    } else if (has(LOBE_GLOSSY | LOBES_SPREAD | LOBE_MIRROR | LOBE_TRANSMIT)) {
         NormalDifferential normal;
         normal.n = a.surface.shading_normal;
         normal.dn_du = normal_change(a.hit, a.surface, d.dp_du);
         normal.dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
-        if (has(LOBE_GLOSSY) && s.lobe == LOBE_GLOSSY) {
+        if (has(LOBE_GLOSSY | LOBE_COAT) && (s.lobe == LOBE_GLOSSY || s.lobe == LOBE_COAT)) {
             // The pdf includes the choice of the lobe.
             gloss_differential(d, a.direction, out_of.direction, normal, emitted,
                                s.pdf / s.probability);
+        } else if (has(LOBE_CLEAR) && s.lobe == LOBE_CLEAR) {
+            rough_clear_differential(d, a.direction, out_of.direction, normal,
+                                     inversesqrt(s.eta_scale), emitted, s.pdf / s.probability);
         } else if (has(LOBE_MIRROR) && s.lobe == LOBE_MIRROR) {
             reflect_differential(d, a.direction, normal);
         } else if (has(LOBE_TRANSMIT)) {
@@ -316,6 +320,19 @@ FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability,
     alive[i] = 1u;
 }
 
+// Leaves one colour channel where the surface disperses. Returns the inverse of the probability
+// with which it was chosen.
+FN real disperse_photon(uint slot, INOUT(Arrival) a, MaterialRecord m, uint triangle) {
+    if (!has(MATERIAL_DISPERSION)) {
+        return real(1.0);
+    }
+    uvec4 before = units_of(a.flux);
+    vec4 w = random4(batch.seed ^ 0xd15be5u, batch.first + slot, a.depth, triangle);
+    real channels = disperse(m, a.flux, w.x);
+    ledgers[slot].absorbed += before - units_of(a.flux);
+    return channels;
+}
+
 // Stores the photon with what is kept beside it.
 FN void store_with_details(uint slot, uint store, Arrival a, bool caustic,
                            IN(PhotonDifferential) d) {
@@ -386,10 +403,11 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
                          scattered_spread(cone_spread(cone), real(1.0) / batch.inverse_total,
                                           out_of.sampled.pdf));
     }
-    continue_path(
-        slot, a, out_of.direction, flux, cone,
-        medium_after(a.medium, triangles[how.triangle].w, m, a.surface.front, out_of.sampled.lobe),
-        stays_followed ? how.state & ~photon_depth_mask : next_for_view << photon_view_shift);
+    continue_path(slot, a, out_of.direction, flux, cone,
+                  medium_after(a.medium, triangles[how.triangle].w, m, a.surface.front,
+                               out_of.sampled.wi.z < real(0.0)),
+                  stays_followed ? how.state & ~photon_depth_mask
+                                 : next_for_view << photon_view_shift);
     return true;
 }
 
@@ -418,12 +436,16 @@ FN void main() {
     MaterialRecord m = material_at(triangles[hit.triangle], hit, how.cone, direction);
     Arrival a = arrive(hit, direction, m, path);
     absorb(slot, a, m);
+    real channels = disperse_photon(slot, a, m, hit.triangle);
     how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     how.estimated = bsdf_lobes(m) & ~how.followed;
     PhotonDifferential d;
     if (footprints) {
         d = load_differential(differentials[slot]);
         transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
+        if (has(MATERIAL_DISPERSION) && channels > real(1.0)) {
+            roulette_differential(d, real(1.0) / channels);
+        }
     }
     how.only_followed = (path.state & photon_followed) != 0u;
     bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;

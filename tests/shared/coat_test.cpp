@@ -1,0 +1,191 @@
+// Coats of varnish (KHR_materials_clearcoat): their reflection against appendix B in double
+// precision, what is below them, furnace, reciprocity and sampling.
+#include "materials.hpp"
+#include "microfacets.hpp"
+#include "shared/random.h"
+#include "statistics.hpp"
+
+#include <gtest/gtest.h>
+
+namespace argand {
+namespace {
+
+using namespace argand::testing;
+
+MaterialRecord coated(MaterialRecord m, float coat, float roughness) {
+    m.coat = coat;
+    m.coat_roughness = roughness;
+    return m;
+}
+
+double schlick(double cosine) { return 0.04 + 0.96 * std::pow(1 - cosine, 5); }
+
+vec3 coat_value(const MaterialRecord& m, vec3 wo, vec3 wi) {
+    float pdf = 0;
+    return coat_eval_and_pdf(m, wo, wi, pdf);
+}
+
+TEST(Coat, HasTheLobeOfItsRoughness) {
+    const MaterialRecord base = lambertian(vec3(0.5f));
+    EXPECT_EQ(bsdf_lobes(coated(base, 1, 0)), LOBE_DIFFUSE | LOBE_MIRROR);
+    EXPECT_EQ(bsdf_lobes(coated(base, 0.01f, 0.5f)), LOBE_DIFFUSE | LOBE_COAT);
+    EXPECT_EQ(bsdf_lobes(coated(base, 0, 0.5f)), LOBE_DIFFUSE);
+    EXPECT_FALSE(is_lambertian(coated(base, 1, 0)));
+}
+
+TEST(Coat, ReflectsAsAppendixBDoes) {
+    for (const float roughness : {0.1f, 0.4f, 1.0f}) {
+        const double alpha = double(roughness) * double(roughness);
+        const MaterialRecord m = coated(lambertian(vec3(0.5f)), 0.5f, roughness);
+        for (const double angle : {0.0, 30.0, 70.0}) {
+            for (const double off : {0.0, 10.0}) {
+                const vec3 wo = at_angle(angle), wi = at_angle(angle + off, 180);
+                const glm::dvec3 h = glm::normalize(glm::dvec3(wo) + glm::dvec3(wi));
+                const double expected = 0.5 * schlick(glm::dot(glm::dvec3(wo), h)) *
+                                        appendix_b::distribution(alpha, h.z) *
+                                        appendix_b::visibility(alpha, double(wo.z), double(wi.z));
+                // Repeated reflection adds less than 0.04^2.
+                EXPECT_NEAR(coat_value(m, wo, wi).y, expected, 5e-3 * expected + 1e-3);
+            }
+        }
+    }
+}
+
+TEST(Coat, ASmoothCoatIsAMirrorOverWhatIsBelow) {
+    for (const double angle : {0.0, 45.0, 80.0}) {
+        const vec3 wo = at_angle(angle), wi = at_angle(30, 100);
+        const double f = 0.7 * schlick(double(wo.z)), f_i = 0.7 * schlick(double(wi.z));
+        const MaterialRecord paint = coated(lambertian(vec3(0.5f)), 0.7f, 0);
+        EXPECT_NEAR(bsdf_albedo(paint, wo, true, LOBE_MIRROR).y, f, 1e-6);
+        const double passed = 1 - std::max(f, f_i);
+        EXPECT_NEAR(bsdf_eval(paint, wo, wi, LOBES_ALL).y, 0.5 * passed * double(INV_PI), 1e-6);
+        const MaterialRecord silver = coated(metal(vec3(0.9f), 0), 0.7f, 0);
+        const double metal = 0.9 + 0.1 * std::pow(1 - double(wo.z), 5);
+        EXPECT_NEAR(bsdf_albedo(silver, wo, true, LOBE_MIRROR).y, f + (1 - f) * metal, 1e-5);
+        // Light leaves a solid at a smaller cosine than it arrives with.
+        const MaterialRecord solid = coated(glass(1.5f, 1), 0.7f, 0);
+        EXPECT_NEAR(bsdf_albedo(solid, wo, true, LOBES_DELTA).y, 1, 1e-5);
+        const DeltaLobes inside = bsdf_delta_lobes(solid, wo.z, false);
+        const double out = double(inside.cosine_refracted);
+        const double bare = bsdf_delta_lobes(glass(1.5f, 1), wo.z, false).transmitted.y;
+        EXPECT_NEAR(inside.transmitted.y, bare * (1 - 0.7 * schlick(out)), 1e-5);
+    }
+}
+
+TEST(Coat, IsReciprocal) {
+    std::mt19937 bits(91);
+    for (int i = 0; i < 50'000; ++i) {
+        const MaterialRecord m = any_coated(bits);
+        const vec3 a = any_upper(bits), b = any_upper(bits);
+        const vec3 there = bsdf_eval(m, a, b, LOBES_ALL), back = bsdf_eval(m, b, a, LOBES_ALL);
+        const vec3 coat = coat_value(m, a, b), coat_back = coat_value(m, b, a);
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_NEAR(there[k], back[k], 1e-5 * double(max_component(there))) << "case " << i;
+            ASSERT_NEAR(coat[k], coat_back[k], 1e-5 * double(coat[k])) << "case " << i;
+        }
+    }
+}
+
+TEST(Coat, SinglePrecisionIsStable) {
+    std::mt19937 bits(92);
+    for (int i = 0; i < 100'000; ++i) {
+        const MaterialRecord m = any_coated(bits);
+        const vec3 wo = any_upper(bits), wi = any_upper(bits);
+        const vec3 f = bsdf_eval(m, wo, wi, LOBES_ALL);
+        const glm::dvec3 truth = truth::bsdf_eval(record_bytes(m), wo, wi, LOBES_ALL);
+        const double alpha = std::max(double(ggx_alpha(m)), 1e-3);
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_NEAR(f[k], truth[k], (2e-4 + 1e-6 / alpha) * double(max_component(f)) + 3e-7)
+                << "case " << i;
+        }
+    }
+}
+
+/// Share of light from wo that is scattered.
+Mean scattered(const MaterialRecord& m, vec3 wo, bool front, int samples) {
+    Mean sum;
+    for (int i = 0; i < samples; ++i) {
+        BsdfSample s;
+        const vec4 u = random4(93, uint(i), 0, 0);
+        sum.add(bsdf_sample(m, wo, front, LOBES_ALL, u, s) ? double(s.weight.y) : 0);
+    }
+    return sum;
+}
+
+TEST(Coat, GainsNoLight) {
+    std::mt19937 bits(94);
+    for (int i = 0; i < 300; ++i) {
+        MaterialRecord m = with_color(any_coated(bits), vec3(1));
+        m.film = 0; // iridescence_test.cpp
+        m.specular_g = 1;
+        const vec3 wo = at_angle(double(bits() % 90));
+        const Mean sum = scattered(m, wo, i % 3 != 0, 4000);
+        EXPECT_LT(sum.value(), 1.015 + 5 * sum.deviation())
+            << "case " << i << ": metallic " << m.metallic << ", roughness " << m.roughness
+            << ", specular " << m.specular << " " << m.specular_r << ", transmission "
+            << m.transmission << ", index " << m.ior << ", thickness " << m.thickness << ", coat "
+            << m.coat << " " << m.coat_roughness << ", sheen " << m.sheen_g << " "
+            << m.sheen_roughness << ", wo.z " << wo.z << ", front " << (i % 3 != 0);
+    }
+}
+
+// What a coat takes at grazing angles of the light is lost below. Rough coats dim what is below as
+// smooth ones do, though they reflect less at grazing angles.
+TEST(Coat, LosesLittleLight) {
+    for (const float roughness : {0.0f, 0.3f}) {
+        for (const double angle : {0.0, 45.0, 75.0}) {
+            const Mean sum =
+                scattered(coated(lambertian(vec3(1)), 1, roughness), at_angle(angle), true, 20'000);
+            EXPECT_GT(sum.value(), 0.94 - 5 * sum.deviation()) << roughness << ", " << angle;
+        }
+    }
+}
+
+TEST(Coat, SamplesFollowTheirDensity) {
+    for (const float roughness : {0.3f, 0.5f, 1.0f}) {
+        for (const double angle : {0.0, 50.0, 80.0}) {
+            SCOPED_TRACE(::testing::Message() << roughness << ", " << angle);
+            MaterialRecord m = coated(glass(1.5f, 0), 0.8f, roughness);
+            m.roughness = 0.4f; // another lobe of its kind
+            const vec3 wo = at_angle(angle, 40);
+            // Moments of the cosine by samples and by quadrature over the half vector.
+            Mean weights, cosines, kept;
+            for (int i = 0; i < 60'000; ++i) {
+                BsdfSample s;
+                const bool counts =
+                    bsdf_sample(m, wo, true, LOBES_SPREAD, random4(95, uint(i), 0, 0), s) &&
+                    s.lobe == LOBE_COAT;
+                weights.add(counts ? double(s.weight.y) : 0);
+                cosines.add(counts ? double(s.weight.y * s.wi.z) : 0);
+                kept.add(counts ? 1 : 0);
+                if (counts) {
+                    float pdf = 0;
+                    spread_eval_and_pdf(m, wo, s.wi, true, LOBES_SPREAD, LOBE_COAT, pdf);
+                    ASSERT_NEAR(s.pdf, pdf, 1e-5 * double(pdf));
+                }
+            }
+            double weight = 0, cosine = 0, probability = 0;
+            const int rows = 600, columns = 300;
+            for (int row = 0; row < rows; ++row) {
+                for (int column = 0; column < columns; ++column) {
+                    const double theta = std::acos((row + 0.5) / rows);
+                    const double phi = 360 * (column + 0.5) / columns;
+                    const vec3 wi = at_angle(theta * 57.295779513082323, phi);
+                    float pdf = 0;
+                    const vec3 f =
+                        spread_eval_and_pdf(m, wo, wi, true, LOBES_SPREAD, LOBE_COAT, pdf);
+                    const double measure = 2 * 3.14159265358979 / (rows * columns);
+                    weight += double(f.y * wi.z) * measure;
+                    cosine += double(f.y * wi.z * wi.z) * measure;
+                    probability += double(pdf) * measure;
+                }
+            }
+            EXPECT_NEAR(weights.value(), weight, 5 * weights.deviation() + 2e-3 * weight);
+            EXPECT_NEAR(cosines.value(), cosine, 5 * cosines.deviation() + 2e-3 * cosine);
+            EXPECT_NEAR(kept.value(), probability, 5 * kept.deviation() + 2e-3 * probability);
+        }
+    }
+}
+
+} // namespace
+} // namespace argand
