@@ -204,7 +204,7 @@ TEST_P(Specialisation, RunsLeanModulesUnlessAMaterialNeedsMore) {
     EXPECT_EQ(whole, 0);
     const auto [mixed_lean, mixed_whole] = lean_modules(mixed_scene());
     EXPECT_EQ(mixed_lean, 0);
-    EXPECT_GE(mixed_whole, lean); // it may have normals, which add a variant
+    EXPECT_GE(mixed_whole, lean);
 }
 
 TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {
