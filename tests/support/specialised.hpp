@@ -46,8 +46,7 @@ inline SpecialisedCode specialised(const KernelInfo& kernel,
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
     const std::span<const std::uint32_t> spirv = module_for(kernel, constants);
-    EXPECT_TRUE(optimizer.Run(spirv.data(), spirv.size(), &code, options))
-        << kernel.name;
+    EXPECT_TRUE(optimizer.Run(spirv.data(), spirv.size(), &code, options)) << kernel.name;
 
     SpecialisedCode found;
     std::map<std::uint32_t, std::uint32_t> binding_of;
