@@ -175,7 +175,8 @@ void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
                    .paths = stored.emitted});
     forget_moved_boxes(moved_, moment_ - std::min(moment_, options_.window));
     mark_crossed(c_.device, queue_, block, moved_);
-    crossed_ = crossed_shares(c_.device, queue_, block);
+    crossed_ = moved_.boxes.empty() ? std::vector<CrossedShare>{{0, 1}}
+                                    : crossed_shares(c_.device, queue_, block);
     renew(ages_, block, stored.emitted);
     next_ = (block + 1) % options_.window;
     ++still_;
