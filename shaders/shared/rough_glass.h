@@ -86,7 +86,9 @@ FN real clear_under_cover(IN(MaterialRecord) m, real cosine_o, real z_i) {
 struct RoughInterface {
     vec3 reflected, transmitted;
     real cosine_refracted;
-    real choice; // probability with which a sample is reflected
+    // Probabilities with which a sample is reflected and let through. Their sum is 1, but a
+    // difference from 1 would lose what passes nearly black glass.
+    real reflects, passes;
 };
 
 FN RoughInterface rough_interface(IN(MaterialRecord) m, real cosine, real eta) {
@@ -98,7 +100,8 @@ FN RoughInterface rough_interface(IN(MaterialRecord) m, real cosine, real eta) {
     r.reflected = reflectance * clear_share(m);
     r.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
     real sum = mean_component(r.reflected) + mean_component(r.transmitted);
-    r.choice = sum > real(0.0) ? mean_component(r.reflected) / sum : real(1.0);
+    r.reflects = sum > real(0.0) ? mean_component(r.reflected) / sum : real(1.0);
+    r.passes = sum > real(0.0) ? mean_component(r.transmitted) / sum : real(0.0);
     return r;
 }
 
@@ -180,12 +183,12 @@ FN vec3 rough_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool fr
     real value =
         distribution * ggx_visibility(alpha, wo.z, abs(wi.z)) * clear_under_cover(m, wo.z, wi.z);
     if (reflects) {
-        pdf = r.choice * density;
+        pdf = r.reflects * density;
         return r.reflected * value;
     }
     // Solid angle of h over that of wi, times 4 cosines of wo with h, as for reflection it is 1.
     real jacobian = real(4.0) * eta * eta * (cosine_o / h2) * (-cosine_i / h2);
-    pdf = (real(1.0) - r.choice) * density * jacobian;
+    pdf = r.passes * density * jacobian;
     return r.transmitted * (value * jacobian);
 }
 
@@ -226,16 +229,16 @@ FN bool sample_rough_clear(IN(MaterialRecord) m, vec3 wo, bool front, vec3 u, IN
     vec3 h = ggx_sample_normal(alpha, wo, vec2(u.y, u.z));
     real cosine = clamp(dot3(wo, h), real(0.0), real(1.0));
     RoughInterface r = rough_interface(m, cosine, eta);
-    bool reflects = u.x < r.choice;
+    bool reflects = u.x < r.reflects;
     real density = ggx_reflection_pdf(alpha, ggx_distribution(alpha, h, real(1.0)), wo.z);
     if (reflects) {
         s.wi = h * (real(2.0) * cosine) - wo;
-        s.pdf = s.probability * r.choice * density;
+        s.pdf = s.probability * r.reflects * density;
     } else {
         s.wi = (h * cosine - wo) / eta - h * r.cosine_refracted;
         // wo + eta wi, along h
         real along = cosine - eta * r.cosine_refracted;
-        s.pdf = s.probability * (real(1.0) - r.choice) * density * real(4.0) * eta * eta * cosine *
+        s.pdf = s.probability * r.passes * density * real(4.0) * eta * eta * cosine *
                 r.cosine_refracted / (along * along);
         s.eta_scale = real(1.0) / (eta * eta);
     }
@@ -245,8 +248,8 @@ FN bool sample_rough_clear(IN(MaterialRecord) m, vec3 wo, bool front, vec3 u, IN
     }
     real masking = ggx_masking_weight(alpha, wo.z, abs(s.wi.z)) *
                    clear_under_cover(m, wo.z, s.wi.z) / s.probability;
-    s.weight = reflects ? r.reflected * (masking / r.choice)
-                        : r.transmitted * (masking / (real(1.0) - r.choice));
+    s.weight =
+        reflects ? r.reflected * (masking / r.reflects) : r.transmitted * (masking / r.passes);
     return true;
 }
 
