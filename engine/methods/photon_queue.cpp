@@ -175,8 +175,7 @@ void QueueMethod::add(const PassNumbers& numbers, std::uint32_t block,
                    .paths = stored.emitted});
     forget_moved_boxes(moved_, moment_ - std::min(moment_, options_.window));
     mark_crossed(c_.device, queue_, block, moved_);
-    crossed_ = moved_.boxes.empty() ? std::vector<CrossedShare>{{0, 1}}
-                                    : crossed_shares(c_.device, queue_, block);
+    crossed_ = crossed_shares(c_.device, queue_, block, moved_);
     renew(ages_, block, stored.emitted);
     next_ = (block + 1) % options_.window;
     ++still_;
@@ -500,7 +499,7 @@ void QueueMethod::persist(Archive& archive) {
         seen_ = seen_of(c_.on_device);
     }
     persist_queue(archive, c_.device, queue_);
-    crossed_ = crossed_shares(c_.device, queue_, newest());
+    crossed_ = crossed_shares(c_.device, queue_, newest(), moved_);
     persist_buffer(archive, c_.device, photons_.workspace().flux_sums,
                    flux_words * sizeof(std::int64_t));
 }

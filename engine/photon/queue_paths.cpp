@@ -101,10 +101,10 @@ void mark_crossed(Device& device, const PhotonQueue& q, std::uint32_t block,
     }
 }
 
-std::vector<CrossedShare> crossed_shares(Device& device, const PhotonQueue& q,
-                                         std::uint32_t block) {
+std::vector<CrossedShare> crossed_shares(Device& device, const PhotonQueue& q, std::uint32_t block,
+                                         const MovedBoxes& moved) {
     const std::uint32_t records = q.blocks[block].records;
-    if (!q.keeps_paths || records == 0) {
+    if (!q.keeps_paths || records == 0 || moved.boxes.empty()) {
         return {{0, 1}};
     }
     std::map<std::uint32_t, std::uint64_t> counts;

@@ -42,9 +42,9 @@ struct CrossedShare {
     double share = 0;
 };
 
-/// The parts of a block's photons by the moments at which they are marked, which rise; at least
-/// one. Waits for the device if the queue keeps paths.
+/// The parts of a block's photons by the moments at which these boxes marked them, which rise; at
+/// least one. Waits for the device if there are boxes.
 std::vector<CrossedShare> crossed_shares(Device& device, const PhotonQueue& queue,
-                                         std::uint32_t block);
+                                         std::uint32_t block, const MovedBoxes& moved);
 
 } // namespace argand

@@ -5,9 +5,9 @@
 //
 // The BSDF is a sum of lobes, which are scaled by the surface's alpha (coverage). What passes where
 // the surface is absent is not scattered, and no part of it.
-// - diffuse: sheen, and Lambertian reflection, under the specular layer of a dielectric or beside
-// the specular lobe of
-//   modified Phong.
+// - diffuse: Lambertian reflection, under the specular layer of a dielectric or beside the
+//   specular lobe of modified Phong, and sheen. Sheen is above the dielectric's layer and is not
+//   dimmed by it.
 // - glossy: GGX reflection by metal and by the dielectric's layer, with what microfacets reflect
 //   more than once, or the specular lobe of modified Phong.
 // - mirror: the same reflection where the surface is smooth, and reflection at the interface of a

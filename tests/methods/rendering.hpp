@@ -74,16 +74,23 @@ inline bool same_bits(const RenderResult& a, const RenderResult& b) {
 #define EXPECT_RELATIVE(actual, expected, tolerance)                                               \
     EXPECT_NEAR(actual, expected, (tolerance)*std::abs(expected))
 
-/// Expects the same mean radiance of each layer and channel, within a share of it.
+/// Expects the same mean radiance of each layer and channel, within a share of it, which caustics
+/// have for themselves.
 inline void expect_same_layers(const RenderResult& found, const RenderResult& expected,
-                               double tolerance) {
+                               double tolerance, double caustic_tolerance) {
     for (const char* name : {"direct", "indirect", "caustic"}) {
+        const bool is_caustic = std::string(name) == "caustic";
         for (int channel = 0; channel < 3; ++channel) {
             EXPECT_RELATIVE(mean(layer(found, name))[channel], mean(layer(expected, name))[channel],
-                            tolerance)
+                            is_caustic ? caustic_tolerance : tolerance)
                 << name << ", " << channel;
         }
     }
+}
+
+inline void expect_same_layers(const RenderResult& found, const RenderResult& expected,
+                               double tolerance) {
+    expect_same_layers(found, expected, tolerance, tolerance);
 }
 
 class RenderTest : public DeviceTest {
