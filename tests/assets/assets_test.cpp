@@ -42,7 +42,7 @@ const std::vector<Expected> scenes = {
     {"gloss_only.glb", 26, 3, 1, 0},         {"shuffled_walls.glb", 4122, 11, 1, 0},
     {"moving_light.glb", 2902, 7, 0, 1},     {"dynamic_shi.glb", 1316, 4, 0, 1},
     {"dynamic_slow_light.glb", 36, 8, 1, 0}, {"dynamic_switch.glb", 28, 4, 2, 0},
-    {"dynamic_block.glb", 46, 8, 0, 1},      {"dynamic_occluder.glb", 3856, 4, 1, 0},
+    {"dynamic_block.glb", 46, 8, 0, 1},      {"dynamic_occluder.glb", 7696, 5, 1, 0},
     {"dynamic_water.glb", 2062, 3, 1, 0},    {"dynamic_camera.glb", 36, 8, 1, 0},
 };
 
