@@ -41,6 +41,8 @@ FeatureText text_of(Feature feature) {
         return {"rough_coat", "rough coats", ""};
     case Feature::sheen:
         return {"sheen", "sheen", ""};
+    case Feature::anisotropy:
+        return {"anisotropy", "anisotropic gloss", ""};
     case Feature::iridescence:
         return {"iridescence", "thin films", ""};
     case Feature::dispersion:

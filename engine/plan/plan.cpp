@@ -33,6 +33,7 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::coat, MATERIAL_COAT},
                                  {Feature::rough_coat, LOBE_COAT | MATERIAL_COAT},
                                  {Feature::sheen, MATERIAL_SHEEN},
+                                 {Feature::anisotropy, MATERIAL_ANISOTROPY},
                                  {Feature::iridescence, MATERIAL_FILM},
                                  {Feature::dispersion, MATERIAL_DISPERSION},
                                  {Feature::unlit, MATERIAL_UNLIT},
@@ -86,6 +87,9 @@ bool add_material(Requirements& requirements, const Material& material, const st
     requirements.add(Feature::coat, by, record.coat > 0 && lobes != 0);
     requirements.add(Feature::rough_coat, by, (lobes & LOBE_COAT) != 0);
     requirements.add(Feature::sheen, by, has_sheen(record));
+    requirements.add(Feature::anisotropy, by,
+                     (lobes & LOBE_GLOSSY) != 0 &&
+                         is_anisotropic(record.absent, anisotropy(record)));
     requirements.add(Feature::iridescence, by,
                      record.film > 0 && (lobes & (LOBE_GLOSSY | LOBE_MIRROR | LOBE_CLEAR)) != 0);
     requirements.add(Feature::dispersion, by, record.dispersion > 0 && is_solid(record));

@@ -24,6 +24,7 @@ enum class Feature : std::uint8_t {
     coat,        ///< of varnish
     rough_coat,
     sheen,
+    anisotropy,     ///< of glossy reflection
     iridescence,    ///< thin films
     dispersion,     ///< of colours by a solid
     unlit,          ///< surfaces that show their base colour

@@ -88,6 +88,9 @@ void set_factors(const MaterialFactors& factors, Material& material) {
     material.film_thickness = clamped(factors.iridescence_thickness * 1e-3, largest_film);
     material.sheen_color = clamped(factors.sheen_color, 1);
     material.sheen_roughness = clamped(factors.sheen_roughness, 1);
+    const double strength = std::clamp(factors.anisotropy, 0.0, 1.0);
+    material.anisotropy = glm::dvec2(strength * std::cos(factors.anisotropy_rotation),
+                                     strength * std::sin(factors.anisotropy_rotation));
     material.unlit = factors.unlit;
     if (material.unlit) {
         material.emission = glm::vec3(0); // only the base colour counts

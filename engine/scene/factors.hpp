@@ -31,6 +31,7 @@ struct MaterialFactors {
     double iridescence = 0, iridescence_ior = 1.3, iridescence_thickness = 400; ///< [nanometres]
     glm::dvec3 sheen_color{0};
     double sheen_roughness = 0;
+    double anisotropy = 0, anisotropy_rotation = 0; ///< strength; [rad] from the tangent
     bool unlit = false;
 };
 

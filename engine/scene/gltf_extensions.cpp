@@ -11,12 +11,13 @@ bool supports_extension(std::string_view name) {
     if (missing_package(name)) {
         return false;
     }
-    constexpr std::array<std::string_view, 17> supported{meshopt_extension,
+    constexpr std::array<std::string_view, 18> supported{meshopt_extension,
                                                          "EXT_mesh_gpu_instancing",
                                                          draco_extension,
                                                          "KHR_animation_pointer",
                                                          "KHR_lights_punctual",
                                                          "KHR_materials_emissive_strength",
+                                                         "KHR_materials_anisotropy",
                                                          "KHR_materials_clearcoat",
                                                          "KHR_materials_dispersion",
                                                          "KHR_materials_iridescence",

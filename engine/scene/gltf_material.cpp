@@ -58,7 +58,7 @@ void list_textures(const json& value, std::set<std::string>& keys) {
 
 /// Textures that are read, or that rendering does not need.
 bool is_read(const std::string& texture) {
-    constexpr std::array<std::string_view, 15> known{"baseColorTexture",
+    constexpr std::array<std::string_view, 16> known{"baseColorTexture",
                                                      "metallicRoughnessTexture",
                                                      "emissiveTexture",
                                                      "normalTexture",
@@ -72,7 +72,8 @@ bool is_read(const std::string& texture) {
                                                      "iridescenceTexture",
                                                      "iridescenceThicknessTexture",
                                                      "sheenColorTexture",
-                                                     "sheenRoughnessTexture"};
+                                                     "sheenRoughnessTexture",
+                                                     "anisotropyTexture"};
     return std::find(known.begin(), known.end(), texture) != known.end();
 }
 
@@ -147,6 +148,10 @@ void read_extensions(const FactorReader& read, const json* object, MaterialFacto
         read.in_range(vector_of(read.source, sheen, "sheenColorFactor", glm::dvec3(0), read.what),
                       1, "sheenColorFactor");
     factors.sheen_roughness = read.number(sheen, "sheenRoughnessFactor", 0, 1);
+    const json* anisotropy = find_extension(object, "KHR_materials_anisotropy");
+    factors.anisotropy = read.number(anisotropy, "anisotropyStrength", 0, 1);
+    factors.anisotropy_rotation =
+        number_of(read.source, anisotropy, "anisotropyRotation", 0, read.what);
     const json* film = find_extension(object, "KHR_materials_iridescence");
     factors.iridescence = read.number(film, "iridescenceFactor", 0, 1);
     factors.iridescence_ior =
@@ -199,7 +204,7 @@ void read_phong(const FactorReader& read, const json* object, Material& material
 
 /// What textures may change of a material, now or at another time.
 struct TextureNeeds {
-    bool emission, specular, transmission, thickness, coat, film, sheen;
+    bool emission, specular, transmission, thickness, coat, film, sheen, anisotropy;
 };
 
 TextureNeeds needs_of(const MaterialFactors& factors, const MaterialKeys& keys) {
@@ -210,7 +215,8 @@ TextureNeeds needs_of(const MaterialFactors& factors, const MaterialKeys& keys) 
             .thickness = factors.thickness > 0 || keys.thickness,
             .coat = factors.coat > 0 || keys.coat,
             .film = factors.iridescence > 0 || keys.iridescence,
-            .sheen = factors.sheen_color != glm::dvec3(0) || keys.sheen_color};
+            .sheen = factors.sheen_color != glm::dvec3(0) || keys.sheen_color,
+            .anisotropy = factors.anisotropy > 0 || keys.anisotropy};
 }
 
 /// Adds a texture, or if it changes nothing only checks it.
@@ -266,6 +272,8 @@ void read_textures(TextureReader& textures, const FactorReader& read, const json
         material_other_textures);
     add(sheen, "sheenRoughnessTexture", TextureUse::sheen_roughness, has_metal && needs.sheen,
         material_other_textures);
+    add(find_extension(object, "KHR_materials_anisotropy"), "anisotropyTexture",
+        TextureUse::anisotropy, has_metal && needs.anisotropy, material_other_textures);
     const double most = number_of(read.source, film, "iridescenceThicknessMaximum", 400, read.what);
     const double least =
         number_of(read.source, film, "iridescenceThicknessMinimum", 100, read.what);
@@ -315,7 +323,11 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         material.double_sided = from.doubleSided;
         set_factors(factors, material);
         read_phong(read, object, material);
-        read_textures(textures, read, object, needs_of(factors, keys[i]), material);
+        const TextureNeeds needs = needs_of(factors, keys[i]);
+        read_textures(textures, read, object, needs, material);
+        if (needs.anisotropy) {
+            scene.uv_sets = std::max(scene.uv_sets, 1u); // tangents may follow the first
+        }
         scene.materials.push_back(material);
         if (keys[i].moves()) {
             scene.motion.materials.push_back({i, factors, std::move(keys[i])});

@@ -1,6 +1,6 @@
 #include "scene/gltf_surface.hpp"
 
-#include "shared/texture_record.h"
+#include "scene/tangents.hpp"
 
 namespace argand {
 
@@ -100,6 +100,13 @@ void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive
         }
         return accessor;
     };
+    const auto open_uvs = [&](std::uint32_t set, const std::string& key) {
+        const GltfAccessor accessor = open(key, "texture coordinates");
+        if (accessor.components != 2) {
+            source.fail("the texture coordinates of {} are not pairs", name);
+        }
+        surface.uvs.emplace_back(set, accessor);
+    };
     const Material& of = scene.materials[material];
     for (std::uint32_t i = 0; i < of.texture_count; ++i) {
         const std::uint32_t set = scene.textures[of.first_texture + i].uv_set;
@@ -108,14 +115,19 @@ void open_texture_attributes(const GltfSource& source, const tinygltf::Primitive
             source.fail("{} has no {}, which a texture of {} needs", name, key,
                         label("material", static_cast<int>(material), of.name));
         }
-        const GltfAccessor accessor = open(key, "texture coordinates");
-        if (accessor.components != 2) {
-            source.fail("the texture coordinates of {} are not pairs", name);
-        }
-        surface.uvs.emplace_back(set, accessor);
+        open_uvs(set, key);
     }
-    surface.has_tangents =
-        (of.texture_bits & material_normal_texture) != 0 && attribute(primitive, "TANGENT") >= 0;
+    const bool needs = needs_tangents(scene, material);
+    surface.has_tangents = needs && attribute(primitive, "TANGENT") >= 0;
+    if (needs && !surface.has_tangents && !tangent_texture(scene, material)) {
+        if (attribute(primitive, "TEXCOORD_0") >= 0) {
+            open_uvs(0, "TEXCOORD_0");
+        } else {
+            add_note(scene, fmt::format("{} is anisotropic but has neither tangents nor texture "
+                                        "coordinates: the direction is arbitrary",
+                                        name));
+        }
+    }
     if (surface.has_tangents) {
         surface.tangents = open("TANGENT", "tangents");
         if (surface.tangents.components != 4) {

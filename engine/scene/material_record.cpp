@@ -36,11 +36,11 @@ MaterialRecord material_record(const Material& m) {
                           m.film_ior,
                           m.film_thickness,
                           m.sheen_roughness,
-                          0,
+                          m.anisotropy.x,
                           m.sheen_color.r,
                           m.sheen_color.g,
                           m.sheen_color.b,
-                          0};
+                          m.anisotropy.y};
     if (m.alpha_varies && m.alpha_mode == AlphaMode::blend) {
         record.textures |= material_alpha_blend;
     } else if (m.alpha_varies && m.alpha_mode == AlphaMode::mask && m.coverage > 0) {
@@ -54,6 +54,7 @@ MaterialRecord material_record(const Material& m) {
         record.thickness = 0;
         record.coat = 0;
         record.film = 0;
+        record.anisotropy_x = record.anisotropy_y = 0;
         record.sheen_r = record.sheen_g = record.sheen_b = 0;
         record.dispersion = 0;
         record.specular_r = specular.r;

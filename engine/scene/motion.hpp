@@ -105,14 +105,15 @@ struct MaterialKeys {
     std::optional<KeyFrames> attenuation_color, attenuation_distance;
     std::optional<KeyFrames> coat, coat_roughness, dispersion;
     std::optional<KeyFrames> sheen_color, sheen_roughness;
+    std::optional<KeyFrames> anisotropy, anisotropy_rotation;
     std::optional<KeyFrames> iridescence, iridescence_ior, iridescence_thickness;
     bool moves_alpha() const { return base_color || alpha_cutoff; }
     bool moves() const {
         return moves_alpha() || metallic || roughness || emissive || emissive_strength ||
                specular || specular_color || transmission || ior || thickness ||
                attenuation_color || attenuation_distance || coat || coat_roughness || dispersion ||
-               sheen_color || sheen_roughness || iridescence || iridescence_ior ||
-               iridescence_thickness;
+               sheen_color || sheen_roughness || anisotropy || anisotropy_rotation || iridescence ||
+               iridescence_ior || iridescence_thickness;
     }
 };
 

@@ -67,6 +67,8 @@ MaterialFactors factors_at(const MovingMaterial& material, double seconds) {
     move_number(keys.dispersion, seconds, factors.dispersion);
     move_vector(keys.sheen_color, seconds, factors.sheen_color);
     move_number(keys.sheen_roughness, seconds, factors.sheen_roughness);
+    move_number(keys.anisotropy, seconds, factors.anisotropy);
+    move_number(keys.anisotropy_rotation, seconds, factors.anisotropy_rotation);
     move_number(keys.iridescence, seconds, factors.iridescence);
     move_number(keys.iridescence_ior, seconds, factors.iridescence_ior);
     move_number(keys.iridescence_thickness, seconds, factors.iridescence_thickness);
@@ -115,6 +117,8 @@ std::vector<double> key_times(const MaterialKeys& keys) {
                                          &keys.dispersion,
                                          &keys.sheen_color,
                                          &keys.sheen_roughness,
+                                         &keys.anisotropy,
+                                         &keys.anisotropy_rotation,
                                          &keys.iridescence,
                                          &keys.iridescence_ior,
                                          &keys.iridescence_thickness}) {

@@ -46,6 +46,8 @@ struct Material {
     float film_thickness = 0.4f; ///< [micrometres]
     glm::vec3 sheen_color{0};    ///< KHR_materials_sheen
     float sheen_roughness = 0;
+    /// KHR_materials_anisotropy: strength times cosine and sine of the rotation from the tangent.
+    glm::vec2 anisotropy{0};
     bool unlit = false; ///< KHR_materials_unlit: shows its base colour, and scatters nothing
     bool double_sided = false;
     /// If present, replaces metal, dielectric, transmission, coat, film and sheen.

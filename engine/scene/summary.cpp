@@ -41,6 +41,7 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"dispersion", material.dispersion},
             {"sheen_color", numbers(material.sheen_color)},
             {"sheen_roughness", material.sheen_roughness},
+            {"anisotropy", glm::length(material.anisotropy)},
             {"iridescence", material.film},
             {"film_ior", material.film_ior},
             {"film_thickness", material.film_thickness},
@@ -82,6 +83,8 @@ const char* name_of(TextureUse use) {
         return "film";
     case TextureUse::film_thickness:
         return "film_thickness";
+    case TextureUse::anisotropy:
+        return "anisotropy";
     }
     return "base_color";
 }
@@ -195,6 +198,9 @@ std::string layers_text(const json& material) {
     std::string text;
     if (value("dispersion") > 0 && value("transmission") > 0 && value("thickness") > 0) {
         text += fmt::format(", dispersion {:.4g}", value("dispersion"));
+    }
+    if (value("anisotropy") > 0) {
+        text += fmt::format(", anisotropy {:.4g}", value("anisotropy"));
     }
     if (value("iridescence") > 0) {
         text += fmt::format(", film {:.4g} of {:.4g} nm with index {:.4g}", value("iridescence"),
@@ -335,7 +341,8 @@ std::string describe(const Material& material) {
     }
     // KHR_materials_transmission applies to the dielectric part: metal does not transmit.
     if (material.metallic >= 1) {
-        return material.roughness <= 0 ? "mirror" : "metal";
+        const bool smooth = material.roughness <= 0 && material.anisotropy == glm::vec2(0);
+        return smooth ? "mirror" : "metal";
     }
     if (material.transmission > 0) {
         const char* solid = material.thickness > 0 ? "glass" : "thin glass";

@@ -1,11 +1,11 @@
 #include "scene/tangents.hpp"
 
 #include "base/hash_floats.hpp"
+#include "scene/moving_factors.hpp"
 #include "shared/tangent.h"
 #include "shared/texture_record.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <unordered_map>
@@ -27,7 +27,7 @@ glm::dvec3 flattened(const glm::dvec3& v, const glm::dvec3& normal) {
     return unit_or(v - normal * glm::dot(v, normal), glm::dvec3(0));
 }
 
-/// A triangle whose material has a normal texture.
+/// A triangle whose material needs tangents.
 struct Textured {
     std::array<std::uint32_t, 3> vertices;
     std::array<glm::dvec3, 3> positions;
@@ -42,19 +42,18 @@ struct Textured {
     }
 };
 
-const Texture& normal_texture(const Scene& scene, const Material& material) {
-    const std::uint32_t before = material.texture_bits & (material_normal_texture - 1);
-    return scene.textures[material.first_texture + std::uint32_t(std::popcount(before))];
-}
-
-Textured textured(const Scene& scene, std::size_t index, const Texture& texture) {
+/// texture: its coordinates count; if there is none, those of the first set.
+Textured textured(const Scene& scene, std::size_t index, const Texture* texture) {
     Textured t;
+    const std::uint32_t uv_set = texture ? texture->uv_set : 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = scene.triangles[index][int(k)];
         t.vertices[k] = vertex;
         t.positions[k] = scene.positions[vertex];
-        const glm::vec2 uv = scene.uvs[std::size_t{vertex} * scene.uv_sets + texture.uv_set];
-        t.uvs[k] = texture.transform * glm::vec3(uv, 1);
+        const glm::vec2 uv = scene.uv_sets > 0
+                                 ? scene.uvs[std::size_t{vertex} * scene.uv_sets + uv_set]
+                                 : glm::vec2(0);
+        t.uvs[k] = texture ? glm::vec2(texture->transform * glm::vec3(uv, 1)) : uv;
     }
     const glm::dvec2 u1 = glm::dvec2(t.uvs[1]) - glm::dvec2(t.uvs[0]);
     const glm::dvec2 u2 = glm::dvec2(t.uvs[2]) - glm::dvec2(t.uvs[0]);
@@ -98,17 +97,39 @@ std::uint32_t packed_at(const Scene& scene, const Textured& t, std::size_t k, co
 
 } // namespace
 
+bool needs_tangents(const Scene& scene, std::uint32_t material) {
+    const Material& of = scene.materials[material];
+    const MovingMaterial* moving = moving_material(scene.motion, material);
+    return (of.texture_bits & material_normal_texture) != 0 || of.anisotropy != glm::vec2(0) ||
+           (moving && moving->keys.anisotropy);
+}
+
+const Texture* tangent_texture(const Scene& scene, std::uint32_t material) {
+    const Material& of = scene.materials[material];
+    const Texture* found = nullptr;
+    for (std::uint32_t i = 0; i < of.texture_count; ++i) {
+        const Texture& texture = scene.textures[of.first_texture + i];
+        if (texture.use == TextureUse::normal) {
+            return &texture;
+        }
+        if (texture.use == TextureUse::anisotropy) {
+            found = &texture;
+        }
+    }
+    return found;
+}
+
 void add_tangents(Scene& scene) {
     std::vector<std::size_t> indices;
     std::vector<Textured> list;
     Sums sums;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const Material& material = scene.materials[scene.triangle_material[i]];
-        if ((material.texture_bits & material_normal_texture) == 0) {
+        const std::uint32_t index = scene.triangle_material[i];
+        if (!needs_tangents(scene, index)) {
             continue;
         }
         indices.push_back(i);
-        list.push_back(textured(scene, i, normal_texture(scene, material)));
+        list.push_back(textured(scene, i, tangent_texture(scene, index)));
         const Textured& t = list.back();
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3 normal = scene.normals[t.vertices[k]];

@@ -33,6 +33,7 @@ enum class TextureUse : std::uint8_t {
     coat_roughness,
     film,
     film_thickness,
+    anisotropy,
     sheen_color,
     sheen_roughness
 };

@@ -59,6 +59,9 @@ std::vector<Material> at_extreme_texels(const Scene& scene, const Material& mate
         case TextureUse::sheen_color:
             vary([&](Material& m, bool high) { m.sheen_color *= glm::vec3(texel(high)); });
             break;
+        case TextureUse::anisotropy:
+            vary([&](Material& m, bool high) { m.anisotropy *= texel(high).b; });
+            break;
         case TextureUse::film:
             vary([&](Material& m, bool high) { m.film *= texel(high).r; });
             break;

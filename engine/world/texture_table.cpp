@@ -62,6 +62,8 @@ std::uint32_t use_flag(TextureUse use) {
         return texture_of_film << texture_use_shift;
     case TextureUse::film_thickness:
         return texture_of_film_thickness << texture_use_shift;
+    case TextureUse::anisotropy:
+        return texture_of_anisotropy << texture_use_shift;
     default:
         return 0;
     }

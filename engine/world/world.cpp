@@ -288,11 +288,12 @@ void World::add_textures(const Scene& scene, DeviceScene& on_device) {
     if (textured && !textures_.texels) {
         textures_ = make_texture_table(device_, scene);
     }
-    if ((textured || colored) && !attributes_) {
+    const bool turned = on_device.plan.needs(Feature::anisotropy) && !scene.tangents.empty();
+    if ((textured || colored || turned) && !attributes_) {
         attributes_ = upload_attributes(device_, scene);
     }
     const Buffer none = textured ? Buffer() : unneeded(device_);
-    on_device.attributes = textured || colored ? attributes_ : none;
+    on_device.attributes = textured || colored || turned ? attributes_ : none;
     on_device.textures = textured ? textures_.records : none;
     on_device.texture_halvings = textured ? textures_.halvings : 0;
     on_device.texels = textured ? textures_.texels : none;

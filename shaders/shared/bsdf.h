@@ -191,19 +191,33 @@ FN vec4 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
     return sum > real(0.0) ? p / sum : p;
 }
 
+// Alphas along and across the direction of most spread.
+FN vec2 brushed_alphas(IN(ReflectionParameters) r) {
+    return vec2(alpha_along(r.alpha_across, r.anisotropy), max(r.alpha_across, SMALLEST_ALPHA));
+}
+
+// What facets of a rough layer reflect at most towards wi, without the cosine [1/sr], and the
+// density of wi. h and h2: as below.
+FN real layer_facets(IN(ReflectionParameters) r, vec3 wo, vec3 wi, vec3 h, real h2, OUT(real) pdf) {
+    if (is_anisotropic(r.absent, r.anisotropy)) {
+        return brushed_facets(brushed_alphas(r), r.anisotropy, wo, wi, h, h2, pdf);
+    }
+    real distribution = ggx_distribution(r.alpha, h, h2);
+    pdf = ggx_reflection_pdf(r.alpha, distribution, wo.z);
+    return distribution * ggx_visibility(r.alpha, wo.z, wi.z);
+}
+
 // Value of the reflection by a rough layer without the cosine [1/sr], and the density of wi. h: sum
 // of wo and wi, h2: its squared length, cosine: half its length.
 FN vec3 rough_layer_eval_and_pdf(IN(ReflectionParameters) r, vec3 wo, vec3 wi, vec3 h, real h2,
                                  real cosine, OUT(real) pdf) {
-    real distribution = ggx_distribution(r.alpha, h, h2);
-    vec3 once =
-        filmed_layer_reflectance(r, cosine) * (distribution * ggx_visibility(r.alpha, wo.z, wi.z));
+    real density;
+    vec3 once = filmed_layer_reflectance(r, cosine) * layer_facets(r, wo, wi, h, h2, density);
     real lost = ggx_lost(r.alpha, wo.z);
     real average = ggx_lost_average(r.alpha);
     vec3 repeated = repeated_color(r, average);
     real share = repeated_share(r, lost, repeated);
-    pdf = (real(1.0) - share) * ggx_reflection_pdf(r.alpha, distribution, wo.z) +
-          share * ggx_repeated_pdf(r.alpha, wi.z);
+    pdf = (real(1.0) - share) * density + share * ggx_repeated_pdf(r.alpha, wi.z);
     return once + repeated * (INV_PI * lost * (ggx_lost(r.alpha, wi.z) / average));
 }
 
@@ -214,7 +228,9 @@ FN vec3 rough_layer_sample(IN(ReflectionParameters) r, vec3 wo, real choice, vec
     if (choice < repeated_share(r, lost, repeated)) {
         return ggx_sample_repeated(r.alpha, u);
     }
-    vec3 h = ggx_sample_normal(r.alpha, wo, u);
+    vec3 h = is_anisotropic(r.absent, r.anisotropy)
+                 ? brushed_sample_normal(brushed_alphas(r), r.anisotropy, wo, u)
+                 : ggx_sample_normal(r.alpha, wo, u);
     return h * (real(2.0) * dot3(wo, h)) - wo;
 }
 

@@ -4,6 +4,7 @@
 #define ARGAND_SHARED_BSDF_LAYERS_H
 
 #include "shared/fresnel.h"
+#include "shared/ggx_anisotropic.h"
 #include "shared/ggx_energy.h"
 #include "shared/iridescence.h"
 #include "shared/material_record.h"
@@ -24,7 +25,7 @@ CONSTANT uint LOBES_ALL = 63u;
 
 // Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract,
 // those that absorb, unlit surfaces, coats, thin films, solids that refract colours differently,
-// sheen.
+// sheen, anisotropic GGX lobes.
 CONSTANT uint MATERIAL_ALPHA = 64u;
 CONSTANT uint MATERIAL_GGX = 128u;
 CONSTANT uint MATERIAL_PHONG = 256u;
@@ -35,9 +36,11 @@ CONSTANT uint MATERIAL_COAT = 4096u;
 CONSTANT uint MATERIAL_FILM = 8192u;
 CONSTANT uint MATERIAL_DISPERSION = 16384u;
 CONSTANT uint MATERIAL_SHEEN = 32768u;
-CONSTANT uint MATERIAL_ALL = 65535u;
-// All but rough glass, coats, films, dispersion and sheen. Few scenes have these, and they double
-// the size of kernels. A kernel for scenes without them is compiled apart, with ARGAND_LEAN.
+CONSTANT uint MATERIAL_ANISOTROPY = 65536u;
+CONSTANT uint MATERIAL_ALL = 131071u;
+// All but rough glass, coats, films, dispersion, sheen and anisotropy. Few scenes have these, and
+// they double the size of kernels. A kernel for scenes without them is compiled apart, with
+// ARGAND_LEAN.
 CONSTANT uint MATERIAL_LEAN = 4047u;
 // Features that metals and dielectric layers need.
 CONSTANT uint MATERIAL_LAYER = 132u; // GGX or mirror
@@ -78,7 +81,36 @@ FN bool alpha_is_delta(uint absent, real alpha) {
     return may_have(absent, LOBE_MIRROR) &&
            (!may_have(absent, LOBE_GLOSSY) || alpha < SMALLEST_ALPHA);
 }
-FN bool roughness_is_delta(IN(MaterialRecord) m) { return alpha_is_delta(m.absent, ggx_alpha(m)); }
+
+// Anisotropic metal and layer (KHR_materials_anisotropy): alpha along the direction in which facets
+// spread most. Across it is that of the roughness, unless that is a mirror's.
+FN real alpha_along(real across, vec2 anisotropy) {
+    real strength2 = min(anisotropy.x * anisotropy.x + anisotropy.y * anisotropy.y, real(1.0));
+    return across + (real(1.0) - across) * strength2;
+}
+FN bool is_anisotropic(uint absent, vec2 anisotropy) {
+    return may_have(absent, MATERIAL_ANISOTROPY) &&
+           (anisotropy.x != real(0.0) || anisotropy.y != real(0.0));
+}
+FN vec2 anisotropy(IN(MaterialRecord) m) {
+    return vec2(real(m.anisotropy_x), real(m.anisotropy_y));
+}
+
+// Alpha of metal and layer. If they are anisotropic it is the root of the mean square of both, for
+// whatever does not depend on the azimuth.
+FN real mean_alpha(uint absent, real across, vec2 anisotropy) {
+    if (!is_anisotropic(absent, anisotropy)) {
+        return across;
+    }
+    real along = alpha_along(across, anisotropy);
+    return sqrt(real(0.5) * (across * across + along * along));
+}
+FN real layer_alpha(IN(MaterialRecord) m) {
+    return mean_alpha(m.absent, ggx_alpha(m), anisotropy(m));
+}
+FN bool roughness_is_delta(IN(MaterialRecord) m) {
+    return alpha_is_delta(m.absent, layer_alpha(m));
+}
 
 // Shares of the surface: absent, metal, and dielectric, the last split into opaque and clear by the
 // transmission factor.
@@ -116,10 +148,12 @@ struct ReflectionParameters {
     vec3 f0;
     real f90; // of the dielectric's layer
     real opaque_share, metal_share;
-    real layer_share; // of the surface: dielectric that reflects by Schlick's approximation
-    real alpha;
-    real exponent;                       // of modified Phong, or negative
-    real coat, coat_alpha;               // share of what is present, GGX
+    real layer_share;      // of the surface: dielectric that reflects by Schlick's approximation
+    real alpha;            // mean_alpha
+    real alpha_across;     // anisotropic: across the direction of most spread
+    vec2 anisotropy;       // as in MaterialRecord, in the shading frame
+    real exponent;         // of modified Phong, or negative
+    real coat, coat_alpha; // share of what is present, GGX
     real film, film_ior, film_thickness; // as in MaterialRecord
     vec3 sheen;                          // colour, scaled by alpha
     real sheen_most, sheen_alpha;        // largest component of the colour
@@ -143,7 +177,9 @@ FN ReflectionParameters reflection_parameters(IN(MaterialRecord) m) {
     r.opaque_share = opaque_share(m);
     r.metal_share = metal_share(m);
     r.layer_share = layer_share(m);
-    r.alpha = ggx_alpha(m);
+    r.alpha_across = ggx_alpha(m);
+    r.anisotropy = anisotropy(m);
+    r.alpha = layer_alpha(m);
     r.exponent = real(m.exponent);
     r.coat = real(m.coat);
     r.coat_alpha = real(m.coat_roughness) * real(m.coat_roughness);

@@ -27,8 +27,13 @@ struct MaterialRecord {
     // Thin film on metal or dielectric: its share of the surface, index of refraction, thickness
     // [micrometres].
     float32 film, film_ior, film_thickness;
-    float32 sheen_roughness, pad0;
-    float32 sheen_r, sheen_g, sheen_b, pad1;
+    float32 sheen_roughness;
+    // Anisotropy of GGX reflection by metal and dielectric: its strength, times the cosine and the
+    // sine of the angle from the tangent to the direction in which facets spread most. Kernels turn
+    // it into the shading frame (kernels/anisotropy.h).
+    float32 anisotropy_x;
+    float32 sheen_r, sheen_g, sheen_b;
+    float32 anisotropy_y;
 };
 
 ARGAND_SHARED_END

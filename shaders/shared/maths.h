@@ -42,6 +42,13 @@ FN vec3 unit_and_length(vec3 v, OUT(real) v_length) {
     return scaled / scaled_length;
 }
 
+// Unit vector along `along`; (0,0) if that is zero or not finite.
+FN vec2 unit_direction(vec2 along) {
+    real size;
+    vec3 unit = unit_and_length(vec3(along.x, along.y, real(0.0)), size);
+    return vec2(unit.x, unit.y);
+}
+
 ARGAND_SHARED_END
 
 #endif

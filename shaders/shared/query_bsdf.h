@@ -19,7 +19,9 @@ FN QueryBsdfRecord query_bsdf(IN(ReflectionParameters) r, uint direction, uint s
     q.f90 = float32(r.f90);
     q.metal_share = float32(r.metal_share);
     q.layer_share = float32(r.layer_share);
-    q.alpha = float32(r.alpha);
+    q.alpha_across = float32(r.alpha_across);
+    q.anisotropy_x = float32(r.anisotropy.x);
+    q.anisotropy_y = float32(r.anisotropy.y);
     q.exponent = float32(r.exponent);
     q.coat = float32(r.coat);
     q.coat_alpha = float32(r.coat_alpha);
@@ -45,7 +47,9 @@ FN ReflectionParameters reflection_parameters(IN(QueryBsdfRecord) q) {
     r.opaque_share = real(q.opaque_share);
     r.metal_share = real(q.metal_share);
     r.layer_share = real(q.layer_share);
-    r.alpha = real(q.alpha);
+    r.alpha_across = real(q.alpha_across);
+    r.anisotropy = vec2(real(q.anisotropy_x), real(q.anisotropy_y));
+    r.alpha = mean_alpha(0u, r.alpha_across, r.anisotropy);
     r.exponent = real(q.exponent);
     r.coat = real(q.coat);
     r.coat_alpha = real(q.coat_alpha);

@@ -21,7 +21,8 @@ struct QueryRecord {
 struct QueryBsdfRecord {
     float32 base_r, base_g, base_b, opaque_share;
     float32 f0_r, f0_g, f0_b, f90;
-    float32 metal_share, layer_share, alpha, exponent;
+    float32 metal_share, layer_share, alpha_across, exponent;
+    float32 anisotropy_x, anisotropy_y;
     float32 coat, coat_alpha, film, film_ior, film_thickness;
     float32 sheen_r, sheen_g, sheen_b, sheen_most, sheen_alpha;
     uint direction;      // towards the eye, packed

@@ -137,17 +137,18 @@ FN vec3 thin_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 mirrored, OU
     vec3 h = wo + mirrored;
     real h2 = dot3(h, h);
     real cosine = min(real(0.5) * sqrt(h2), real(1.0));
-    real distribution = ggx_distribution(r.alpha, h, h2);
-    real average = ggx_lost_average(r.alpha);
-    real lost = ggx_lost(r.alpha, wo.z);
+    real alpha = ggx_alpha(m);
+    real distribution = ggx_distribution(alpha, h, h2);
+    real average = ggx_lost_average(alpha);
+    real lost = ggx_lost(alpha, wo.z);
     real repeated = thin_repeated(r, average);
     real share = thin_repeated_share(r, lost, repeated);
-    pdf = (real(1.0) - share) * ggx_reflection_pdf(r.alpha, distribution, wo.z) +
-          share * ggx_repeated_pdf(r.alpha, mirrored.z);
+    pdf = (real(1.0) - share) * ggx_reflection_pdf(alpha, distribution, wo.z) +
+          share * ggx_repeated_pdf(alpha, mirrored.z);
     real passed = has_film(r) ? passes_smooth_layer_at(r, cosine)
                               : real(1.0) - max_component(dielectric_fresnel(r, cosine));
-    real once = passed * distribution * ggx_visibility(r.alpha, wo.z, mirrored.z);
-    real more = repeated * (INV_PI * lost * (ggx_lost(r.alpha, mirrored.z) / average));
+    real once = passed * distribution * ggx_visibility(alpha, wo.z, mirrored.z);
+    real more = repeated * (INV_PI * lost * (ggx_lost(alpha, mirrored.z) / average));
     return base_color(m) * (clear_share(m) * (once + more));
 }
 

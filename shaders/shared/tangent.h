@@ -35,9 +35,10 @@ FN vec3 projected_unit(vec3 v, vec3 n) {
 // Least cosine between the geometric normal and one that a texture has turned.
 CONSTANT real LEAST_NORMAL_COSINE = real(0.02);
 
-// A unit normal that a texel turns. normal: unit; edge: the triangle's first; tangents: packed ones
-// of its corners; b: weights of the second and third; slope: along tangent, bitangent and normal.
-FN vec3 turned_normal(vec3 normal, vec3 edge, uvec3 tangents, vec2 b, vec3 slope) {
+// The direction of length 1 that lies along `slope` in the frame of tangent, bitangent and normal;
+// the normal if the slope is (0,0,0). normal: unit; edge: the triangle's first; tangents: packed
+// ones of its corners; b: weights of the second and third.
+FN vec3 from_tangents(vec3 normal, vec3 edge, uvec3 tangents, vec2 b, vec3 slope) {
     vec3 x = projected_unit(edge, normal);
     vec2 along = unpack_tangent(tangents.x) * (real(1.0) - b.x - b.y) +
                  unpack_tangent(tangents.y) * b.x + unpack_tangent(tangents.z) * b.y;

@@ -39,7 +39,8 @@ CONSTANT uint of_bsdf_pdf = 55u;
 CONSTANT uint of_followed_lobes = 56u;
 CONSTANT uint of_path_state = 57u;
 CONSTANT uint of_rough_clear = 58u;
-CONSTANT uint end_of_scatter = 59u;
+CONSTANT uint of_brushed = 59u;
+CONSTANT uint end_of_scatter = 60u;
 
 // A material from the sixteen numbers from k on.
 FN MaterialRecord material_at(IN(Arguments) a, int k) {
@@ -63,7 +64,7 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.absorption_b = real(0.0);
     m.unlit = 0u;
     m.coat = m.coat_roughness = m.dispersion = float32(0.0);
-    m.film = m.film_thickness = m.pad0 = m.pad1 = float32(0.0);
+    m.film = m.film_thickness = m.anisotropy_x = m.anisotropy_y = float32(0.0);
     m.film_ior = float32(1.3);
     m.sheen_r = m.sheen_g = m.sheen_b = m.sheen_roughness = float32(0.0);
     m.emission_r = m.emission_g = m.emission_b = float32(0.0);
@@ -111,6 +112,13 @@ FN bool evaluate_lobes(uint function, IN(Arguments) a, INOUT(Values) r) {
         put3(r, 0, ggx_sample_normal(number_at(a, 0), vec3_at(a, 1), vec2_at(a, 4)));
     } else if (function == of_ggx_reflection_pdf) {
         r.y[0] = ggx_reflection_pdf(number_at(a, 0), number_at(a, 1), number_at(a, 2));
+    } else if (function == of_brushed) {
+        vec2 alpha = vec2_at(a, 8);
+        vec2 along = vec2_at(a, 10);
+        vec3 h = vec3_at(a, 0) + vec3_at(a, 3);
+        put3(r, 0, brushed_sample_normal(alpha, along, vec3_at(a, 0), vec2_at(a, 6)));
+        r.y[3] = brushed_facets(alpha, along, vec3_at(a, 0), vec3_at(a, 3), h, dot3(h, h), s);
+        r.y[4] = s;
     } else if (function == of_phong_power) {
         r.y[0] = phong_power(number_at(a, 0), vec3_at(a, 1), vec3_at(a, 4));
     } else if (function == of_phong_sample) {

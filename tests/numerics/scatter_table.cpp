@@ -33,14 +33,19 @@ void put_material(Draw& d) {
     d.put(phong ? exponent : -1);
 }
 
-/// Directions and a material.
-void put_scattering(Draw& d) {
+/// Two directions, of which the second is often near the first one's mirrored one.
+void put_directions(Draw& d) {
     const glm::vec3 wo = d.upper();
     glm::dvec3 wi(-wo.x, -wo.y, wo.z);
     wi += d.across(wi) * double(d.magnitude(-20, 0));
     wi.z = std::abs(wi.z);
     d.put(wo);
     d.put(d.once_in(2) ? d.upper() : rounded(glm::normalize(wi)));
+}
+
+/// Directions and a material.
+void put_scattering(Draw& d) {
+    put_directions(d);
     put_material(d);
 }
 
@@ -206,6 +211,22 @@ std::vector<Function> microfacets() {
              d.put(d.magnitude(-30, 0));
          },
          3, "1", ulp, 5},
+        // Upright facets seen at grazing angles are a difference of nearly equal numbers.
+        {"brushed_sample_normal, brushed_facets", of_brushed,
+         "alphas 10^-3 … 1, any direction of spread, upright and grazing, near the mirror's "
+         "direction and far",
+         [](Draw& d) {
+             put_directions(d);
+             d.put(d.unit());
+             d.put(d.unit());
+             d.put(d.magnitude(-10, 0));
+             d.put(d.magnitude(-10, 0));
+             const glm::vec2 along(d.direction());
+             const bool aligned = along == glm::vec2(0) || d.once_in(3);
+             d.put(aligned ? 1 : along.x);
+             d.put(aligned ? 0 : along.y);
+         },
+         12, "311", conditioned, 200},
     };
 }
 

@@ -32,7 +32,7 @@ TEST(EveryKind, IsInThePlanForEverything) {
 TEST(EveryKind, OfAMaterialIsInLeanModulesOrNamedHere) {
     EXPECT_EQ(MATERIAL_ALL & ~MATERIAL_LEAN, LOBE_CLEAR | LOBE_COAT | MATERIAL_COAT |
                                                  MATERIAL_FILM | MATERIAL_DISPERSION |
-                                                 MATERIAL_SHEEN);
+                                                 MATERIAL_SHEEN | MATERIAL_ANISOTROPY);
 }
 
 TEST(EveryKind, IsInTheKernelsByDefault) {

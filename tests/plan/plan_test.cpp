@@ -115,6 +115,10 @@ TEST(Plan, EachMaterialAddsItsFeatures) {
              {Feature::iridescence, Feature::coat, Feature::rough_coat, Feature::sheen}) {
             EXPECT_EQ(std::count(found.begin(), found.end(), feature), share > 0 ? 1 : 0);
         }
+        Material brushed;
+        brushed.anisotropy = {share, 0};
+        const auto metals = added(room, with_quad(room, brushed));
+        EXPECT_EQ(std::count(metals.begin(), metals.end(), Feature::anisotropy), share > 0 ? 1 : 0);
         Material prism = glass(1.5f, share > 0);
         prism.dispersion = 1;
         const auto colors = added(room, with_quad(room, prism));

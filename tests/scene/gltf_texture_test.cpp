@@ -301,6 +301,25 @@ TEST(GltfTexture, ReadsEveryTextureOfAMaterialInTheOrderOfItsUses) {
     expect_problem(file.with_coordinates(), "occlusionTexture is texture 7, which does not exist");
 }
 
+// Tangents of a surface that is anisotropic but has no textures follow the first coordinates.
+TEST(GltfTexture, AnisotropyNeedsCoordinatesOrTangents) {
+    TexturedFile file(embedded(two_by_one()));
+    file.builder.root["materials"][0] = {
+        {"extensions", {{"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}}}}};
+    const Scene bare = TexturedFile(file).finished().load();
+    EXPECT_TRUE(has_note(bare, "is anisotropic but has neither tangents nor texture coordinates"));
+    EXPECT_EQ(bare.tangents.size(), 1u);
+    const std::vector<glm::vec2> uvs{{0, 1}, {0, 0}, {1, 1}};
+    const Scene scene = TexturedFile(file).with_coordinates("TEXCOORD_0", uvs).finished().load();
+    EXPECT_FALSE(has_note(scene, "is anisotropic"));
+    EXPECT_EQ(scene.uvs, uvs);
+    const std::vector<glm::vec2> turned{{0, 1}, {1, 1}, {0, 0}};
+    EXPECT_NE(scene.tangents,
+              TexturedFile(file).with_coordinates("TEXCOORD_0", turned).finished().load().tangents);
+    file.builder.root["materials"][0]["extensions"]["KHR_materials_anisotropy"] = json::object();
+    EXPECT_EQ(TexturedFile(file).with_coordinates("TEXCOORD_0", uvs).finished().load().uv_sets, 0u);
+}
+
 // A dial that glows lights no model; without a studio, all but the dial would be black.
 TEST(GltfTexture, GlowByTexelsDoesNotReplaceAMissingLight) {
     for (const double strength : {1.0, 3.0}) {

@@ -31,6 +31,11 @@ TEST(Describe, NamesEachKindOfMaterial) {
     EXPECT_EQ(kind(0, 0, 1, 1, 0), "thin glass");
     EXPECT_EQ(kind(0, 0, 1, 0.5f, 1), "part glass");
     EXPECT_EQ(kind(1, 0, 1, 1, 1), "mirror"); // metal does not transmit
+    Material brushed;
+    brushed.metallic = 1;
+    brushed.roughness = 0;
+    brushed.anisotropy = {0, 0.5f};
+    EXPECT_EQ(describe(brushed), "metal");
 }
 
 TEST(Describe, NamesUnlitSurfaces) {

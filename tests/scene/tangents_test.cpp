@@ -36,7 +36,7 @@ struct Mesh {
         const glm::vec3 edge = scene.positions[t.y] - scene.positions[t.x];
         const glm::vec3 flat =
             glm::normalize(glm::cross(edge, scene.positions[t.z] - scene.positions[t.x]));
-        return turned_normal(flat, edge, scene.tangents[triangle], vec2(0.3f, 0.3f), slope);
+        return from_tangents(flat, edge, scene.tangents[triangle], vec2(0.3f, 0.3f), slope);
     }
 };
 
@@ -96,6 +96,36 @@ TEST(Tangents, AreFiniteWhereCoordinatesAreEqual) {
     const glm::vec3 turned = mesh.turned(0, {0.6f, 0, 0.8f});
     EXPECT_NEAR(glm::length(turned), 1, 1e-5);
     EXPECT_NEAR(turned.z, 0.8f, 1e-4);
+}
+
+// Anisotropy needs tangents, with or without a texture of its own.
+TEST(Tangents, OfAnisotropicSurfaces) {
+    for (const bool has_texture : {false, true}) {
+        Mesh mesh;
+        Material& m = mesh.scene.materials[0];
+        m.anisotropy = {0.5f, 0};
+        if (has_texture) {
+            m.texture_bits = material_other_textures;
+            mesh.scene.textures[0] = {.transform = glm::mat3x2(0, 1, -1, 0, 0, 0),
+                                      .use = TextureUse::anisotropy};
+        } else {
+            m.texture_bits = m.texture_count = 0;
+        }
+        mesh.add({glm::vec3(0, 0, 0), {1, 0, 0}, {0, 1, 0}}, {glm::vec2(0, 1), {1, 1}, {0, 0}});
+        add_tangents(mesh.scene);
+        ASSERT_EQ(mesh.scene.tangents.size(), 1u);
+        // The texture's u grows as the vertices' -v, upwards.
+        expect_near(mesh.turned(0, {1, 0, 0}),
+                    has_texture ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0));
+    }
+    Mesh bare; // without coordinates some direction is taken
+    bare.scene.materials[0].anisotropy = {0, 1};
+    bare.scene.materials[0].texture_bits = bare.scene.materials[0].texture_count = 0;
+    bare.add({glm::vec3(0, 0, 0), {1, 0, 0}, {0, 1, 0}}, {glm::vec2(0), {0, 0}, {0, 0}});
+    bare.scene.uv_sets = 0;
+    bare.scene.uvs.clear();
+    add_tangents(bare.scene);
+    EXPECT_NEAR(glm::length(bare.turned(0, {1, 0, 0})), 1, 1e-5);
 }
 
 TEST(Tangents, ScenesWithoutNormalTexturesHaveNone) {

@@ -65,7 +65,7 @@ TEST(EveryLobe, IsAmongTheRandomMaterialsAndInEveryFunction) {
 TEST(EveryLobe, HasABitOfItsOwnInTheFeatures) {
     const uint features = MATERIAL_ALPHA | MATERIAL_GGX | MATERIAL_PHONG | MATERIAL_SOLID |
                           MATERIAL_ABSORPTION | MATERIAL_UNLIT | MATERIAL_COAT | MATERIAL_FILM |
-                          MATERIAL_DISPERSION | MATERIAL_SHEEN;
+                          MATERIAL_DISPERSION | MATERIAL_SHEEN | MATERIAL_ANISOTROPY;
     EXPECT_EQ(LOBES_ALL & features, 0u);
     EXPECT_EQ(LOBES_ALL | features, MATERIAL_ALL);
     EXPECT_EQ(LOBES_ALL & (LOBE_GLOSSY | MATERIAL_LAYER), LOBE_GLOSSY | LOBE_MIRROR);

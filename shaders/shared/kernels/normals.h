@@ -11,6 +11,17 @@ FN bool has_normal_texture(uint material_textures) {
     return normal_maps && (material_textures & material_normal_texture) != 0u;
 }
 
+// The direction along `slope` in the frame of tangent, bitangent and normal at a hit. normal: unit,
+// on the triangle's front.
+FN vec3 along_tangents(HitRecord hit, vec3 normal, vec3 slope) {
+    uint at = scene[0].first_tangent + 2u * hit.triangle;
+    uvec2 first = attributes[at];
+    uvec3 tangents = uvec3(first.x, first.y, attributes[at + 1u].x);
+    uvec4 triangle = triangles[hit.triangle];
+    vec3 edge = vec3(positions[triangle.y]) - vec3(positions[triangle.x]);
+    return from_tangents(normal, edge, tangents, vec2(hit.u, hit.v), slope);
+}
+
 // Turns a surface's shading normal by the texel at its hit. Unlike an interpolated normal it may
 // face away from where the ray came from: what follows from that is the same for photons and eye
 // paths, see docs/materials.md.
@@ -29,12 +40,8 @@ FN void turn_normal(uint material_textures, HitRecord hit, vec3 ray_direction, I
         normal = dot3(normal, front) < real(0.0) ? -normal : normal;
     }
     uint index = normal_texture_of(material_textures);
-    uint at = scene[0].first_tangent + 2u * hit.triangle;
-    uvec2 first = attributes[at];
-    uvec3 tangents = uvec3(first.x, first.y, attributes[at + 1u].x);
     vec3 slope = slope_of_texel(sample_texture(index, triangle, b), real(textures[index].scale));
-    vec3 edge = vec3(positions[triangle.y]) - vec3(positions[triangle.x]);
-    normal = normal_above(turned_normal(normal, edge, tangents, b, slope), front);
+    normal = normal_above(along_tangents(hit, normal, slope), front);
     s.shading_normal = s.front ? normal : -normal;
     s.above_horizon = dot3(s.shading_normal, ray_direction) < real(0.0);
 }

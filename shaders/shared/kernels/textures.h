@@ -16,6 +16,16 @@ FN void multiply_base(INOUT(MaterialRecord) m, vec4 color, INOUT(real) alpha) {
     alpha *= color.w;
 }
 
+// Turns the direction by the texel's, as complex numbers do.
+FN void multiply_anisotropy(INOUT(MaterialRecord) m, vec4 texel) {
+    vec2 turn =
+        unit_direction(vec2(real(2.0) * texel.x - real(1.0), real(2.0) * texel.y - real(1.0)));
+    real x = real(m.anisotropy_x);
+    real y = real(m.anisotropy_y);
+    m.anisotropy_x = float32((x * turn.x - y * turn.y) * texel.z);
+    m.anisotropy_y = float32((x * turn.y + y * turn.x) * texel.z);
+}
+
 // The textures of `material_other_textures`. next: index of the first.
 FN void multiply_others(INOUT(MaterialRecord) m, uint next, uvec4 triangle, vec2 b) {
     for (uint i = 0u; i < most_other_textures; ++i) {
@@ -44,6 +54,8 @@ FN void multiply_others(INOUT(MaterialRecord) m, uint next, uvec4 triangle, vec2
             m.sheen_b *= texel.z;
         } else if (use == texture_of_sheen_roughness) {
             m.sheen_roughness *= texel.w;
+        } else if (use == texture_of_anisotropy) {
+            multiply_anisotropy(m, texel);
         } else if (use == texture_of_film_thickness) {
             real least = real(textures[next + i].scale);
             m.film_thickness *= least + (real(1.0) - least) * texel.y;

@@ -10,6 +10,8 @@
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
+#include "shared/kernels/anisotropy.h"
+
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
 // and this one.
 struct Vertex {
@@ -171,8 +173,9 @@ FN real seek_probability(IN(Vertex) v) {
 }
 
 // Decides which lobes scatter the path, and with which probabilities.
-FN void split_lobes(INOUT(Vertex) v) {
+FN void split_lobes(HitRecord hit, INOUT(Vertex) v) {
     v.frame = make_frame(v.surface.shading_normal);
+    turn_anisotropy(hit, v.surface, v.frame, v.material);
     v.wo = to_local(v.frame, v.toward);
     v.followed = followed_paths ? followed_lobes(v.material, scene[0].follow_roughness) : 0u;
     v.estimated = bsdf_lobes(v.material) & ~v.followed;
@@ -357,6 +360,8 @@ FN vec3 lambertian_reflectance(IN(Vertex) v, uint direction, uint shading_normal
     return bsdf_eval(v.material, wo, vec3(real(0.0), real(0.0), real(1.0)), v.estimated);
 }
 
+FN uint mixed(uint key, vec3 values) { return pcg4d(uvec4(float_bits(values), key)).x; }
+
 // Queries whose keys differ share no answer: those of different materials and of different texels.
 FN uint material_key(IN(Vertex) v) {
     uint index = triangles[v.triangle].w;
@@ -366,7 +371,17 @@ FN uint material_key(IN(Vertex) v) {
     MaterialRecord m = v.material;
     uvec3 color = float_bits(vec3(m.base_r, m.base_g, m.base_b));
     uvec3 others = float_bits(vec3(m.metallic, m.roughness, m.coverage));
-    return pcg4d(uvec4(color, index) ^ pcg4d(uvec4(others, 0u))).x;
+    uint key = pcg4d(uvec4(color, index) ^ pcg4d(uvec4(others, 0u))).x;
+    if (!other_textures || (m.textures & material_other_textures) == 0u) {
+        return key;
+    }
+    key = mixed(key, vec3(m.specular_r, m.specular_g, m.specular_b));
+    key = mixed(key, vec3(m.specular, m.transmission, m.thickness));
+    key = mixed(key, vec3(m.coat, m.film, m.film_thickness));
+    key = mixed(key, vec3(m.sheen_r, m.sheen_g, m.sheen_b));
+    // In eighths: it is turned into the shading frame, which differs from place to place.
+    vec2 eighths = floor(real(8.0) * anisotropy(m) + real(0.5));
+    return mixed(key, vec3(m.sheen_roughness, eighths.x, eighths.y));
 }
 
 // Writes a query of the photon map for the estimated lobes.
@@ -565,7 +580,7 @@ FN void main() {
                              vertices_of(v.path));
             disperse(v.material, v.throughput, w.x);
         }
-        split_lobes(v);
+        split_lobes(hit, v);
         if (direct_light && scene[0].light_count > 0u &&
             ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY | LOBES_SPREAD)) != 0u) {
             sample_light(v);

@@ -5,6 +5,8 @@
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
 
+#include "shared/kernels/anisotropy.h"
+
 // Whether any material of the scene has one of these lobes.
 FN bool has(uint lobes) { return may_have(~material_features, lobes); }
 
@@ -435,6 +437,7 @@ FN void main() {
     how.cone = rays[slot].cone;
     MaterialRecord m = material_at(triangles[hit.triangle], hit, how.cone, direction);
     Arrival a = arrive(hit, direction, m, path);
+    turn_anisotropy(hit, a.surface, a.frame, m);
     absorb(slot, a, m);
     real channels = disperse_photon(slot, a, m, hit.triangle);
     how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
