@@ -62,7 +62,7 @@ std::vector<std::uint8_t> read_contents(const fs::path& path) {
     std::vector<std::uint8_t> bytes = read_file(path);
     Header header;
     if (bytes.size() < sizeof(header) || !std::equal(magic.begin(), magic.end(), bytes.begin())) {
-        fail("reading '{}': it is not a checkpoint; choose another file", name_of(path));
+        fail("reading '{}': it is not a checkpoint", name_of(path));
     }
     Archive archive(bytes);
     archive.value(header);
@@ -203,7 +203,7 @@ LoadedCheckpoint load_checkpoint(const fs::path& path, const CheckpointKey& key)
     } catch (const Error& damaged) {
         const fs::path older = older_checkpoint(path);
         if (content_of(older) != Content::checkpoint) {
-            throw;
+            fail("{}; choose another file, or render from the start", damaged.what());
         }
         return {.state = state_of(older, read_contents(older), key),
                 .note = fmt::format("{}; going on from the checkpoint before it, '{}'",

@@ -161,7 +161,8 @@ TEST_F(Checkpoints, RefuseWhatTheyCannotDo) {
     std::ofstream(file("notes.txt")) << "do not lose me";
     expect_error("-o no.exr --checkpoint notes.txt", "there is something else of that name");
     EXPECT_EQ(read_text(file("notes.txt")), "do not lose me");
-    expect_error("-o no.exr --resume notes.txt", "it is not a checkpoint");
+    expect_error("-o no.exr --resume notes.txt",
+                 "it is not a checkpoint; choose another file, or render from the start");
     std::ofstream(file("c.old")) << "nor me";
     expect_error("-o no.exr --checkpoint c", "which is something else");
     EXPECT_EQ(read_text(file("c.old")), "nor me");

@@ -171,6 +171,7 @@ TEST_F(Films, TellHowFfmpegFailed) {
 
 TEST_F(Films, TellThatFfmpegEndedEarly) {
     expect_told("head -c 10 >/dev/null", "it ended before the last frame");
+    expect_told("cat >/dev/null", "it wrote nothing");
     expect_told("exec <&-; echo Unknown encoder >&2; exit 1", "Unknown encoder");
 }
 

@@ -5,6 +5,7 @@
 #include "image/files.hpp"
 
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -76,6 +77,10 @@ void FilmWriter::finish() {
     if (!ffmpeg_->wait() || !ffmpeg_->failure().empty()) {
         fail_unfinished();
     }
+    std::error_code missing;
+    if (std::filesystem::file_size(file_.path(), missing) == 0 || missing) {
+        fail_of_ffmpeg("it wrote nothing");
+    }
     file_.put_in_place();
 }
 
@@ -86,8 +91,12 @@ void FilmWriter::fail_unfinished() {
              printable(name_), remedy);
     }
     const std::string failure = ffmpeg_->failure();
+    fail_of_ffmpeg(failure.empty() ? "it ended before the last frame" : failure);
+}
+
+void FilmWriter::fail_of_ffmpeg(const std::string& failure) {
     fail("writing '{}': ffmpeg failed: {}; {} instead, or install another ffmpeg", printable(name_),
-         failure.empty() ? "it ended before the last frame" : failure, remedy);
+         failure, remedy);
 }
 
 } // namespace argand

@@ -27,6 +27,7 @@ public:
 
 private:
     [[noreturn]] void fail_unfinished();
+    [[noreturn]] void fail_of_ffmpeg(const std::string& failure);
 
     std::string name_;
     Replacement file_;

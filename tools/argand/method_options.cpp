@@ -77,7 +77,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTable
 std::string describe_methods(MethodTable methods) {
     std::string text = "Methods:";
     for (const MethodInfo& method : methods) {
-        text += fmt::format("\n  {:<12}{} ({})", method.name, method.summary, method.paper);
+        text += fmt::format("\n  {:<13}{} ({})", method.name, method.summary, method.paper);
     }
     return text;
 }

@@ -294,10 +294,14 @@ void add_render_command(CLI::App& app, MethodTable methods, const std::string& c
                      "split")
         ->capture_default_str()
         ->check(integer_between(1, 1'000'000'000'000));
-    command->add_option("--frames", options->frames,
-                        "Render frames A to B - 1 of the scene's animations, written A:B; frame k "
-                        "is at k / --fps seconds. The -o of pictures needs a place for k, such as "
-                        "frame_%04d.png; film.mp4 is a film of all frames");
+    command
+        ->add_option("--frames", options->frames,
+                     "Render frames A to B - 1 of the scene's animations, written A:B; frame k "
+                     "is at k / --fps seconds. The -o of pictures needs a place for k, such as "
+                     "frame_%04d.png; film.mp4 is a film of all frames")
+        ->check([](const std::string& range) {
+            return range.empty() ? "write A:B for the frames from A up to B - 1" : "";
+        });
     command->add_option("--fps", options->frames_per_second, "Frames a second")
         ->capture_default_str()
         ->check(number_between(1e-6, 1e6));
@@ -311,8 +315,8 @@ void add_render_command(CLI::App& app, MethodTable methods, const std::string& c
                       "Leave out frames whose files exist, to go on after an interruption");
     command
         ->add_option("--keep", options->keep,
-                     "What frames keep for the next ones: all of a method's memory, or none; the "
-                     "pictures are the same")
+                     "What frames keep for the next ones: all of a method's memory, or none. "
+                     "Pictures are the same, but for photon-queue, whose photons it drops")
         ->capture_default_str()
         ->check(CLI::IsMember({"all", "none"}));
     command->add_option("--checkpoint", options->checkpoint,

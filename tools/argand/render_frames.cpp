@@ -156,7 +156,7 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         }
         reports.add(report);
         tell_of(job, rendered, files.names_to_tell(frame), seconds_since(start));
-        job.times.load = job.times.open = 0; // they are the first frame's
+        job.times.load = job.times.open = job.times.upload = 0; // they are the first frame's
         if (options.keep == "none") {
             job.session.reset();
         }

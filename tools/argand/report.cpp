@@ -110,8 +110,10 @@ Json render_report(const RenderReport& render) {
                           {"runs", stage.runs}});
     }
     Json steps = Json::object();
-    for (const auto& [name, seconds] : render.scene.load_seconds) {
-        steps[name] = seconds;
+    if (render.times.load > 0) { // and not only of an earlier frame
+        for (const auto& [name, seconds] : render.scene.load_seconds) {
+            steps[name] = seconds;
+        }
     }
     Json report = {{"scene", render.scene.name},
                    {"outputs", render.outputs},
