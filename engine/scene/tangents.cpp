@@ -120,12 +120,16 @@ const Texture* tangent_texture(const Scene& scene, std::uint32_t material) {
 }
 
 void add_tangents(Scene& scene) {
+    std::vector<bool> needed(scene.materials.size());
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        needed[i] = needs_tangents(scene, i);
+    }
     std::vector<std::size_t> indices;
     std::vector<Textured> list;
     Sums sums;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const std::uint32_t index = scene.triangle_material[i];
-        if (!needs_tangents(scene, index)) {
+        if (!needed[index]) {
             continue;
         }
         indices.push_back(i);

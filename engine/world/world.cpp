@@ -289,11 +289,12 @@ void World::add_textures(const Scene& scene, DeviceScene& on_device) {
         textures_ = make_texture_table(device_, scene);
     }
     const bool turned = on_device.plan.needs(Feature::anisotropy) && !scene.tangents.empty();
-    if ((textured || colored || turned) && !attributes_) {
+    const bool reads_attributes = textured || colored || turned;
+    if (reads_attributes && !attributes_) {
         attributes_ = upload_attributes(device_, scene);
     }
     const Buffer none = textured ? Buffer() : unneeded(device_);
-    on_device.attributes = textured || colored || turned ? attributes_ : none;
+    on_device.attributes = reads_attributes ? attributes_ : none;
     on_device.textures = textured ? textures_.records : none;
     on_device.texture_halvings = textured ? textures_.halvings : 0;
     on_device.texels = textured ? textures_.texels : none;

@@ -28,10 +28,10 @@ FN real ggx_visibility(real alpha, real cosine_o, real cosine_i) {
 }
 
 // Samples a unit microfacet normal in proportion to its area visible from wo (Dupuy and Benyoub
-// 2023, "Sampling Visible GGX Normals with Spherical Caps").
-FN vec3 ggx_sample_normal(real alpha, vec3 wo, vec2 u) {
-    vec3 stretched = vec3(wo.x * alpha, wo.y * alpha, wo.z);
-    stretched = stretched / sqrt(dot3(stretched, stretched)); // at least alpha long
+// 2023, "Sampling Visible GGX Normals with Spherical Caps"). alpha: along x and along y.
+FN vec3 ggx_sample_normal(vec2 alpha, vec3 wo, vec2 u) {
+    vec3 stretched = vec3(wo.x * alpha.x, wo.y * alpha.y, wo.z);
+    stretched = stretched / sqrt(dot3(stretched, stretched)); // at least the lesser alpha long
     real s, c;
     sincos_2pi(u.x, s, c);
     // z is uniform between -stretched.z and 1. Kept as 1 - z and z + stretched.z, because computing
@@ -40,9 +40,12 @@ FN vec3 ggx_sample_normal(real alpha, vec3 wo, vec2 u) {
     real below = u.y * height;
     real r = safe_sqrt(below * (real(2.0) - below));
     // h.z is at least 2^-24 because u.y < 1 is a multiple of 2^-24.
-    vec3 h = vec3((r * c + stretched.x) * alpha, (r * s + stretched.y) * alpha,
+    vec3 h = vec3((r * c + stretched.x) * alpha.x, (r * s + stretched.y) * alpha.y,
                   (real(1.0) - u.y) * height);
     return h / sqrt(dot3(h, h));
+}
+FN vec3 ggx_sample_normal(real alpha, vec3 wo, vec2 u) {
+    return ggx_sample_normal(vec2(alpha, alpha), wo, u);
 }
 
 // Solid-angle density of wo mirrored at a normal from ggx_sample_normal, given the distribution at

@@ -34,20 +34,10 @@ FN real brushed_facets(vec2 alpha, vec2 along, vec3 wo, vec3 wi, vec3 h, real h2
     return real(0.5) * distribution / (wi.z * masked_o + wo.z * masked_i);
 }
 
-// Samples a unit microfacet normal in proportion to its area visible from wo (ggx_sample_normal).
+// Samples a unit microfacet normal in proportion to its area visible from wo.
 FN vec3 brushed_sample_normal(vec2 alpha, vec2 along, vec3 wo, vec2 u) {
     vec2 unit = unit_direction(along);
-    vec3 w = brushed_frame(unit, wo);
-    vec3 stretched = vec3(w.x * alpha.x, w.y * alpha.y, w.z);
-    stretched = stretched / sqrt(dot3(stretched, stretched)); // at least as long as either alpha
-    real s, c;
-    sincos_2pi(u.x, s, c);
-    real height = real(1.0) + stretched.z;
-    real below = u.y * height;
-    real r = safe_sqrt(below * (real(2.0) - below));
-    vec3 h = vec3((r * c + stretched.x) * alpha.x, (r * s + stretched.y) * alpha.y,
-                  (real(1.0) - u.y) * height);
-    h = h / sqrt(dot3(h, h));
+    vec3 h = ggx_sample_normal(alpha, brushed_frame(unit, wo), u);
     return vec3(h.x * unit.x - h.y * unit.y, h.x * unit.y + h.y * unit.x, h.z);
 }
 

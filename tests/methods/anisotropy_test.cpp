@@ -93,9 +93,7 @@ TEST_P(Anisotropy, SlowLayersAgreeWithThePathTracer) {
     dielectric.metallic = 0;
     add_quad(scene, {-0.9f, -0.7f, -0.6f}, {0, 1, 0}, {1, 0, -0.3f},
              add_material(scene, dielectric));
-    for (const glm::vec3& p : scene.positions) {
-        scene.uvs.emplace_back(0.7f * p.x + 0.3f * p.y, 0.7f * p.z - 0.4f * p.y);
-    }
+    project_obliquely(scene);
     scene.uv_sets = 1;
     add_tangents(scene);
     scene.cameras = {look_at({0.3f, -0.1f, 0.95f}, {0, -0.4f, -1}, 70)};

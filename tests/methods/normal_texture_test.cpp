@@ -74,9 +74,7 @@ TEST_P(NormalTexture, SlowLayersAgreeWithThePathTracer) {
     add_texture(scene, 0, material_normal_texture, 4, texels, true);
     add_quad(scene, {-0.5f, 0.95f, -0.5f}, {1, 0, 0}, {0, 0, 1},
              add_material(scene, emitter(glm::vec3(2))));
-    for (const glm::vec3& p : scene.positions) {
-        scene.uvs.emplace_back(0.7f * p.x + 0.3f * p.y, 0.7f * p.z - 0.4f * p.y);
-    }
+    project_obliquely(scene);
     add_tangents(scene);
     scene.cameras = {look_at({0.3f, -0.1f, 0.95f}, {0, -0.4f, -1}, 70)};
     RenderSettings reference = settings_of("path", 16, 2048);

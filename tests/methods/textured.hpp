@@ -52,6 +52,13 @@ inline void project(Scene& scene, float size) {
     }
 }
 
+/// Gives all vertices texture coordinates that are regular on surfaces of any direction but one.
+inline void project_obliquely(Scene& scene) {
+    for (const glm::vec3& p : scene.positions) {
+        scene.uvs.emplace_back(0.7f * p.x + 0.3f * p.y, 0.7f * p.z - 0.4f * p.y);
+    }
+}
+
 /// sRGB's curve, IEC 61966-2-1.
 inline double linear(int code) {
     const double c = code / 255.0;

@@ -1,7 +1,6 @@
 // Anisotropic GGX reflection (KHR_materials_anisotropy) against the extension's formulas in double
 // precision; reciprocity, rotation, furnace and precision.
-#include "materials.hpp"
-#include "shared/query_bsdf.h"
+#include "reciprocity.hpp"
 #include "shared/random.h"
 #include "statistics.hpp"
 
@@ -125,22 +124,7 @@ TEST(Anisotropy, OfSmoothMetalIsGloss) {
 }
 
 TEST(Anisotropy, IsReciprocalAndInQueriesAndStable) {
-    std::mt19937 bits(54);
-    for (int k = 0; k < 50'000; ++k) {
-        const MaterialRecord m = any_brushed(bits);
-        const vec3 a = any_upper(bits), b = any_upper(bits);
-        const vec3 f = bsdf_eval(m, a, b, LOBES_ALL), g = bsdf_eval(m, b, a, LOBES_ALL);
-        const ReflectionParameters queried =
-            reflection_parameters(query_bsdf(reflection_parameters(m), 0, 0));
-        ASSERT_EQ(bsdf_eval(queried, a, b, LOBES_ALL), f);
-        const glm::dvec3 truth = truth::bsdf_eval(record_bytes(m), a, b, LOBES_ALL);
-        const double alpha = std::max(double(ggx_alpha(m)), 1e-3);
-        for (int c = 0; c < 3; ++c) {
-            const double size = double(max_component(f));
-            ASSERT_NEAR(f[c], g[c], 1e-5 * size) << "case " << k;
-            ASSERT_NEAR(f[c], truth[c], (2e-3 + 1e-6 / alpha) * size + 1e-7) << "case " << k;
-        }
-    }
+    expect_reciprocal_and_stable(54, any_brushed);
 }
 
 /// Share of light from wo that is scattered; checks weights and densities of the samples.

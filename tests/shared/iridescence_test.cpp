@@ -1,7 +1,6 @@
 // Thin films against the formulas of KHR_materials_iridescence, written anew in double precision
 // and in nanometres.
-#include "materials.hpp"
-#include "shared/query_bsdf.h"
+#include "reciprocity.hpp"
 #include "shared/random.h"
 
 #include <array>
@@ -100,24 +99,7 @@ MaterialRecord any_film(std::mt19937& bits) {
     return m;
 }
 
-TEST(Iridescence, IsReciprocalAndInQueriesAndStable) {
-    std::mt19937 bits(42);
-    for (int i = 0; i < 50'000; ++i) {
-        const MaterialRecord m = any_film(bits);
-        const vec3 a = any_upper(bits), b = any_upper(bits);
-        const vec3 f = bsdf_eval(m, a, b, LOBES_ALL), g = bsdf_eval(m, b, a, LOBES_ALL);
-        const ReflectionParameters queried =
-            reflection_parameters(query_bsdf(reflection_parameters(m), 0, 0));
-        ASSERT_EQ(bsdf_eval(queried, a, b, LOBES_ALL), f);
-        const glm::dvec3 truth = truth::bsdf_eval(record_bytes(m), a, b, LOBES_ALL);
-        const double alpha = std::max(double(m.roughness) * double(m.roughness), 1e-3);
-        for (int k = 0; k < 3; ++k) {
-            const double size = double(max_component(f));
-            ASSERT_NEAR(f[k], g[k], 1e-5 * size) << "case " << i;
-            ASSERT_NEAR(f[k], truth[k], (2e-3 + 1e-6 / alpha) * size + 1e-7) << "case " << i;
-        }
-    }
-}
+TEST(Iridescence, IsReciprocalAndInQueriesAndStable) { expect_reciprocal_and_stable(42, any_film); }
 
 /// Share of light from wo that is scattered.
 glm::dvec3 scattered(const MaterialRecord& m, vec3 wo, bool front) {
