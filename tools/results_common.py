@@ -7,6 +7,7 @@ import platform
 import re
 import subprocess
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ARGAND = ROOT / "build/release/tools/argand/argand"
@@ -18,6 +19,24 @@ def origin():
     revision = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
     return (f"Written by `tools/{command}`. {datetime.date.today()}, revision {revision.stdout.strip()}, "
             f"{platform.machine()}, {os.cpu_count()} cores.")
+
+
+def wrap(paragraph):
+    """Lines of at most 120 characters; those of an item of a list, which begins with a dash, are indented."""
+    indent = "  " if paragraph.startswith("- ") else ""
+    return textwrap.wrap(paragraph, 120, break_on_hyphens=False, subsequent_indent=indent)
+
+
+def stage_seconds(name):
+    """A function of the JSON report of a render: the device's seconds in the stage of this name."""
+    return lambda report: sum(stage["gpu_seconds"] for stage in report["stages"] if stage["name"] == name)
+
+
+def replace_section(page, heading, text):
+    """Puts a section of a page, which begins with its heading, in the place of the one before, or at the end."""
+    before, found, behind = page.read_text().partition(heading + "\n")
+    rest = behind[behind.index("\n## ") + 1:] if found and "\n## " in behind else ""
+    page.write_text(before.rstrip() + "\n\n" + text.rstrip() + "\n" + ("\n" + rest if rest else ""))
 
 
 # The pages of docs/results: figure, page, command.
@@ -44,7 +63,7 @@ PAGES = [
     ("Path tracer compared with Cycles", "cycles.md", "argand render, Blender"),
     ("Scenes unlike a box of two metres", "hard_scenes.md", "tools/results_hard_scenes"),
     ("Films: time and error by frame", "dynamic.md", "tools/results_dynamic"),
-    ("Frames of films", "frames.md", "argand render --frames, argand bench rays, tools/results_frames"),
+    ("Frames of films", "frames.md", "argand render --frames, argand bench rays, tools/results_frames, tools/results_refit"),
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
     ("Loading a large textured scene", "loading.md", "tools/results_loading"),
     ("What was wrong outside the Cornell box", "rooms.md", "argand render, argand compare, test_methods"),

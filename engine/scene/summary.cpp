@@ -303,12 +303,19 @@ std::string animation_line(const json& animation) {
         count > most_listed ? fmt::format(", and {} more", count - most_listed) : "");
 }
 
-json motion_json(const Motion& motion) {
-    std::size_t vertices = 0;
+json motion_json(const Scene& scene) {
+    const Motion& motion = scene.motion;
+    std::size_t vertices = 0, emissive = 0;
     for (const MovingMesh& mesh : motion.meshes) {
         vertices += mesh.positions.size();
+        const auto first =
+            scene.triangle_material.begin() + static_cast<std::ptrdiff_t>(mesh.first_triangle);
+        emissive += static_cast<std::size_t>(
+            std::count_if(first, first + static_cast<std::ptrdiff_t>(mesh.triangles),
+                          [&](std::uint32_t m) { return emits(scene.materials[m]); }));
     }
     return {{"vertices", vertices},
+            {"emissive_triangles", emissive},
             {"skins", motion.skins.size()},
             {"lights", motion.lights.size()},
             {"cameras", motion.cameras.size()},
@@ -316,10 +323,12 @@ json motion_json(const Motion& motion) {
 }
 
 std::string motion_line(const json& motion) {
-    return fmt::format("{} vertices, {} skins, {} lights, {} cameras, {} materials",
-                       motion["vertices"].get<std::size_t>(), motion["skins"].get<std::size_t>(),
-                       motion["lights"].get<std::size_t>(), motion["cameras"].get<std::size_t>(),
-                       motion["materials"].get<std::size_t>());
+    return fmt::format(
+        "{} vertices, {} emissive triangles, {} skins, {} punctual lights, {} "
+        "cameras, {} materials",
+        motion["vertices"].get<std::size_t>(), motion["emissive_triangles"].get<std::size_t>(),
+        motion["skins"].get<std::size_t>(), motion["lights"].get<std::size_t>(),
+        motion["cameras"].get<std::size_t>(), motion["materials"].get<std::size_t>());
 }
 
 template <class Line>
@@ -383,7 +392,7 @@ json summary_json(const Scene& scene) {
             {"environment", environment_json(scene)},
             {"cameras", cameras},
             {"animations", animations},
-            {"moving", motion_json(scene.motion)},
+            {"moving", motion_json(scene)},
             {"extensions", extensions},
             {"notes", scene.notes}};
 }

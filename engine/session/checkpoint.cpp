@@ -4,6 +4,7 @@
 #include "base/atomic_write.hpp"
 #include "base/machine.hpp"
 #include "base/read_file.hpp"
+#include "base/same_file.hpp"
 #include "base/text.hpp"
 #include "scene/fingerprint.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The last byte is the format's version.
 constexpr std::array<std::uint8_t, 8> magic = {'A', 'r', 'g', 'a', 'n', 'd', 'C', '1'};
 
 /// Precedes the contents of a checkpoint.
@@ -61,8 +63,12 @@ Content content_of(const fs::path& path) {
 std::vector<std::uint8_t> read_contents(const fs::path& path) {
     std::vector<std::uint8_t> bytes = read_file(path);
     Header header;
-    if (bytes.size() < sizeof(header) || !std::equal(magic.begin(), magic.end(), bytes.begin())) {
+    if (bytes.size() < sizeof(header) ||
+        !std::equal(magic.begin(), magic.end() - 1, bytes.begin())) {
         fail("reading '{}': it is not a checkpoint", name_of(path));
+    }
+    if (bytes[magic.size() - 1] != magic.back()) {
+        fail("reading '{}': it is a checkpoint of another version of Argand", name_of(path));
     }
     Archive archive(bytes);
     archive.value(header);
@@ -152,7 +158,7 @@ fs::path older_checkpoint(const fs::path& path) {
     return older;
 }
 
-void check_checkpoint_writable(const fs::path& path) {
+void check_checkpoint_writable(const fs::path& path, const fs::path& resumed) {
     check_writable(path);
     const fs::path older = older_checkpoint(path);
     const Content last = content_of(place_of(path)), before = content_of(older);
@@ -166,6 +172,12 @@ void check_checkpoint_writable(const fs::path& path) {
         fail("writing the checkpoint '{}': it would replace '{}', which is something else; choose "
              "another name",
              name_of(path), name_of(older));
+    }
+    if ((last == Content::checkpoint || before == Content::checkpoint) &&
+        !is_same_file(resumed, path) && !is_same_file(resumed, older)) {
+        fail("writing the checkpoint '{}': it would replace that of a render before; go on from it "
+             "with --resume, choose another name, or delete it",
+             name_of(path));
     }
 }
 

@@ -24,8 +24,10 @@ CheckpointKey checkpoint_key(const Scene& scene, const RenderSettings& settings,
 std::filesystem::path older_checkpoint(const std::filesystem::path& path);
 
 /// Throws Error if save_checkpoint() would fail, as far as that can be known beforehand, or would
-/// replace anything but checkpoints.
-void check_checkpoint_writable(const std::filesystem::path& path);
+/// replace anything but checkpoints of the render that goes on from `resumed` (empty: from its
+/// start).
+void check_checkpoint_writable(const std::filesystem::path& path,
+                               const std::filesystem::path& resumed);
 
 /// Writes the state of a session (Session::save()). The checkpoint that was there before, if it is
 /// whole, becomes the older one. Whatever happens, one whole checkpoint stays. Throws Error if it

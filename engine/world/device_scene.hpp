@@ -50,7 +50,7 @@ struct DeviceScene {
     PhotonSurfaces photon_surfaces;                ///< empty without a photon map
     double surface_area = 0;                       ///< their area; 0 without a photon map
     std::shared_ptr<const CasterTable> casters;    ///< null without followed paths and a photon map
-    std::shared_ptr<const EmissiveParts> emissive; ///< null if no mesh that moves shines
+    std::shared_ptr<const EmissiveParts> emissive; ///< null if the host makes the lights
     SampledAreas areas;
     std::vector<MeshPlace> meshes;          ///< that move, as in Motion::meshes
     std::uint64_t last_material_change = 0; ///< World::revision() after it; 0: never

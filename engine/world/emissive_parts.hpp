@@ -10,9 +10,10 @@
 
 namespace argand {
 
-/// The emissive triangles of a scene whose lights a device makes, because some of them move: their
-/// order, and which of them make up an emitter. It does not depend on the moment. A part ends where
-/// the next triangle belongs to another emitter, so a file whose emitters alternate has many.
+/// The emissive triangles of a scene whose lights a device makes, because some of them move or they
+/// are many: their order, and which of them make up an emitter. It does not depend on the moment. A
+/// part ends where the next triangle belongs to another emitter, so a file whose emitters alternate
+/// has many.
 struct EmissiveParts {
     Buffer triangles;                   ///< uint: the triangles, by rising index
     Buffer parts;                       ///< EmissivePart

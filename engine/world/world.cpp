@@ -15,8 +15,12 @@ namespace argand {
 
 namespace {
 
-// A tree is rebuilt once it costs so many times as much as when it was built.
-constexpr double most_growth = 1.3;
+// A tree is rebuilt once it costs so many times as much as when it was built
+// (docs/results/frames.md: "When the tree is built anew").
+constexpr double most_growth = 1.15;
+// Of more emissive triangles the device makes the lights, also where they stand still: nothing is
+// done for a triangle on the host in each frame. Fewer are lights that are told apart.
+constexpr std::size_t most_lights_on_host = 256;
 
 std::vector<glm::vec4> padded(std::span<const glm::vec3> vectors) {
     std::vector<glm::vec4> result;
@@ -267,7 +271,7 @@ DeviceScene World::without_areas(const Scene& scene, const Plan& plan) {
     }
     add_textures(scene, result);
     const std::vector<std::uint32_t>& shines = shining(scene);
-    if (meshes_.have_any(emitting_)) {
+    if (shines.size() > most_lights_on_host || meshes_.have_any(emitting_)) {
         if (!emissive_) {
             emissive_ = std::make_shared<const EmissiveParts>(
                 find_emissive_parts(device_, scene, shines, textures_.trees));

@@ -44,7 +44,7 @@ public:
 
     /// Follows the scene to which move_to() or move_without_vertices() has been applied: uploads
     /// the materials that have changed, places the vertices of the meshes if any has moved, by
-    /// their nodes' matrices and weights, and refits the tree, or rebuilds it once its cost is 1.3
+    /// their nodes' matrices and weights, and refits the tree, or rebuilds it once its cost is 1.15
     /// times that after the last build. A kd-tree is always rebuilt. The scene must be the one of
     /// the constructor but for that. The host does nothing per triangle, unless triangles turn.
     /// Waits for the device if a mesh has moved. Throws Error if a position is not finite.
@@ -102,7 +102,7 @@ private:
 
     std::vector<std::uint32_t> shining_;            ///< triangles that emit light
     std::vector<bool> emitting_;                    ///< the materials among which they were found
-    std::shared_ptr<const EmissiveParts> emissive_; ///< of them; null until some of them move
+    std::shared_ptr<const EmissiveParts> emissive_; ///< of them; null where the host does it
 
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {

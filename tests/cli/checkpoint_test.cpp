@@ -157,6 +157,48 @@ TEST_F(Checkpoints, OfOtherRendersAreRefused) {
     EXPECT_EQ(read_text(file("c")), kept);
 }
 
+TEST_F(Checkpoints, DoNotReplaceThoseOfAnotherRender) {
+    ASSERT_EQ(run("-o whole.exr --photons 1000 --checkpoint c").exit_code, 0);
+    const std::string kept = read_text(file("c"));
+    const std::string another = "-o no.exr --photons 2000 --checkpoint ";
+    expect_error(another + "c", "it would replace that of a render before");
+    std::filesystem::rename(file("c"), file("c.old"));
+    expect_error(another + "c", "it would replace that of a render before");
+    expect_error(another + "c --resume d", "it would replace that of a render before");
+    EXPECT_EQ(read_text(file("c.old")), kept);
+    std::filesystem::create_symlink("c", file("link"));
+    EXPECT_EQ(run("-o again.exr --photons 1000 --checkpoint link --resume c").exit_code, 0);
+    EXPECT_EQ(pixels("whole.exr"), pixels("again.exr"));
+}
+
+TEST_F(Checkpoints, OfAnotherVersionOrBuildAreRefused) {
+    ASSERT_EQ(run("-o whole.exr --photons 1000 --checkpoint c").exit_code, 0);
+    const std::string resume = "-o no.exr --photons 1000 --resume ";
+    std::string bytes = read_text(file("c"));
+    bytes[7] = '0'; // the version of the format
+    write_text(file("d"), bytes);
+    expect_error(resume + "d", "it is a checkpoint of another version of Argand");
+    std::filesystem::copy_file(ARGAND_EXECUTABLE, file("other_build"));
+    std::ofstream(file("other_build"), std::ios::app) << "it still runs";
+    const Outcome other = argand("--version >/dev/null; " + std::string(on_host) +
+                                 " ./other_build " + render(resume + "c 2>error"));
+    EXPECT_EQ(other.exit_code, failure);
+    EXPECT_THAT(read_text(file("error")), HasSubstr("resuming 'c': its build is "));
+}
+
+TEST_F(Checkpoints, OfLongRendersHavePassesThatEndSoon) {
+    const std::string large = "render '" + asset("cornell_glass.glb") +
+                              "' --size 64x64 --spp 257 --bounces 1 -q --json r.json ";
+    const auto passes_of = [&](const std::string& options) {
+        EXPECT_EQ(argand(large + options, on_host).exit_code, 0);
+        return nlohmann::json::parse(read_text(file("r.json")))["passes"].get<int>();
+    };
+    EXPECT_EQ(passes_of("--method path -o path.exr"), 2); // of 2^20 paths at most
+    const std::string photons = "--method photons --checkpoint ";
+    EXPECT_EQ(passes_of(photons + "c --photons 70000 -o c.exr"), 2);
+    EXPECT_EQ(passes_of(photons + "d --photons 60000 -o d.exr"), 1); // 2^15 photons at least
+}
+
 TEST_F(Checkpoints, RefuseWhatTheyCannotDo) {
     std::ofstream(file("notes.txt")) << "do not lose me";
     expect_error("-o no.exr --checkpoint notes.txt", "there is something else of that name");

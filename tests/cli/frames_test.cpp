@@ -1,5 +1,6 @@
 // Films: argand render --frames.
 #include "argand_run.hpp"
+#include "methods/method_info.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -54,14 +55,18 @@ TEST_F(Frames, AreThePicturesOfTheirTimes) {
     EXPECT_TRUE(reports[1]["wall_seconds"]["load_steps"].empty());
 }
 
-TEST_F(Frames, HaveTheSameBitsWhateverTheyKeep) {
-    for (const std::string method : {"photons", "footprints", "knn"}) {
-        const std::string options = "--frames 4:7 --method " + method;
-        ASSERT_EQ(argand(film(options + " -o all%d.exr"), on_host).exit_code, 0);
-        ASSERT_EQ(argand(film(options + " -o none%d.exr --keep none"), on_host).exit_code, 0);
-        for (const std::string frame : {"4", "5", "6"}) {
-            EXPECT_TRUE(same("all" + frame + ".exr", "none" + frame + ".exr")) << method;
-        }
+TEST_F(Frames, HaveTheBitsOfTheirTimesWhateverTheyKeep) {
+    for (const std::string& method : method_names()) {
+        SCOPED_TRACE(method);
+        const std::string options = "--method " + method;
+        const std::string frames = options + " --frames 5:8 ";
+        ASSERT_EQ(argand(film(options + " --at 0.2916666666666667 -o at.exr"), on_host).exit_code,
+                  0);
+        ASSERT_EQ(argand(film(frames + "-o none%d.exr --keep none"), on_host).exit_code, 0);
+        EXPECT_TRUE(same("none7.exr", "at.exr"));
+        ASSERT_EQ(argand(film(frames + "-o all%d.exr"), on_host).exit_code, 0);
+        const bool keeps = builtin_methods().at(method).abilities.keeps_photons;
+        EXPECT_EQ(same("all7.exr", "at.exr"), !keeps);
     }
 }
 
@@ -116,17 +121,45 @@ TEST_F(Frames, MayHaveNoiseOfTheirOwn) {
 TEST_F(Frames, GoOnWhereTheyStopped) {
     ASSERT_EQ(argand(film("--frames 0:4 -o f%d.exr --json f.json"), on_host).exit_code, 0);
     const std::string whole = pixels("f2.exr");
+    const std::string first = pixels("f0.exr");
     std::filesystem::remove(file("f2.exr"));
-    write_text(file("f0.exr"), "not a picture");
+    write_text(file("f0.exr"), ""); // it keeps a place, or was cut short
+    const std::string left = read_text(file("f1.exr"));
+    std::filesystem::resize_file(file("f3.exr"), std::filesystem::file_size(file("f3.exr")) / 2);
     ASSERT_EQ(argand(film("--frames 0:5 -o f%d.exr --json f.json --continue"), on_host).exit_code,
               0);
     EXPECT_TRUE(pixels("f2.exr") == whole);
-    EXPECT_EQ(read_text(file("f0.exr")), "not a picture"); // existing frames are left alone
+    EXPECT_TRUE(pixels("f0.exr") == first);
+    EXPECT_TRUE(read_text(file("f1.exr")) == left);
     const std::vector<nlohmann::json> reports = lines("f.json");
-    ASSERT_EQ(reports.size(), 6u);
-    EXPECT_EQ(reports[4]["frame"], 2);
-    EXPECT_EQ(reports[5]["frame"], 4);
-    EXPECT_EQ(reports[5]["tree_cost"], 1); // no object moves
+    ASSERT_EQ(reports.size(), 8u);
+    for (const auto& [line, frame] : {std::pair{4, 0}, {5, 2}, {6, 3}, {7, 4}}) {
+        EXPECT_EQ(reports[line]["frame"], frame);
+    }
+    EXPECT_EQ(reports[7]["tree_cost"], 1); // no object moves
+    EXPECT_EQ(reports[7]["parameters"]["fps"], 24);
+    EXPECT_EQ(reports[7]["parameters"]["keep"], "all");
+    EXPECT_EQ(reports[7]["parameters"]["seed_per_frame"], false);
+    expect_failure("render '" + asset("moving_light.glb") +
+                       "' --size 8x9 -q --frames 0:5 -o f%d.exr --continue",
+                   failure, "continuing 'f0.exr': it has 8 × 8 pixels, and not 8 × 9", on_host);
+}
+
+TEST_F(Frames, AddReportsToWholeLinesOnly) {
+    const std::string options = "-o f%d.exr --json f.json --continue --frames ";
+    ASSERT_EQ(argand(film(options + "0:2"), on_host).exit_code, 0);
+    std::ofstream(file("f.json"), std::ios::app) << "{\"frame\": 2, \"sce";
+    ASSERT_EQ(argand(film(options + "0:3"), on_host).exit_code, 0);
+    ASSERT_EQ(lines("f.json").size(), 3u);
+    EXPECT_EQ(lines("f.json")[2]["frame"], 2);
+    // All frames are there: nothing is said of them.
+    std::filesystem::remove(file("f.json"));
+    ASSERT_EQ(argand(film(options + "0:3"), on_host).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(file("f.json")));
+    write_text(file("f.json"), "{\"frame\": 0}\nnotes\n");
+    expect_failure(film(options + "0:4"), failure,
+                   "continuing 'f.json': line 2 is no report of a frame", on_host);
+    EXPECT_EQ(read_text(file("f.json")), "{\"frame\": 0}\nnotes\n");
 }
 
 TEST_F(Frames, FollowObjectsThatMove) {
@@ -215,6 +248,18 @@ TEST_F(Frames, AFullDiskStopsThem) {
     EXPECT_EQ(run.exit_code, failure);
     EXPECT_THAT(run.error, ::testing::HasSubstr("writing '/dev/full': the disk is full"));
     EXPECT_EQ(files(), std::vector<std::string>{"f0.exr"});
+}
+
+TEST_F(Frames, AFullDiskLeavesWholeReports) {
+    // Files may have 16 KiB: a line has some thousand bytes, a picture less.
+    const Outcome run = argand("--version >/dev/null; trap '' XFSZ; ulimit -f 32; "
+                               "'" ARGAND_EXECUTABLE "' " +
+                               film("--frames 0:20 -o f%d.exr --json f.json 2>error"));
+    EXPECT_EQ(run.exit_code, failure);
+    EXPECT_THAT(read_text(file("error")), ::testing::HasSubstr("writing 'f.json': the disk is"));
+    const std::size_t written = lines("f.json").size(); // which parses them
+    EXPECT_GT(written, 0u);
+    EXPECT_EQ(files().size(), written + 3); // the picture of the next one, f.json and error
 }
 
 } // namespace

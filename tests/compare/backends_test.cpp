@@ -48,9 +48,32 @@ protected:
     host::HostDevice host_{host::describe()};
 };
 
+/// dynamic_block.glb, whose block is morphed, and skinned by its node and one that rests.
+Scene skinned_block() {
+    Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/dynamic_block.glb");
+    MovingMesh& block = scene.motion.meshes.at(0);
+    MotionNode& carrier = scene.motion.nodes[block.node];
+    carrier.keys.weights = KeyFrames{.times = {0, 1}, .values = {0, 1}};
+    carrier.weights = {0};
+    const auto resting = static_cast<std::uint32_t>(scene.motion.nodes.size());
+    scene.motion.nodes.emplace_back().rest.translation = glm::dvec3(0, 1.3, 0.2);
+    scene.motion.skins.push_back(
+        {.joints = {block.node, resting}, .joint_from_mesh = {glm::dmat4(1), glm::dmat4(1)}});
+    block.skin = 0;
+    MorphTarget& wider = block.targets.emplace_back();
+    for (const glm::vec3& position : block.positions) {
+        const float share = position.x > 0 ? 0.7f : 0.1f;
+        block.joint_weights.push_back({.joints = {0, 1}, .weights = {1 - share, share}});
+        wider.positions.emplace_back(0.3f * position.x, 0, 0.1f);
+    }
+    return scene;
+}
+
 TEST_P(Backends, AgreeOnEveryStage) {
     Device& device = open();
-    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/" + GetParam());
+    const Scene scene = GetParam() == "skinned_block"
+                            ? skinned_block()
+                            : load_gltf(ARGAND_SOURCE_DIR "/assets/" + GetParam());
     for (const std::string& method : method_names()) {
         const BackendComparison found = compare_backends(device, host_, scene, small(method));
         EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
@@ -74,6 +97,7 @@ std::string name_of(const ::testing::TestParamInfo<std::string>& scene) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Assets, Backends, ::testing::ValuesIn(scenes_that(true)), name_of);
+INSTANTIATE_TEST_SUITE_P(SlowSkinned, Backends, ::testing::Values("skinned_block"), name_of);
 INSTANTIATE_TEST_SUITE_P(SlowAssets, Backends, ::testing::ValuesIn(scenes_that(false)), name_of);
 
 class SimultaneousQueries : public DeviceTest {

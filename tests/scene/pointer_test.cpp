@@ -322,7 +322,8 @@ TEST(Pointer, SummariesListWhatMoves) {
     EXPECT_THAT(text, HasSubstr("2 s, moves intensity of light 0 \"lamp\"\n"));
     EXPECT_THAT(text, HasSubstr("moves emission of material 0 \"screen\"\n"));
     EXPECT_THAT(text, HasSubstr("moves angle of view of camera 0\n"));
-    EXPECT_THAT(text, HasSubstr("0 vertices, 0 skins, 2 lights, 1 cameras, 1 materials"));
+    EXPECT_THAT(text, HasSubstr("0 vertices, 0 emissive triangles, 0 skins, 2 punctual lights, 1 "
+                                "cameras, 1 materials"));
     EXPECT_THAT(text, Not(HasSubstr("not supported")));
 }
 

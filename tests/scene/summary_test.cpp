@@ -148,6 +148,19 @@ TEST(Summary, ReportsPhong) {
         HasSubstr("Phong, base colour 0.5, specular colour 0.5 0.25 0, exponent 20 (1 tri"));
 }
 
+TEST(Summary, ReportsWhatMoves) {
+    Scene scene = rich_scene(); // its first triangle is the lamp
+    for (const std::size_t triangle : {0, 1}) {
+        scene.motion.meshes.push_back({.first_triangle = triangle, .triangles = 1});
+        scene.motion.meshes.back().positions.resize(3);
+    }
+    EXPECT_EQ(summary_json(scene)["moving"]["vertices"], 6);
+    EXPECT_EQ(summary_json(scene)["moving"]["emissive_triangles"], 1);
+    scene.animations.emplace_back();
+    EXPECT_THAT(summary_text(scene),
+                HasSubstr("6 vertices, 1 emissive triangles, 0 skins, 0 punctual lights"));
+}
+
 TEST(Summary, ReportsAddedObjects) {
     const std::string text = summary_text(one_triangle().load());
     EXPECT_THAT(text, HasSubstr("sky         studio, 1 × 64 texels, mean radiance "));

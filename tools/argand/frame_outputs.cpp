@@ -1,11 +1,13 @@
 #include "frame_outputs.hpp"
 
 #include "base/clock.hpp"
+#include "base/error.hpp"
 #include "frames.hpp"
 #include "image/files.hpp"
 #include "image/png.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace argand {
 
@@ -18,13 +20,23 @@ PictureSize size_to_write(const RenderOptions& options) {
     return crop ? PictureSize{crop->width(), crop->height()} : size;
 }
 
+/// The size of a picture in a file, or none if it cannot be read.
+std::optional<PictureSize> size_of_picture(const std::string& file) try {
+    const std::vector<Layer> layers = read_image(file);
+    const Image& picture = whole_picture(layers);
+    return PictureSize{picture.width, picture.height};
+} catch (const Error&) {
+    return std::nullopt;
+}
+
 } // namespace
 
-FrameOutputs::FrameOutputs(const RenderOptions& options) : outputs_(options.outputs) {
+FrameOutputs::FrameOutputs(const RenderOptions& options)
+    : outputs_(options.outputs), size_(size_to_write(options)) {
     for (const std::string& output : outputs_) {
         if (is_film(output)) {
-            films_.push_back(std::make_unique<FilmWriter>(output, size_to_write(options),
-                                                          options.frames_per_second));
+            films_.push_back(
+                std::make_unique<FilmWriter>(output, size_, options.frames_per_second));
         }
     }
 }
@@ -46,6 +58,20 @@ std::vector<std::string> FrameOutputs::names_to_tell(std::uint64_t frame) const 
         }
     }
     return told;
+}
+
+bool FrameOutputs::has(std::uint64_t frame) const {
+    bool all = true;
+    for (const std::string& name : names(frame)) {
+        const std::optional<PictureSize> size = size_of_picture(name);
+        if (size && (size->width != size_.width || size->height != size_.height)) {
+            fail("continuing '{}': it has {} × {} pixels, and not {} × {}; render as before, or "
+                 "choose another name",
+                 name, size->width, size->height, size_.width, size_.height);
+        }
+        all = all && size;
+    }
+    return all;
 }
 
 void FrameOutputs::write(RenderJob& job, const Rendered& rendered, std::uint64_t frame) {

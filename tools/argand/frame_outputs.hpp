@@ -1,6 +1,7 @@
 #pragma once
 
 #include "film_writer.hpp"
+#include "picture_size.hpp"
 #include "rendering.hpp"
 
 #include <cstdint>
@@ -23,6 +24,10 @@ public:
     /// The same for the user, to whom films say which frame it is.
     std::vector<std::string> names_to_tell(std::uint64_t frame) const;
 
+    /// Whether all pictures of a frame are there. One that cannot be read is not: it was cut short,
+    /// or only keeps a place. Throws Error if one has another size.
+    bool has(std::uint64_t frame) const;
+
     /// Writes a frame. Throws Error if it cannot be written.
     void write(RenderJob& job, const Rendered& rendered, std::uint64_t frame);
 
@@ -31,6 +36,7 @@ public:
 
 private:
     std::vector<std::string> outputs_;
+    PictureSize size_; ///< of the part that is rendered
     std::vector<std::unique_ptr<FilmWriter>> films_;
 };
 

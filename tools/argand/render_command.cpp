@@ -66,7 +66,7 @@ void check_checkpoints(const RenderOptions& options, const CLI::App& command) {
                          "known; leave out --target-error, and give --method with --budget");
     }
     if (!options.checkpoint.empty()) {
-        check_checkpoint_writable(options.checkpoint);
+        check_checkpoint_writable(options.checkpoint, options.resume);
     }
 }
 

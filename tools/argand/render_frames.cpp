@@ -5,55 +5,13 @@
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
 #include "frame_outputs.hpp"
+#include "frame_reports.hpp"
 #include "frames.hpp"
 #include "image/files.hpp"
 #include "method_options.hpp"
 #include "scene/pose.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-
 namespace argand {
-
-namespace {
-
-bool all_exist(const std::vector<std::string>& files) {
-    return std::all_of(files.begin(), files.end(),
-                       [](const std::string& file) { return std::filesystem::exists(file); });
-}
-
-/// A file to which each frame adds a line.
-class FrameReports {
-public:
-    FrameReports(const std::string& path, bool continues) : path_(path) {
-        if (!path.empty()) {
-            out_.open(path, continues ? std::ios::app : std::ios::trunc);
-            check();
-        }
-    }
-
-    void add(const nlohmann::ordered_json& report) {
-        if (!path_.empty()) {
-            out_ << report.dump() << std::endl;
-            check();
-        }
-    }
-
-private:
-    void check() const {
-        if (!out_) {
-            fail("writing '{}': the disk is full, or it cannot be written to; no more frames are "
-                 "rendered",
-                 path_);
-        }
-    }
-
-    std::string path_;
-    std::ofstream out_;
-};
-
-} // namespace
 
 void check_frames(const RenderOptions& options, const CLI::App& command) {
     if (options.frames.empty()) {
@@ -117,11 +75,11 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
     const bool blurs = !options.shutter.empty();
     const Shutter shares = blurs ? parse_shutter(options.shutter) : Shutter();
     FrameOutputs files(options);
-    RenderJob job = open_job(options, command, seconds_of(range.first));
     FrameReports reports(options.report, options.continues);
+    RenderJob job = open_job(options, command, seconds_of(range.first));
     for (std::uint64_t frame = range.first; frame < range.end; ++frame) {
         const std::vector<std::string> outputs = files.names(frame);
-        if (options.continues && all_exist(outputs)) {
+        if (options.continues && files.has(frame)) {
             continue;
         }
         const Clock::time_point start = Clock::now();
@@ -150,6 +108,9 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         nlohmann::ordered_json report{{"frame", frame}};
         report.update(report_on(job, rendered, outputs));
         report["tree_cost"] = job.world->tree_cost();
+        report["parameters"].update({{"fps", options.frames_per_second},
+                                     {"seed_per_frame", options.seed_per_frame},
+                                     {"keep", options.keep}});
         if (blurs) {
             report["parameters"]["at"] = seconds_of(frame);
             report["parameters"]["shutter"] = {job.shutter->open, job.shutter->close};

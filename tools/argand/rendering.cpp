@@ -63,13 +63,28 @@ RenderSettings with_variance(RenderSettings settings) {
     return settings;
 }
 
-/// Samples of a pass of few enough paths that it ends now and then: passes can be saved, and end
-/// near a budget.
-std::uint32_t samples_per_pass(const PictureSize& size) {
-    constexpr std::uint64_t paths = 1u << 24;
+/// Passes of few enough paths that they end now and then: there they can be saved, and end near a
+/// budget. A processor takes some seconds for them, a graphics processor less than one.
+RenderSettings with_short_passes(RenderSettings settings, const RenderOptions& options,
+                                 const DeviceInfo& device) {
+    const std::uint64_t paths = device.lane_serial() ? 1u << 20 : 1u << 24;
     const std::uint64_t pixels =
-        static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
-    return static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
+        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+    settings.samples_per_pass =
+        static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
+    const MethodInfo& method = options.methods.at(settings.method);
+    if (!has_checkpoints(options) || !method.abilities.photon_map ||
+        method.abilities.keeps_photons || is_progressive(method, settings)) {
+        return settings;
+    }
+    // Passes with a photon map share the photons, so they are another render: one that is saved.
+    constexpr std::uint64_t least_photons = 1u << 15; // of a pass, for there are widths to learn
+    const std::uint64_t passes = (std::uint64_t(settings.samples) + settings.samples_per_pass - 1) /
+                                 settings.samples_per_pass;
+    const std::uint64_t most = std::max<std::uint64_t>(settings.photons / least_photons, 1);
+    settings.least_passes =
+        std::max(settings.least_passes, static_cast<std::uint32_t>(std::min(passes, most)));
+    return settings;
 }
 
 /// What a user who watches the passes of a picture is told.
@@ -338,9 +353,6 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     if (!options.shutter.empty()) {
         job.settings = with_pass_per_sample(job.settings);
     }
-    if (!is_autotuned(options, command)) {
-        job.settings.samples_per_pass = samples_per_pass(size);
-    }
     if (options.picture.layers.variance) {
         job.settings = with_variance(job.settings);
     }
@@ -348,6 +360,9 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     const Clock::time_point opened = Clock::now();
     job.device = open_backend(options.backend, options.device, options.quiet);
     job.times.open = seconds_since(opened);
+    if (!is_autotuned(options, command)) {
+        job.settings = with_short_passes(job.settings, options, job.device->info());
+    }
     return job;
 }
 

@@ -22,7 +22,10 @@ Json memory_json(const Device& device) {
     for (const auto& [name, use] : device.memory_by_name()) {
         by_name[name] = use.peak;
     }
-    return {{"peak_bytes", device.memory().peak}, {"peak_bytes_by_name", by_name}};
+    return {{"peak_bytes", device.memory().peak},
+            {"reserved_bytes", device.blocks().bytes},
+            {"allocations", device.blocks().allocations},
+            {"peak_bytes_by_name", by_name}};
 }
 
 /// What footprints are made by.
