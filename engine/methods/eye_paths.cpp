@@ -206,10 +206,8 @@ struct Batching {
 };
 
 Batching batching(const EyeWorkspace& w, const EyePass& pass, bool photon_map) {
-    const std::uint64_t least = photon_map ? std::min(samples_that_share, w.slots) : 1;
     Batching b{};
-    b.samples = std::min({std::max(w.slots / w.film.pixels(), least), std::uint64_t(pass.samples),
-                          most_samples_at_once});
+    b.samples = samples_together(w, std::max(pass.samples, pass.samples_of_all), photon_map);
     b.pixels = std::min(w.film.pixels(), w.slots / b.samples);
     return b;
 }
@@ -352,6 +350,12 @@ void restart(Device& device, EyeWorkspace& w) {
     for (const Buffer& part : w.film.parts) {
         device.fill(part, 0);
     }
+}
+
+std::uint32_t samples_together(const EyeWorkspace& w, std::uint32_t samples, bool photon_map) {
+    const std::uint64_t least = photon_map ? std::min(samples_that_share, w.slots) : 1;
+    return static_cast<std::uint32_t>(std::min({std::max(w.slots / w.film.pixels(), least),
+                                                std::uint64_t(samples), most_samples_at_once}));
 }
 
 bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyePass& pass,

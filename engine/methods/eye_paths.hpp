@@ -43,6 +43,9 @@ struct EyePass {
     std::uint32_t first_sample = 0, samples = 0; ///< [first_sample, first_sample + samples)
     std::uint32_t bounces = 0; ///< scatterings at most between the first estimated vertex and the
                                ///< light
+    /// Samples of all parts together if this is a part of a pass: paths are traced together as if
+    /// it were that pass, and share the same estimates. 0: it is no part.
+    std::uint32_t samples_of_all = 0;
 };
 
 /// Traces paths for the pass's samples of every pixel and adds them to the film. Without `lookup`
@@ -51,6 +54,11 @@ struct EyePass {
 /// of it did.
 bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
                      const EyePass& pass, const PhotonLookup* lookup, const OnProgress& progress);
+
+/// How many samples of a pixel, of a pass of so many, are traced together. photon_map: their
+/// queries share estimates.
+std::uint32_t samples_together(const EyeWorkspace& workspace, std::uint32_t samples,
+                               bool photon_map);
 
 /// Points at which the eye paths of a small version of the picture query the photon map, without
 /// those that look for caustics only; the fourth component is 0. Waits for the device.

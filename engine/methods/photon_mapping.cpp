@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "methods/bandwidth.hpp"
+#include "methods/pass_parts.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
@@ -23,14 +24,15 @@ namespace {
 // Photons of a pass over the most of a first pass.
 constexpr std::uint64_t most_growth = 8;
 
-/// How photons and samples are spread over passes. All passes count the same, so they are of one
-/// size: the noise of a small last one would be the noise of the image. Each pass has at least one
-/// sample, so the image has more samples than the settings request if there are more passes than
-/// that, or if samples do not divide evenly.
+/// How photons and samples are spread over photon maps. All maps count the same, so they are of one
+/// size: the noise of a small last one would be the noise of the image. Each map serves at least
+/// one sample, so the image has more samples than the settings request if there are more maps than
+/// that, or if samples do not divide evenly. A map is made by a pass; further parts of its samples
+/// are passes of their own (PassParts).
 struct PassSplit {
-    std::uint64_t passes = 1;
-    std::uint64_t photons = 1; ///< of the largest pass
-    std::uint32_t samples = 1; ///< of each pass, per pixel
+    std::uint64_t passes = 1;  ///< that make a map
+    std::uint64_t photons = 1; ///< of the largest map
+    std::uint32_t samples = 1; ///< that each map serves, per pixel
 };
 
 PassSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint64_t most_photons) {
@@ -53,16 +55,17 @@ struct ImageState {
     double flux_unit = 0;  ///< of the fixed-point sums
     Bandwidth learnt;      ///< for split.passes passes; progressive: for the first one
     double view_reach = 0; ///< distance from the camera, see view_areas.hpp
-    // Of the last pass.
+    // Of the last map.
+    PhotonPass emission; ///< all but the bounces, which the settings have
     Bandwidth bandwidth;
     std::optional<FootprintScale> footprint_scale;
     double mean_footprints = 0;
     std::uint32_t leaf_size = 0;
-    // Of all passes.
+    // Of all maps.
     std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
     std::uint64_t paths = 0; ///< of photons, also those that the dark has not emitted
     PhotonNumbers numbers;
-    // Of the first pass.
+    // Of the first map.
     std::uint64_t first_paths = 0;
     std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
     double in_view = 0;             ///< photons stored in view per photon emitted
@@ -76,6 +79,9 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.flux_unit);
     persist_bandwidth(archive, image.learnt);
     archive.value(image.view_reach);
+    archive.value(image.emission.seed);
+    archive.value(image.emission.first);
+    archive.value(image.emission.count);
     persist_bandwidth(archive, image.bandwidth);
     archive.optional(image.footprint_scale);
     archive.value(image.mean_footprints);
@@ -98,6 +104,7 @@ public:
 
     void begin_frame(Budget& budget) override {
         image_ = {};
+        made_ = nullptr;
         // Without bounces no photon is ever looked up.
         image_.emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
@@ -131,14 +138,15 @@ public:
     }
 
     std::uint64_t passes() const override {
-        return image_.split.passes * (progressive_ ? c_.settings.progressive.passes : 1);
+        return image_.split.passes * parts().count *
+               (progressive_ ? c_.settings.progressive.passes : 1);
     }
 
     bool pass(const Pass& pass, const OnProgress& on_part) override;
 
     std::uint64_t passes_per_seed() const override {
         return numbers_of_seed /
-               std::max<std::uint64_t>(image_.split.photons, image_.split.samples);
+               std::max<std::uint64_t>(image_.split.photons, image_.split.samples) * parts().count;
     }
 
     void persist(Archive& archive) override;
@@ -156,6 +164,16 @@ private:
     StoredPhotons trace_first(Budget& budget);
     double area_share() const;
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
+    StoredPhotons trace_again();
+    void make_map(const Pass& pass);
+    void make_estimator(const PassNumbers& numbers, const StoredPhotons& stored);
+
+    /// Of the samples that a map serves. Widths that fall from pass to pass have a map for each.
+    PassParts parts() const {
+        const std::uint32_t samples = image_.split.samples;
+        return progressive_ ? PassParts{.count = 1, .samples = samples}
+                            : divide_pass(c_.settings, c_.eye, samples);
+    }
 
     RenderContext& c_;
     std::unique_ptr<EstimationStrategy> strategy_;
@@ -164,6 +182,8 @@ private:
     std::uint64_t room_ = 0; ///< photons of a pass for which the workspace was made
     ImageState image_;
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
+    /// Between the first and the last part of a pass; null there after a load.
+    std::unique_ptr<MadeMap> made_;
 };
 
 /// The photons of the pass with this index, as the settings request them. If there are more passes
@@ -319,28 +339,64 @@ void PhotonMapping::set_bandwidth(const Pass& pass, std::uint64_t photons) {
                  c_.on_device.record.radius);
 }
 
-bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
-    const PhotonPass emission = next_emission(pass);
-    set_bandwidth(pass, emission.count);
-    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(emission));
+/// Makes the map of the next photons.
+void PhotonMapping::make_map(const Pass& pass) {
+    image_.emission = next_emission(pass);
+    set_bandwidth(pass, image_.emission.count);
+    const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(image_.emission));
     first_.reset();
-    const PhotonMap map = build_map(pass.numbers, stored);
+    make_estimator(pass.numbers, stored);
+    ++image_.passes;
+    image_.photons_emitted += c_.on_device.record.light_count > 0 ? image_.emission.count : 0;
+    image_.photons_stored += stored.photons;
+}
+
+void PhotonMapping::make_estimator(const PassNumbers& numbers, const StoredPhotons& stored) {
+    made_ = std::make_unique<MadeMap>();
+    made_->map = build_map(numbers, stored);
     const double cell = c_.settings.query_cell * strategy_->typical_radius(image_.bandwidth);
     c_.eye.queries.sharing = {.cell = cell,
                               .caustics_apart = strategy_->parts_caustics(
                                   image_.bandwidth, cell > 0 || c_.settings.final_gather),
                               .sharp_caustics = has_sharp_caustics(image_.bandwidth)};
-    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, image_.bandwidth);
-    const PhotonLookup lookup{.map = map, .estimator = *estimator};
+    made_->estimator = strategy_->make(c_, made_->map, image_.bandwidth);
+}
+
+/// Traces the photons of the last map once more, after a load. Their flux is in the sums already.
+StoredPhotons PhotonMapping::trace_again() {
+    PhotonPass emission = image_.emission;
+    emission.bounces = c_.settings.bounces;
+    make_room(emission.count);
+    const Buffer sums = photons_.flux_sums;
+    photons_.flux_sums =
+        c_.device.allocate("sums of flux traced again", flux_words * sizeof(std::int64_t));
+    const StoredPhotons stored = stored_or_fail(trace(emission));
+    photons_.flux_sums = sums;
+    return stored;
+}
+
+bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
+    const PassParts parts = this->parts();
+    const std::uint64_t part = pass.numbers.index % parts.count;
+    Pass of_map = pass;
+    of_map.numbers.index /= parts.count;
+    of_map.expected /= static_cast<double>(parts.count);
+    if (part == 0) {
+        make_map(of_map);
+    } else if (!made_) {
+        make_estimator(of_map.numbers, trace_again());
+    }
+    const PhotonLookup lookup = made_->lookup();
     const EyePass eye{.seed = pass.numbers.seed,
                       .first_sample =
-                          static_cast<std::uint32_t>(pass.numbers.index * image_.split.samples),
+                          static_cast<std::uint32_t>(of_map.numbers.index * image_.split.samples),
                       .samples = image_.split.samples,
                       .bounces = c_.settings.bounces};
-    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, &lookup, on_part);
-    ++image_.passes;
-    image_.photons_emitted += c_.on_device.record.light_count > 0 ? emission.count : 0;
-    image_.photons_stored += stored.photons;
+    const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye,
+                                          part_of(eye, parts, part), &lookup, on_part);
+    if (part + 1 == parts.count) {
+        made_ = nullptr; // frees its memory before the next one takes its own
+    }
     return finished;
 }
 
@@ -352,12 +408,14 @@ void PhotonMapping::persist(Archive& archive) {
         split.samples == 0 || split.photons < emitted / split.passes ||
         split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1) ||
         image_.most_photons > max_photons_per_pass(c_.device) ||
+        image_.emission.count > std::max(split.photons, image_.most_photons) ||
         (image_.passes > 0 && image_.first_paths == 0)) {
         fail("loading a saved state: it is not one of photon mapping on '{}'",
              c_.device.info().name);
     }
     if (archive.loads()) {
         first_.reset();
+        made_ = nullptr;
         make_room(split.photons);
     }
     persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));

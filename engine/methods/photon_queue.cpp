@@ -6,6 +6,7 @@
 #include "methods/footprint_estimation.hpp"
 #include "methods/light_change.hpp"
 #include "methods/nearest_photons.hpp"
+#include "methods/pass_parts.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/persist_queue.hpp"
 #include "methods/photon_targets.hpp"
@@ -67,14 +68,13 @@ public:
           photons_(context, options_, std::max<std::uint64_t>(context.settings.least_passes, 1)) {}
 
     void begin_frame(Budget& budget) override;
-    std::uint64_t passes() const override {
-        return std::max<std::uint64_t>(c_.settings.least_passes, 1);
-    }
+    std::uint64_t passes() const override { return maps() * parts().count; }
     bool pass(const Pass& pass, const OnProgress& on_part) override;
     bool is_settled() const override { return still_ >= options_.window; }
     std::uint64_t passes_per_seed() const override {
         return numbers_of_seed /
-               std::max<std::uint64_t>({photons_.all(), samples_per_pass(), std::uint64_t(1)});
+               std::max<std::uint64_t>({photons_.all(), samples_of_map(), std::uint64_t(1)}) *
+               parts().count;
     }
     void persist(Archive& archive) override;
     void report(RenderStatistics& statistics) const override;
@@ -85,8 +85,14 @@ private:
         constexpr std::uint32_t automatic = 16; // as that of photon_map.cpp
         return c_.settings.leaf_size > 0 ? c_.settings.leaf_size : automatic;
     }
-    std::uint32_t samples_per_pass() const {
-        return static_cast<std::uint32_t>((c_.settings.samples + passes() - 1) / passes());
+    /// Maps of an image. Each frame of a film has one, but with an open shutter.
+    std::uint64_t maps() const { return std::max<std::uint64_t>(c_.settings.least_passes, 1); }
+    std::uint32_t samples_of_map() const {
+        return static_cast<std::uint32_t>((c_.settings.samples + maps() - 1) / maps());
+    }
+    PassParts parts() const {
+        return options_.shows_photons ? PassParts{}
+                                      : divide_pass(c_.settings, c_.eye, samples_of_map());
     }
     PhotonQueue empty_queue() const;
     /// The block that was traced last.
@@ -104,6 +110,7 @@ private:
     Bandwidth bandwidth() const;
     void size_areas(const FootprintScale& scale);
     PhotonMap make_map(const Bandwidth& widths);
+    void make_lookup();
     bool trace_eyes(const EyePass& eye, const PhotonLookup& lookup, const OnProgress& on_part);
     const std::vector<CellNode>& planes();
 
@@ -129,6 +136,7 @@ private:
     bool areas_moved_ = true;        ///< they have to be sampled anew
     std::uint32_t sized_blocks_ = 0; ///< blocks of which photons made area samples' footprints
     QueueImage image_;
+    std::unique_ptr<MadeMap> made_; ///< between the first and the last part of a pass
 };
 
 /// The moments of a shutter's passes do not follow one another: nothing is kept from pass to pass.
@@ -240,7 +248,7 @@ double QueueMethod::learn(const PassNumbers& numbers, std::span<const glm::vec4>
                                 .stored = stored,
                                 .photons = sorted,
                                 .queries = queries,
-                                .passes = whole * static_cast<double>(passes()),
+                                .passes = whole * static_cast<double>(maps()),
                                 .evenness = evenness_in_view(c_, photons_.workspace(), stored)},
                                c_.settings);
     learnt_ = for_all_photons(learnt_, whole, c_.settings);
@@ -364,6 +372,7 @@ void QueueMethod::update(const PassNumbers& numbers, std::span<const glm::vec4> 
 
 void QueueMethod::begin_frame(Budget& budget) {
     image_ = {};
+    made_ = nullptr;
     photons_.make_room();
     c_.device.fill(photons_.workspace().flux_sums, 0);
     const auto& power = c_.on_device.light_table.power;
@@ -433,32 +442,46 @@ bool QueueMethod::trace_eyes(const EyePass& eye, const PhotonLookup& lookup,
     return trace_eye_paths(c_.device, without_rays, c_.eye, eye, &lookup, on_part);
 }
 
-bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
-    if (!image_.traced) {
-        update(pass.numbers, {}, nullptr);
-    }
-    image_.traced = false;
+/// Readies the map of the queue for the eye paths of a pass.
+void QueueMethod::make_lookup() {
+    made_ = std::make_unique<MadeMap>();
     weigh_blocks(queue_, ages_);
     const Bandwidth widths = bandwidth();
-    const PhotonMap map = make_map(widths);
-    if (options_.shows_photons) {
-        draw_photons(c_, map);
-        ++image_.passes;
-        return on_part(1);
-    }
+    made_->map = make_map(widths);
     const double cell = c_.settings.query_cell * strategy_->typical_radius(widths);
     c_.eye.queries.sharing = {
         .cell = cell,
         .caustics_apart = strategy_->parts_caustics(widths, cell > 0 || c_.settings.final_gather),
         .sharp_caustics = has_sharp_caustics(widths)};
-    const std::unique_ptr<PhotonEstimator> estimator = strategy_->make(c_, map, widths);
-    const PhotonLookup lookup{.map = map, .estimator = *estimator};
-    const EyePass eye{.seed = pass.numbers.seed,
-                      .first_sample =
-                          static_cast<std::uint32_t>(pass.numbers.index * samples_per_pass()),
-                      .samples = samples_per_pass(),
+    made_->estimator = strategy_->make(c_, made_->map, widths);
+}
+
+bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
+    const PassParts parts = this->parts();
+    const std::uint64_t part = pass.numbers.index % parts.count;
+    const PassNumbers numbers{pass.numbers.seed, pass.numbers.index / parts.count};
+    if (part == 0 && !image_.traced) {
+        update(numbers, {}, nullptr);
+    }
+    image_.traced = false;
+    if (part == 0 || !made_) {
+        make_lookup();
+    }
+    if (options_.shows_photons) {
+        draw_photons(c_, made_->map);
+        made_ = nullptr;
+        ++image_.passes;
+        return on_part(1);
+    }
+    const PhotonLookup lookup = made_->lookup();
+    const EyePass eye{.seed = numbers.seed,
+                      .first_sample = static_cast<std::uint32_t>(numbers.index * samples_of_map()),
+                      .samples = samples_of_map(),
                       .bounces = c_.settings.bounces};
-    const bool finished = trace_eyes(eye, lookup, on_part);
+    const bool finished = trace_eyes(part_of(eye, parts, part), lookup, on_part);
+    if (part + 1 == parts.count) {
+        made_ = nullptr; // frees its memory before the next one takes its own
+    }
     ++image_.passes;
     return finished;
 }
@@ -494,6 +517,7 @@ void QueueMethod::persist(Archive& archive) {
              options_.window);
     }
     if (archive.loads()) {
+        made_ = nullptr;
         photons_.make_room();
         queue_ = empty_queue();
         seen_ = seen_of(c_.on_device);

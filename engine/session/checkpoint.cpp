@@ -12,6 +12,7 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 namespace argand {
 
@@ -110,6 +111,17 @@ void check_key(const fs::path& path, const CheckpointKey& found, const Checkpoin
     }
 }
 
+/// The key of a file, or none if it is not a whole checkpoint.
+std::optional<CheckpointKey> key_of(const fs::path& path) try {
+    const std::vector<std::uint8_t> contents = read_contents(path);
+    Archive archive(contents);
+    CheckpointKey key;
+    persist_key(archive, key);
+    return key;
+} catch (const Error&) {
+    return std::nullopt;
+}
+
 std::vector<std::uint8_t> state_of(const fs::path& path, std::span<const std::uint8_t> contents,
                                    const CheckpointKey& wanted) {
     Archive archive(contents);
@@ -175,9 +187,20 @@ void check_checkpoint_writable(const fs::path& path, const fs::path& resumed) {
     }
     if ((last == Content::checkpoint || before == Content::checkpoint) &&
         !is_same_file(resumed, path) && !is_same_file(resumed, older)) {
-        fail("writing the checkpoint '{}': it would replace that of a render before; go on from it "
-             "with --resume, choose another name, or delete it",
-             name_of(path));
+        fail("writing the checkpoint '{}': '{}' is that of a render before; go on from it with "
+             "--resume '{}', choose another name, or delete it",
+             name_of(path), name_of(last == Content::checkpoint ? path : older), name_of(path));
+    }
+}
+
+void check_checkpoints_replaced(const fs::path& path, const CheckpointKey& key) {
+    for (const fs::path& file : {place_of(path), older_checkpoint(path)}) {
+        const std::optional<CheckpointKey> found = key_of(file);
+        if (found && *found != key) {
+            fail("writing the checkpoint '{}': it would replace '{}', which is of another render; "
+                 "choose another name, or delete that",
+                 name_of(path), name_of(file));
+        }
     }
 }
 

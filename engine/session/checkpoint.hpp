@@ -29,6 +29,9 @@ std::filesystem::path older_checkpoint(const std::filesystem::path& path);
 void check_checkpoint_writable(const std::filesystem::path& path,
                                const std::filesystem::path& resumed);
 
+/// Throws Error if save_checkpoint() would replace a whole checkpoint with another key.
+void check_checkpoints_replaced(const std::filesystem::path& path, const CheckpointKey& key);
+
 /// Writes the state of a session (Session::save()). The checkpoint that was there before, if it is
 /// whole, becomes the older one. Whatever happens, one whole checkpoint stays. Throws Error if it
 /// cannot write.

@@ -18,8 +18,9 @@ namespace {
 // A tree is rebuilt once it costs so many times as much as when it was built
 // (docs/results/frames.md: "When the tree is built anew").
 constexpr double most_growth = 1.15;
-// Of more emissive triangles the device makes the lights, also where they stand still: nothing is
-// done for a triangle on the host in each frame. Fewer are lights that are told apart.
+// The device makes the lights of more emissive triangles than this, also of those that stand still,
+// so that the host does not go through them in each frame. Of fewer the host knows each one, as a
+// photons queue needs it.
 constexpr std::size_t most_lights_on_host = 256;
 
 std::vector<glm::vec4> padded(std::span<const glm::vec3> vectors) {

@@ -100,9 +100,10 @@ private:
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
     std::vector<MaterialRecord> uploaded_materials_;
 
-    std::vector<std::uint32_t> shining_;            ///< triangles that emit light
-    std::vector<bool> emitting_;                    ///< the materials among which they were found
-    std::shared_ptr<const EmissiveParts> emissive_; ///< of them; null where the host does it
+    std::vector<std::uint32_t> shining_; ///< triangles that emit light
+    std::vector<bool> emitting_;         ///< the materials among which they were found
+    std::shared_ptr<const EmissiveParts>
+        emissive_; ///< of them; null if the host makes their lights
 
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {

@@ -123,7 +123,7 @@ TEST_F(Frames, GoOnWhereTheyStopped) {
     const std::string whole = pixels("f2.exr");
     const std::string first = pixels("f0.exr");
     std::filesystem::remove(file("f2.exr"));
-    write_text(file("f0.exr"), ""); // it keeps a place, or was cut short
+    write_text(file("f0.exr"), "");
     const std::string left = read_text(file("f1.exr"));
     std::filesystem::resize_file(file("f3.exr"), std::filesystem::file_size(file("f3.exr")) / 2);
     ASSERT_EQ(argand(film("--frames 0:5 -o f%d.exr --json f.json --continue"), on_host).exit_code,

@@ -178,6 +178,50 @@ TEST_P(Sessions, SlowGoOnFromWhatTheyHaveSavedWithTheSameBits) {
     }
 }
 
+// Passes of a photon map that serves many samples: 48 x 48 pixels of which eight samples are traced
+// together.
+TEST_P(Sessions, PartsOfAMapsSamplesHaveTheBitsOfAllAtOnce) {
+    Device& device = open_anew({.limit = "storage_range=1MiB"});
+    const Scene scene = load_asset("cornell_glass.glb");
+    World world(device, scene);
+    RenderSettings whole = settings();
+    whole.width = whole.height = 48;
+    whole.samples = 42; // 21 for each map
+    RenderSettings parts = whole;
+    parts.samples_per_pass = 9;
+    const RenderResult expected = argand::render(world, scene, whole, [](double) { return true; });
+    Session session(world, scene, parts), other(world, scene, parts);
+    session.begin_frame(0);
+    std::uint64_t parts_made = 0;
+    while (const std::optional<PassPlan> plan = session.next_pass()) {
+        ASSERT_TRUE(session.step(*plan, go_on));
+        ++parts_made;
+        if (parts_made == 2 || parts_made == 5) { // within a map's samples
+            const std::vector<std::uint8_t> state = session.save();
+            other.resume(state, 0);
+            const RenderResult resumed = finish(other, go_on);
+            EXPECT_TRUE(same_bits(resumed, expected)) << parts_made;
+            EXPECT_EQ(resumed.statistics.photons_stored, expected.statistics.photons_stored);
+            EXPECT_EQ(resumed.statistics.flux.absorbed, expected.statistics.flux.absorbed);
+        }
+    }
+    const RenderResult result = session.result();
+    EXPECT_TRUE(same_bits(result, expected));
+    EXPECT_EQ(result.statistics.photons_emitted, expected.statistics.photons_emitted);
+    EXPECT_EQ(result.statistics.flux.absorbed, expected.statistics.flux.absorbed);
+    // Three parts of each of two maps. A queue has one map. `path` has none.
+    const bool progressive = builtin_methods().at(GetParam()).abilities.progressive;
+    const bool one_map = keeps_photons(GetParam());
+    EXPECT_EQ(parts_made, progressive ? 2u : one_map ? 6u : GetParam() == "path" ? 5u : 6u);
+    // Passes whose variance counts are alike.
+    parts.variance = true;
+    Session alike(world, scene, parts);
+    alike.begin_frame(0);
+    EXPECT_EQ(finish(alike, go_on).statistics.passes, GetParam() == "path" ? 5u
+                                                      : one_map            ? 1u
+                                                                           : 2u);
+}
+
 // A film in which lights and meshes move: photons that are kept from frame to frame have lights and
 // paths.
 TEST_P(Sessions, GoOnFromAFrameOfAFilmWithTheSameBits) {

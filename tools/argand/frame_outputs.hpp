@@ -24,8 +24,8 @@ public:
     /// The same for the user, to whom films say which frame it is.
     std::vector<std::string> names_to_tell(std::uint64_t frame) const;
 
-    /// Whether all pictures of a frame are there. One that cannot be read is not: it was cut short,
-    /// or only keeps a place. Throws Error if one has another size.
+    /// Whether all pictures of a frame are there. One that cannot be read does not count: it is
+    /// empty, or was cut short. Throws Error if one has another size.
     bool has(std::uint64_t frame) const;
 
     /// Writes a frame. Throws Error if it cannot be written.

@@ -63,28 +63,13 @@ RenderSettings with_variance(RenderSettings settings) {
     return settings;
 }
 
-/// Passes of few enough paths that they end now and then: there they can be saved, and end near a
+/// Samples of a pass of few enough paths that it ends soon: there it can be saved, and ends near a
 /// budget. A processor takes some seconds for them, a graphics processor less than one.
-RenderSettings with_short_passes(RenderSettings settings, const RenderOptions& options,
-                                 const DeviceInfo& device) {
+std::uint32_t samples_per_pass(const RenderSettings& settings, const DeviceInfo& device) {
     const std::uint64_t paths = device.lane_serial() ? 1u << 20 : 1u << 24;
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
-    settings.samples_per_pass =
-        static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
-    const MethodInfo& method = options.methods.at(settings.method);
-    if (!has_checkpoints(options) || !method.abilities.photon_map ||
-        method.abilities.keeps_photons || is_progressive(method, settings)) {
-        return settings;
-    }
-    // Passes with a photon map share the photons, so they are another render: one that is saved.
-    constexpr std::uint64_t least_photons = 1u << 15; // of a pass, for there are widths to learn
-    const std::uint64_t passes = (std::uint64_t(settings.samples) + settings.samples_per_pass - 1) /
-                                 settings.samples_per_pass;
-    const std::uint64_t most = std::max<std::uint64_t>(settings.photons / least_photons, 1);
-    settings.least_passes =
-        std::max(settings.least_passes, static_cast<std::uint32_t>(std::min(passes, most)));
-    return settings;
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
 }
 
 /// What a user who watches the passes of a picture is told.
@@ -131,6 +116,9 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         session.begin_frame(job.settings.seed);
     } else {
         const LoadedCheckpoint loaded = load_checkpoint(options.resume, key);
+        if (!options.checkpoint.empty()) {
+            check_checkpoints_replaced(options.checkpoint, key);
+        }
         session.resume(loaded.state, job.settings.seed);
         if (loaded.note) {
             notes.push_back(*loaded.note);
@@ -361,7 +349,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.device = open_backend(options.backend, options.device, options.quiet);
     job.times.open = seconds_since(opened);
     if (!is_autotuned(options, command)) {
-        job.settings = with_short_passes(job.settings, options, job.device->info());
+        job.settings.samples_per_pass = samples_per_pass(job.settings, job.device->info());
     }
     return job;
 }
