@@ -43,8 +43,8 @@ struct EyePass {
     std::uint32_t first_sample = 0, samples = 0; ///< [first_sample, first_sample + samples)
     std::uint32_t bounces = 0; ///< scatterings at most between the first estimated vertex and the
                                ///< light
-    /// Samples of all parts together if this is a part of a pass: paths are traced together as if
-    /// it were that pass, and share the same estimates. 0: it is no part.
+    /// If this is one of several passes that query one map (SampleParts), the samples of all: paths
+    /// are traced together, and share estimates, as in one pass. Else 0.
     std::uint32_t samples_of_all = 0;
 };
 

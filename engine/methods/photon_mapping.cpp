@@ -2,10 +2,10 @@
 
 #include "base/error.hpp"
 #include "methods/bandwidth.hpp"
-#include "methods/pass_parts.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
+#include "methods/sample_parts.hpp"
 #include "methods/search_options.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
@@ -27,33 +27,33 @@ constexpr std::uint64_t most_growth = 8;
 /// How photons and samples are spread over photon maps. All maps count the same, so they are of one
 /// size: the noise of a small last one would be the noise of the image. Each map serves at least
 /// one sample, so the image has more samples than the settings request if there are more maps than
-/// that, or if samples do not divide evenly. A map is made by a pass; further parts of its samples
-/// are passes of their own (PassParts).
-struct PassSplit {
-    std::uint64_t passes = 1;  ///< that make a map
+/// that, or if samples do not divide evenly. The samples of a map may be divided into passes
+/// (SampleParts).
+struct MapSplit {
+    std::uint64_t maps = 1;
     std::uint64_t photons = 1; ///< of the largest map
     std::uint32_t samples = 1; ///< that each map serves, per pixel
 };
 
-PassSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint64_t most_photons) {
-    PassSplit s;
+MapSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint64_t most_photons) {
+    MapSplit s;
     most_photons = std::clamp<std::uint64_t>(most_photons, 1, numbers_of_seed);
     const std::uint64_t wanted =
         std::max({std::uint64_t(settings.least_passes), (photons + most_photons - 1) / most_photons,
                   std::uint64_t(1)});
     // A pass without photons would have no indirect light.
-    s.passes = photons > 0 ? std::min(wanted, photons) : wanted;
-    s.photons = std::max<std::uint64_t>((photons + s.passes - 1) / s.passes, 1);
-    s.samples = static_cast<std::uint32_t>((settings.samples + s.passes - 1) / s.passes);
+    s.maps = photons > 0 ? std::min(wanted, photons) : wanted;
+    s.photons = std::max<std::uint64_t>((photons + s.maps - 1) / s.maps, 1);
+    s.samples = static_cast<std::uint32_t>((settings.samples + s.maps - 1) / s.maps);
     return s;
 }
 
 /// What belongs to one image.
 struct ImageState {
     std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
-    PassSplit split;
+    MapSplit split;
     double flux_unit = 0;  ///< of the fixed-point sums
-    Bandwidth learnt;      ///< for split.passes passes; progressive: for the first one
+    Bandwidth learnt;      ///< for split.maps maps; progressive: for the first one
     double view_reach = 0; ///< distance from the camera, see view_areas.hpp
     // Of the last map.
     PhotonPass emission; ///< all but the bounces, which the settings have
@@ -62,7 +62,7 @@ struct ImageState {
     double mean_footprints = 0;
     std::uint32_t leaf_size = 0;
     // Of all maps.
-    std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
+    std::uint64_t maps = 0, photons_emitted = 0, photons_stored = 0;
     std::uint64_t paths = 0; ///< of photons, also those that the dark has not emitted
     PhotonNumbers numbers;
     // Of the first map.
@@ -73,7 +73,7 @@ struct ImageState {
 
 void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.emitted);
-    archive.value(image.split.passes);
+    archive.value(image.split.maps);
     archive.value(image.split.photons);
     archive.value(image.split.samples);
     archive.value(image.flux_unit);
@@ -86,7 +86,7 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.optional(image.footprint_scale);
     archive.value(image.mean_footprints);
     archive.value(image.leaf_size);
-    archive.value(image.passes);
+    archive.value(image.maps);
     archive.value(image.photons_emitted);
     archive.value(image.photons_stored);
     archive.value(image.paths);
@@ -123,7 +123,7 @@ public:
                                   .photons = sorted,
                                   .queries = queries,
                                   .passes =
-                                      progressive_ ? 1 : static_cast<double>(image_.split.passes),
+                                      progressive_ ? 1 : static_cast<double>(image_.split.maps),
                                   .evenness = evenness_in_view(c_, photons_, *first_)};
             RenderSettings settings = c_.settings;
             if (progressive_) {
@@ -138,7 +138,7 @@ public:
     }
 
     std::uint64_t passes() const override {
-        return image_.split.passes * parts().count *
+        return image_.split.maps * parts().count *
                (progressive_ ? c_.settings.progressive.passes : 1);
     }
 
@@ -169,10 +169,10 @@ private:
     void make_estimator(const PassNumbers& numbers, const StoredPhotons& stored);
 
     /// Of the samples that a map serves. Widths that fall from pass to pass have a map for each.
-    PassParts parts() const {
+    SampleParts parts() const {
         const std::uint32_t samples = image_.split.samples;
-        return progressive_ ? PassParts{.count = 1, .samples = samples}
-                            : divide_pass(c_.settings, c_.eye, samples);
+        return progressive_ ? SampleParts{.count = 1, .samples = samples}
+                            : divide_samples(c_.settings, c_.eye, samples);
     }
 
     RenderContext& c_;
@@ -182,23 +182,23 @@ private:
     std::uint64_t room_ = 0; ///< photons of a pass for which the workspace was made
     ImageState image_;
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
-    /// Between the first and the last part of a pass; null there after a load.
+    /// The last map, until all of its samples are traced; null after a load.
     std::unique_ptr<MadeMap> made_;
 };
 
-/// The photons of the pass with this index, as the settings request them. If there are more passes
+/// The photons of the map with this index, as the settings request them. If there are more maps
 /// than that, they repeat.
 std::uint64_t PhotonMapping::photons_requested(std::uint64_t index) const {
-    const std::uint64_t in_round = index % image_.split.passes;
-    return image_.emitted * (in_round + 1) / image_.split.passes -
-           image_.emitted * in_round / image_.split.passes;
+    const std::uint64_t in_round = index % image_.split.maps;
+    return image_.emitted * (in_round + 1) / image_.split.maps -
+           image_.emitted * in_round / image_.split.maps;
 }
 
 /// The photons of the next pass if there is light, with numbers that no pass has had. Where k
 /// cannot fall with the radius, there are more photons instead.
 PhotonPass PhotonMapping::next_emission(const Pass& pass) {
     std::uint64_t photons = photons_requested(pass.numbers.index);
-    if (progressive_ && !pass.keeps_width && image_.passes > 0) {
+    if (progressive_ && !pass.keeps_width && image_.maps > 0) {
         const double so_far =
             static_cast<double>(image_.paths) / static_cast<double>(image_.first_paths);
         const double growth =
@@ -324,9 +324,9 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
 void PhotonMapping::set_bandwidth(const Pass& pass, std::uint64_t photons) {
     const std::uint64_t paths = std::max<std::uint64_t>(photons, 1);
     image_.paths += paths;
-    image_.first_paths = image_.passes > 0 ? image_.first_paths : paths;
+    image_.first_paths = image_.maps > 0 ? image_.first_paths : paths;
     if (!progressive_) {
-        image_.bandwidth = for_passes(image_.learnt, static_cast<double>(image_.split.passes),
+        image_.bandwidth = for_passes(image_.learnt, static_cast<double>(image_.split.maps),
                                       pass.expected, c_.settings);
         return;
     }
@@ -346,7 +346,7 @@ void PhotonMapping::make_map(const Pass& pass) {
     const StoredPhotons stored = first_ ? *first_ : stored_or_fail(trace(image_.emission));
     first_.reset();
     make_estimator(pass.numbers, stored);
-    ++image_.passes;
+    ++image_.maps;
     image_.photons_emitted += c_.on_device.record.light_count > 0 ? image_.emission.count : 0;
     image_.photons_stored += stored.photons;
 }
@@ -376,7 +376,7 @@ StoredPhotons PhotonMapping::trace_again() {
 }
 
 bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
-    const PassParts parts = this->parts();
+    const SampleParts parts = this->parts();
     const std::uint64_t part = pass.numbers.index % parts.count;
     Pass of_map = pass;
     of_map.numbers.index /= parts.count;
@@ -394,7 +394,7 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
                       .bounces = c_.settings.bounces};
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye,
                                           part_of(eye, parts, part), &lookup, on_part);
-    if (part + 1 == parts.count) {
+    if (!finished || part + 1 == parts.count) {
         made_ = nullptr; // frees its memory before the next one takes its own
     }
     return finished;
@@ -402,14 +402,14 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
 
 void PhotonMapping::persist(Archive& archive) {
     persist_image(archive, image_);
-    const PassSplit& split = image_.split;
+    const MapSplit& split = image_.split;
     const std::uint64_t emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
-    if (image_.emitted != emitted || split.passes == 0 || split.photons == 0 ||
-        split.samples == 0 || split.photons < emitted / split.passes ||
+    if (image_.emitted != emitted || split.maps == 0 || split.photons == 0 || split.samples == 0 ||
+        split.photons < emitted / split.maps ||
         split.photons > std::max<std::uint64_t>(max_photons_per_pass(c_.device), 1) ||
         image_.most_photons > max_photons_per_pass(c_.device) ||
         image_.emission.count > std::max(split.photons, image_.most_photons) ||
-        (image_.passes > 0 && image_.first_paths == 0)) {
+        (image_.maps > 0 && image_.first_paths == 0)) {
         fail("loading a saved state: it is not one of photon mapping on '{}'",
              c_.device.info().name);
     }
@@ -433,10 +433,10 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.mean_footprints = image_.mean_footprints;
     statistics.leaf_size = image_.leaf_size;
     statistics.footprint_scale = image_.footprint_scale;
-    if (image_.passes > 0) {
+    if (image_.maps > 0) {
         // Every pass emits all of the lights' power.
         statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, flux_words),
-                                  image_.flux_unit / static_cast<double>(image_.passes));
+                                  image_.flux_unit / static_cast<double>(image_.maps));
     }
 }
 

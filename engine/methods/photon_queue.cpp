@@ -6,7 +6,6 @@
 #include "methods/footprint_estimation.hpp"
 #include "methods/light_change.hpp"
 #include "methods/nearest_photons.hpp"
-#include "methods/pass_parts.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/persist_queue.hpp"
 #include "methods/photon_targets.hpp"
@@ -14,6 +13,7 @@
 #include "methods/queue_maps.hpp"
 #include "methods/queue_photons.hpp"
 #include "methods/render_options.hpp"
+#include "methods/sample_parts.hpp"
 #include "methods/show_photons.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
@@ -50,7 +50,6 @@ std::unique_ptr<EstimationStrategy> make_strategy(QueueEstimator estimator) {
 /// What belongs to one image.
 struct QueueImage {
     std::uint64_t blocks = 0, emitted = 0, stored = 0; ///< traced for it
-    std::uint64_t passes = 0;
     double flux_unit = 0;
     double in_view = 0;                            ///< photons stored in view per photon emitted
     std::optional<FootprintScale> footprint_scale; ///< of the last pass
@@ -90,9 +89,9 @@ private:
     std::uint32_t samples_of_map() const {
         return static_cast<std::uint32_t>((c_.settings.samples + maps() - 1) / maps());
     }
-    PassParts parts() const {
-        return options_.shows_photons ? PassParts{}
-                                      : divide_pass(c_.settings, c_.eye, samples_of_map());
+    SampleParts parts() const {
+        return options_.shows_photons ? SampleParts{}
+                                      : divide_samples(c_.settings, c_.eye, samples_of_map());
     }
     PhotonQueue empty_queue() const;
     /// The block that was traced last.
@@ -136,7 +135,7 @@ private:
     bool areas_moved_ = true;        ///< they have to be sampled anew
     std::uint32_t sized_blocks_ = 0; ///< blocks of which photons made area samples' footprints
     QueueImage image_;
-    std::unique_ptr<MadeMap> made_; ///< between the first and the last part of a pass
+    std::unique_ptr<MadeMap> made_; ///< until all of its samples are traced
 };
 
 /// The moments of a shutter's passes do not follow one another: nothing is kept from pass to pass.
@@ -457,7 +456,7 @@ void QueueMethod::make_lookup() {
 }
 
 bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
-    const PassParts parts = this->parts();
+    const SampleParts parts = this->parts();
     const std::uint64_t part = pass.numbers.index % parts.count;
     const PassNumbers numbers{pass.numbers.seed, pass.numbers.index / parts.count};
     if (part == 0 && !image_.traced) {
@@ -470,7 +469,6 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
     if (options_.shows_photons) {
         draw_photons(c_, made_->map);
         made_ = nullptr;
-        ++image_.passes;
         return on_part(1);
     }
     const PhotonLookup lookup = made_->lookup();
@@ -479,10 +477,9 @@ bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
                       .samples = samples_of_map(),
                       .bounces = c_.settings.bounces};
     const bool finished = trace_eyes(part_of(eye, parts, part), lookup, on_part);
-    if (part + 1 == parts.count) {
+    if (!finished || part + 1 == parts.count) {
         made_ = nullptr; // frees its memory before the next one takes its own
     }
-    ++image_.passes;
     return finished;
 }
 
@@ -490,7 +487,6 @@ void QueueMethod::persist(Archive& archive) {
     archive.value(image_.blocks);
     archive.value(image_.emitted);
     archive.value(image_.stored);
-    archive.value(image_.passes);
     archive.value(image_.flux_unit);
     archive.value(image_.in_view);
     archive.optional(image_.footprint_scale);

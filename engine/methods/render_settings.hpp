@@ -71,7 +71,7 @@ struct RenderSettings {
     /// Maximum for one pass, at least 1. It bounds the memory that any number of photons takes.
     std::uint64_t photons_per_pass = 1 << 18;
     /// Maximum of one pass, at least 1, unless the passes' photons ask for more: a photon map that
-    /// serves more samples has several passes (methods/pass_parts.hpp). The image is the same.
+    /// serves more samples has several passes (methods/sample_parts.hpp). The image is the same.
     std::uint32_t samples_per_pass = 0xffffffff;
     /// Passes over which the image is spread at least, but no more than samples (`path`) or
     /// photons, if there are any: a shutter (session/shutter.hpp) gives each pass a moment of its

@@ -5,6 +5,7 @@
 #include "world/connected_triangles.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <span>
 
@@ -71,8 +72,16 @@ void upload_lights(Device& device, const std::vector<LightRecord>& lights, std::
 } // namespace
 
 EmissiveParts find_emissive_parts(Device& device, const Scene& scene,
-                                  const std::vector<std::uint32_t>& shining,
+                                  const std::vector<std::uint32_t>& emitting,
                                   const TexelTrees& texels) {
+    // Triangles of black texels are no lights, and join no others.
+    std::vector<std::uint32_t> shining;
+    shining.reserve(emitting.size());
+    std::copy_if(emitting.begin(), emitting.end(), std::back_inserter(shining),
+                 [&](std::uint32_t triangle) {
+                     const TexelMean mean = mean_of(texels, triangle);
+                     return mean.r > 0 || mean.g > 0 || mean.b > 0;
+                 });
     EmissiveParts result;
     result.triangle_count = static_cast<std::uint32_t>(shining.size());
     const std::vector<std::uint32_t> emitters = emitters_of(scene, shining, result.emitter_count);

@@ -23,11 +23,12 @@ struct EmissiveParts {
     std::uint32_t triangle_count = 0, emitter_count = 0;
 };
 
-/// shining: the triangles that emit light, by rising index; texels: of those that do by a texture.
+/// emitting: the triangles of materials that emit light, by rising index; texels: of those that do
+/// by a texture.
 /// Those are connected that have a corner at the same place in the space that moves both. Records
 /// only.
 EmissiveParts find_emissive_parts(Device& device, const Scene& scene,
-                                  const std::vector<std::uint32_t>& shining,
+                                  const std::vector<std::uint32_t>& emitting,
                                   const TexelTrees& texels);
 
 /// Makes the lights of a scene in `lights` (LightRecord), where its vertices are now on the device:

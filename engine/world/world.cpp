@@ -19,8 +19,8 @@ namespace {
 // (docs/results/frames.md: "When the tree is built anew").
 constexpr double most_growth = 1.15;
 // The device makes the lights of more emissive triangles than this, also of those that stand still,
-// so that the host does not go through them in each frame. Of fewer the host knows each one, as a
-// photons queue needs it.
+// so that the host does not go through them in each frame. Of fewer the host knows each one: a
+// photons queue tells as many lights apart (methods/queue_photons.cpp).
 constexpr std::size_t most_lights_on_host = 256;
 
 std::vector<glm::vec4> padded(std::span<const glm::vec3> vectors) {

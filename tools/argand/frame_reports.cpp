@@ -46,10 +46,14 @@ void FrameReports::add(const nlohmann::ordered_json& report) {
     if (path_.empty()) {
         return;
     }
-    std::error_code special; // a pipe or a device has no size
+    std::error_code problem;
     if (!out_.is_open()) {
         if (length_ > 0) {
-            fs::resize_file(path_, length_, special);
+            fs::resize_file(path_, length_, problem);
+        }
+        if (problem) {
+            fail("continuing '{}': {}; check its permissions", one_line(path_.string()),
+                 problem.message());
         }
         out_.open(path_, length_ > 0 ? std::ios::app : std::ios::trunc);
     }
@@ -57,7 +61,7 @@ void FrameReports::add(const nlohmann::ordered_json& report) {
     out_ << line << std::flush;
     if (!out_) {
         out_.close();
-        fs::resize_file(path_, length_, special);
+        fs::resize_file(path_, length_, problem); // a pipe or a device has no size
         fail("writing '{}': the disk is full, or it cannot be written to; no more frames are "
              "rendered",
              one_line(path_.string()));

@@ -12,8 +12,8 @@ namespace argand {
 class FrameReports {
 public:
     /// path: empty for none. The file is made with the first line: then it replaces what was there,
-    /// unless the render continues. Throws Error if it continues and the file is not one of lines
-    /// with frames, but for a last one that was cut short.
+    /// unless the render continues. Throws Error if it continues and a whole line of the file is no
+    /// report of a frame.
     FrameReports(const std::string& path, bool continues);
 
     /// Throws Error if the line cannot be written, such as on a full disk.

@@ -11,6 +11,8 @@
 #include "method_options.hpp"
 #include "scene/pose.hpp"
 
+#include <vector>
+
 namespace argand {
 
 void check_frames(const RenderOptions& options, const CLI::App& command) {
@@ -76,10 +78,14 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
     const Shutter shares = blurs ? parse_shutter(options.shutter) : Shutter();
     FrameOutputs files(options);
     FrameReports reports(options.report, options.continues);
+    std::vector<bool> done(range.end - range.first, false);
+    for (std::uint64_t frame = range.first; options.continues && frame < range.end; ++frame) {
+        done[frame - range.first] = files.has(frame);
+    }
     RenderJob job = open_job(options, command, seconds_of(range.first));
     for (std::uint64_t frame = range.first; frame < range.end; ++frame) {
         const std::vector<std::string> outputs = files.names(frame);
-        if (options.continues && files.has(frame)) {
+        if (done[frame - range.first]) {
             continue;
         }
         const Clock::time_point start = Clock::now();

@@ -67,8 +67,10 @@ RenderSettings with_variance(RenderSettings settings) {
 /// budget. A processor takes some seconds for them, a graphics processor less than one.
 std::uint32_t samples_per_pass(const RenderSettings& settings, const DeviceInfo& device) {
     const std::uint64_t paths = device.lane_serial() ? 1u << 20 : 1u << 24;
+    const CropRectangle part =
+        settings.crop.value_or(CropRectangle{0, 0, settings.width, settings.height});
     const std::uint64_t pixels =
-        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+        static_cast<std::uint64_t>(part.width()) * static_cast<std::uint64_t>(part.height());
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(paths / pixels, 1));
 }
 

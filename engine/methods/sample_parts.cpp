@@ -1,13 +1,14 @@
-#include "methods/pass_parts.hpp"
+#include "methods/sample_parts.hpp"
 
 #include <algorithm>
 
 namespace argand {
 
-PassParts divide_pass(const RenderSettings& settings, const EyeWorkspace& workspace,
-                      std::uint32_t samples) {
-    PassParts parts{.count = 1, .samples = samples};
-    if (settings.budget || settings.variance || samples <= settings.samples_per_pass) {
+SampleParts divide_samples(const RenderSettings& settings, const EyeWorkspace& workspace,
+                           std::uint32_t samples) {
+    SampleParts parts{.count = 1, .samples = samples};
+    if (settings.budget || settings.least_passes > 1 || settings.variance ||
+        samples <= settings.samples_per_pass) {
         return parts;
     }
     const std::uint32_t together = samples_together(workspace, samples, true);
@@ -17,7 +18,7 @@ PassParts divide_pass(const RenderSettings& settings, const EyeWorkspace& worksp
     return parts;
 }
 
-EyePass part_of(const EyePass& whole, const PassParts& parts, std::uint64_t part) {
+EyePass part_of(const EyePass& whole, const SampleParts& parts, std::uint64_t part) {
     EyePass result = whole;
     const auto before = static_cast<std::uint32_t>(part * parts.samples);
     result.first_sample += before;
