@@ -160,6 +160,35 @@ TEST_F(EmissiveMeshes, ShineByTheirTexelsAtEveryMoment) {
     }
 }
 
+TEST_F(EmissiveMeshes, OfBlackTexelsAreNoLights) {
+    Scene scene = shining_fans(5);
+    const std::uint32_t material = scene.triangle_material[scene.motion.meshes[1].first_triangle];
+    add_texture(scene, material, material_emissive_texture, 1, {texel(0, 0, 0)}, false);
+    scene.uvs.assign(scene.positions.size(), glm::vec2(0.3f));
+    move_to(0.25, scene);
+    const Lights found = on_device(scene);
+    const auto is_triangle = [](const LightRecord& light) { return light.kind == light_triangle; };
+    EXPECT_EQ(std::count_if(found.lights.begin(), found.lights.end(), is_triangle), 5 + 2);
+    for (const LightRecord& light : found.lights) {
+        EXPECT_FALSE(is_triangle(light) &&
+                     scene.triangle_material[light.triangle_and_sides / 2] == material);
+    }
+}
+
+TEST_F(EmissiveMeshes, HaveTheLightsOfTheHostsTableWhereManyStandStill) {
+    Scene scene = shining_fans(300);
+    move_to(0.25, scene);
+    scene.motion = {};
+    const Lights found = on_device(scene);
+    const LightTable host = on_host(scene);
+    ASSERT_EQ(found.lights.size(), host.lights.size());
+    for (std::size_t i = 0; i < host.lights.size(); ++i) {
+        expect_near(found.lights[i], host.lights[i]);
+    }
+    expect_choices(found.for_rays, host);
+    expect_choices(found.for_photons, host);
+}
+
 TEST_F(EmissiveMeshes, StandAtTheMiddleOfTheirParts) {
     Scene scene = shining_fans(300);
     move_to(0.25, scene);
