@@ -100,10 +100,9 @@ private:
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
     std::vector<MaterialRecord> uploaded_materials_;
 
-    std::vector<std::uint32_t> shining_; ///< triangles that emit light
-    std::vector<bool> emitting_;         ///< the materials among which they were found
-    std::shared_ptr<const EmissiveParts>
-        emissive_; ///< of them; null if the host makes their lights
+    std::vector<std::uint32_t> shining_;            ///< triangles that emit light
+    std::vector<bool> emitting_;                    ///< the materials among which they were found
+    std::shared_ptr<const EmissiveParts> emissive_; ///< of them; null: the host makes lights
 
     /// The areas of all surfaces on which photons may lie.
     struct PhotonAreas {

@@ -175,6 +175,30 @@ TEST_F(EmissiveMeshes, OfBlackTexelsAreNoLights) {
     }
 }
 
+TEST_F(EmissiveMeshes, MayAllBeBlack) {
+    Scene scene = shining_fans(300);
+    for (const MovingMesh& mesh : scene.motion.meshes) {
+        add_texture(scene, scene.triangle_material[mesh.first_triangle], material_emissive_texture,
+                    1, {texel(0, 0, 0)}, false);
+    }
+    scene.uvs.assign(scene.positions.size(), glm::vec2(0.3f));
+    move_to(0.25, scene);
+    for (const bool moves : {true, false}) {
+        SCOPED_TRACE(moves);
+        if (!moves) {
+            scene.motion = {};
+        }
+        const Lights found = on_device(scene);
+        EXPECT_EQ(found.table.triangle_count, 0u);
+        ASSERT_EQ(found.lights.size(), scene.lights.size() + 1); // and the sky
+        double sum = 0;
+        for (const LightChoice& choice : found.for_rays) {
+            sum += choice.probability;
+        }
+        EXPECT_NEAR(sum, 1, 1e-6);
+    }
+}
+
 TEST_F(EmissiveMeshes, HaveTheLightsOfTheHostsTableWhereManyStandStill) {
     Scene scene = shining_fans(300);
     move_to(0.25, scene);
