@@ -1,6 +1,7 @@
 """Shared by the scripts that measure docs/results."""
 
 import datetime
+import json
 import os
 import pathlib
 import platform
@@ -30,6 +31,15 @@ def wrap(paragraph):
 def stage_seconds(name):
     """A function of the JSON report of a render: the device's seconds in the stage of this name."""
     return lambda report: sum(stage["gpu_seconds"] for stage in report["stages"] if stage["name"] == name)
+
+
+def render_reports(scene, folder, settings, *arguments):
+    """Runs `argand render`. Returns its JSON reports: one by --at, else one for each frame."""
+    log = folder / "log.jsonl"
+    subprocess.run([str(ARGAND), "render", str(scene), "-q", *settings, "--json", str(log), *map(str, arguments)],
+                   check=True)
+    text = log.read_text()
+    return [json.loads(text)] if "--at" in arguments else [json.loads(line) for line in text.splitlines()]
 
 
 def replace_section(page, heading, text):
