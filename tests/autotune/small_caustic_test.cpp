@@ -27,7 +27,7 @@ TEST_F(SmallCaustic, SlowErrorIsToldAsItIs) {
     const auto reference = [&](std::uint32_t seed) {
         RenderSettings exact = settings;
         exact.method = "path";
-        exact.samples = 4096;
+        exact.samples = 2048;
         exact.seed = seed;
         return render(device, scene, exact, [](double) { return true; }).layers[0].image;
     };

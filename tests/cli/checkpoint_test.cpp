@@ -44,7 +44,7 @@ TEST_F(Checkpoints, OfACompleteRenderGiveItsPictureAgain) {
     EXPECT_EQ(files(), (std::vector<std::string>{"again.exr", "c", "saved.exr", "whole.exr"}));
 }
 
-TEST_F(Checkpoints, GoOnAfterAKillAtAnyMoment) {
+TEST_F(Checkpoints, SlowGoOnAfterAKillAtAnyMoment) {
     const std::string passes = long_render;
     ASSERT_EQ(run(passes + "-o whole.exr").exit_code, 0);
     for (const double seconds : {0.2, 0.4, 0.6}) {
@@ -191,7 +191,7 @@ TEST_F(Checkpoints, OfAnotherVersionOrBuildAreRefused) {
     EXPECT_THAT(read_text(file("error")), HasSubstr("resuming 'c': its build is "));
 }
 
-TEST_F(Checkpoints, OfLongRendersHavePassesThatEndSoon) {
+TEST_F(Checkpoints, SlowOfLongRendersHavePassesThatEndSoon) {
     for (const std::string method : {"path", "footprints", "photon-queue"}) {
         ASSERT_EQ(argand("render '" + asset("cornell_glass.glb") +
                              "' --size 64x64 --spp 257 --bounces 1 -q --json r.json --method " +
@@ -228,7 +228,7 @@ TEST_F(Checkpoints, RefuseWhatTheyCannotDo) {
     expect_error("-o no.exr --checkpoint c --every -1", "--every", usage);
 }
 
-TEST_F(Checkpoints, AreSavedWhenARenderIsInterrupted) {
+TEST_F(Checkpoints, SlowAreSavedWhenARenderIsInterrupted) {
     const std::string passes = long_render;
     ASSERT_EQ(run(passes + "-o whole.exr").exit_code, 0);
     // Ctrl-C once a pass is saved; without a second one, which would end it at once. (Shells ignore

@@ -307,7 +307,7 @@ TEST_F(Commands, DeviceByNameAndByIndex) {
     EXPECT_THAT(files(), ElementsAre("a.exr", "b.exr"));
 }
 
-TEST_F(Commands, BenchPrintsARowForEachMeasurement) {
+TEST_F(Commands, SlowBenchPrintsARowForEachMeasurement) {
     // Buffers of 1 MiB allow only the small sizes. Without time stamps the wall clock is used.
     for (const char* disable : {"", " ARGAND_DISABLE=timestamps"}) {
         const Outcome run = argand("bench parallel --json",

@@ -115,7 +115,7 @@ TEST_P(Absorption, UnlitSurfacesShowTheirBaseColour) {
     }
 }
 
-INSTANTIATE_METHODS(Absorption);
+INSTANTIATE_ESTIMATES(Absorption);
 
 } // namespace
 } // namespace argand::testing

@@ -167,7 +167,7 @@ TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     EXPECT_GT(mean(layer(expected, "caustic")).g, 0.2 * mean(layer(expected, "direct")).g);
 }
 
-INSTANTIATE_METHODS(Alpha);
+INSTANTIATE_ESTIMATES(Alpha);
 
 } // namespace
 } // namespace argand::testing

@@ -105,7 +105,7 @@ TEST_P(Anisotropy, SlowLayersAgreeWithThePathTracer) {
     expect_same_layers(render(scene, settings), expected, 0.05, 0.15);
 }
 
-INSTANTIATE_METHODS(Anisotropy);
+INSTANTIATE_ESTIMATES(Anisotropy);
 
 } // namespace
 } // namespace argand::testing

@@ -74,7 +74,7 @@ TEST_P(Coats, SlowLayersAgreeWithThePathTracer) {
     expect_same_layers(found, expected, 0.06, 0.15);
 }
 
-INSTANTIATE_METHODS(Coats);
+INSTANTIATE_ESTIMATES(Coats);
 
 } // namespace
 } // namespace argand::testing

@@ -158,7 +158,7 @@ TEST_P(DirectLight, IsInTheDirectLayerAlone) {
     EXPECT_EQ(mean(layer(result, "caustic")).g, 0);
 }
 
-INSTANTIATE_METHODS(DirectLight);
+INSTANTIATE_ESTIMATES(DirectLight);
 
 } // namespace
 } // namespace argand::testing

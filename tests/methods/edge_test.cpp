@@ -16,6 +16,8 @@ protected:
         settings.photons = 10'000;
         return settings;
     }
+
+    void expect_finite_layers(const std::vector<std::string>& scenes);
 };
 
 void expect_sum_of_layers(const RenderResult& result) {
@@ -33,14 +35,21 @@ void expect_sum_of_layers(const RenderResult& result) {
     }
 }
 
-TEST_P(Edge, LayersSumUpToTheWholeAndAllAreFinite) {
-    for (const char* name :
-         {"cornell_glass.glb", "cornell_mirror.glb", "glossy.glb", "courtyard.glb", "ring.glb",
-          "smooth_sphere.glb", "inside_glass.glb", "sky_room.glb", "spot.glb", "veil.glb"}) {
+void Edge::expect_finite_layers(const std::vector<std::string>& scenes) {
+    for (const std::string& name : scenes) {
         const RenderResult result = render(load_asset(name), settings());
         expect_sum_of_layers(result);
         EXPECT_GT(mean(layer(result, "")).g, 0) << name;
     }
+}
+
+TEST_P(Edge, LayersSumUpToTheWholeAndAllAreFinite) {
+    expect_finite_layers({"cornell_glass.glb", "sky_room.glb"});
+}
+
+TEST_P(Edge, SlowLayersOfOtherScenesSumUpToTheWholeAndAllAreFinite) {
+    expect_finite_layers({"cornell_mirror.glb", "glossy.glb", "courtyard.glb", "ring.glb",
+                          "smooth_sphere.glb", "inside_glass.glb", "spot.glb", "veil.glb"});
 }
 
 TEST_P(Edge, OddSizes) {

@@ -96,7 +96,7 @@ TEST_P(EmissiveTexture, FindsOneBrightTexel) {
     EXPECT_RELATIVE(l.b, 50 * expected, 0.02);
 }
 
-INSTANTIATE_METHODS(EmissiveTexture);
+INSTANTIATE_ESTIMATES(EmissiveTexture);
 
 } // namespace
 } // namespace argand::testing

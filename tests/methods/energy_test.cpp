@@ -81,7 +81,7 @@ TEST_P(Energy, BlackWallsReflectNothing) {
     EXPECT_EQ(mean(layer(result, "indirect")), glm::dvec3(0));
 }
 
-INSTANTIATE_METHODS(Energy);
+INSTANTIATE_ESTIMATES(Energy);
 
 } // namespace
 } // namespace argand::testing

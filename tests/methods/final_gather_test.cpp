@@ -116,26 +116,26 @@ TEST_F(FinalGather, EveryMethodWithAPhotonMap) {
 
 TEST_F(FinalGather, EmittersAreMetOnce) { expect_as_path(lit_room()); }
 
-TEST_F(FinalGather, Sky) {
+TEST_F(FinalGather, SlowSky) {
     expect_as_path(yard(mirror(glm::vec3(0.9f))));
     expect_as_path(yard(narrow_gloss()));
 }
 
-TEST_F(FinalGather, CausticsOfAMirror) { expect_as_path(mirror_room(), "photons", 0.015); }
+TEST_F(FinalGather, SlowCausticsOfAMirror) { expect_as_path(mirror_room(), "photons", 0.015); }
 
 TEST_F(FinalGather, CausticsOfGlass) { expect_as_path(glass_room(), "photons", 0.015); }
 
-TEST_F(FinalGather, CausticsOfGlossFromALightWithoutExtent) {
+TEST_F(FinalGather, SlowCausticsOfGlossFromALightWithoutExtent) {
     expect_as_path(glossy_room(), "photons", 0.015);
 }
 
-TEST_F(FinalGather, EmittersInNarrowLobesAreMetOnce) {
+TEST_F(FinalGather, SlowEmittersInNarrowLobesAreMetOnce) {
     expect_as_path(room_with_narrow_gloss());
     expect_as_path(room_with_narrow_gloss(), "photons", 0.01, 1);
     expect_as_path(room_with_half_a_plastic_wall());
 }
 
-TEST_F(FinalGather, NoBrightDotsOfEmittersInNarrowLobes) {
+TEST_F(FinalGather, SlowNoBrightDotsOfEmittersInNarrowLobes) {
     const Scene scene = room_with_narrow_gloss();
     RenderSettings settings = settings_of("path", 32, 512);
     settings.bounces = 1; // only what the gather's own rays find
@@ -147,7 +147,7 @@ TEST_F(FinalGather, NoBrightDotsOfEmittersInNarrowLobes) {
     EXPECT_LT(compare(layer(render(scene, settings), "indirect"), reference).rmse, 1.2 * of_path);
 }
 
-TEST_F(FinalGather, NoMoreBouncesThanAreAllowed) {
+TEST_F(FinalGather, SlowNoMoreBouncesThanAreAllowed) {
     for (const std::uint32_t bounces : {1u, 2u}) {
         expect_as_path(mirror_room(), "photons", 0.01, bounces);
     }

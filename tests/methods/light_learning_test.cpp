@@ -133,7 +133,7 @@ Scene room_with_opening(bool sun) {
 
 // What the room gets by photons that are aimed through its opening is, in the mean over seeds, what
 // it gets by path tracing.
-TEST_P(LightLearning, SkyAndSunThroughAnOpening) {
+TEST_P(LightLearning, SlowSkyAndSunThroughAnOpening) {
     for (const bool sun : {false, true}) {
         SCOPED_TRACE(sun);
         const Scene scene = room_with_opening(sun);
@@ -158,7 +158,7 @@ TEST_P(LightLearning, SkyAndSunThroughAnOpening) {
 
 // The same for a picture, brighter above, whose sun shines through the opening: photons learn which
 // part of the sky they should come from, too.
-TEST_P(LightLearning, PictureWithASunThroughAnOpening) {
+TEST_P(LightLearning, SlowPictureWithASunThroughAnOpening) {
     Scene scene = room_with_opening(false);
     scene.sky.reset();
     Environment sky = studio();
@@ -197,7 +197,7 @@ TEST_P(LightLearning, NothingToAimAt) {
     EXPECT_RELATIVE(mean(layer(render(scene, small_picture(GetParam())), "")).g, 1, 1e-5);
 }
 
-INSTANTIATE_METHODS(LightLearning);
+INSTANTIATE_QUICK_AND_SLOW(LightLearning, "footprints", estimates);
 
 } // namespace
 } // namespace argand::testing

@@ -71,7 +71,7 @@ TEST_F(RenderTest, SlowMipMapsShowTheMeanAlbedoToPhotons) {
     }
 }
 
-INSTANTIATE_METHODS(MipMaps);
+INSTANTIATE_ESTIMATES(MipMaps);
 
 } // namespace
 } // namespace argand::testing

@@ -92,7 +92,7 @@ TEST_P(NormalTexture, SlowLayersAgreeWithThePathTracer) {
     }
 }
 
-INSTANTIATE_METHODS(NormalTexture);
+INSTANTIATE_ESTIMATES(NormalTexture);
 
 } // namespace
 } // namespace argand::testing

@@ -57,7 +57,7 @@ TEST_P(PhongSurface, SlowLayersAgreeWithThePathTracer) {
     EXPECT_GT(mean(layer(expected, "caustic")).g, 0.01 * mean(layer(expected, "direct")).g);
 }
 
-INSTANTIATE_METHODS(PhongSurface);
+INSTANTIATE_ESTIMATES(PhongSurface);
 
 } // namespace
 } // namespace argand::testing

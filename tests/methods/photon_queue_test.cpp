@@ -334,7 +334,7 @@ TEST_F(PhotonQueueFrames, SlowMovingLightIsNotFarBehind) {
     EXPECT_LT(moving, 2 * still);
 }
 
-TEST_F(PhotonQueueFrames, SurfacesThatMoveLeaveNoPhotonsBehind) {
+TEST_F(PhotonQueueFrames, SlowSurfacesThatMoveLeaveNoPhotonsBehind) {
     Scene scene = moving_scene();
     World world(device(), scene);
     RenderSettings settings = queue_settings(6);

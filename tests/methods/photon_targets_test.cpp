@@ -90,7 +90,7 @@ Scene corner_of_a_hall() {
 
 // One photon in a hundred gets into view if none are aimed: the mean of a picture is then off by 7
 // % to 12 % (standard deviation over seeds).
-TEST_P(PhotonTargets, ACloseUpInAHallHasItsLight) {
+TEST_P(PhotonTargets, SlowACloseUpInAHallHasItsLight) {
     RenderSettings s = settings_of(GetParam(), 16, 16);
     s.photons = 200'000;
     RenderSettings reference = settings_of("path", 16, 4096);
@@ -128,7 +128,7 @@ TEST_P(PhotonTargets, ASingleCausticPhotonHasNoRadiusOfItsOwn) {
     EXPECT_EQ(found.caustic_radius, found.radius);
 }
 
-INSTANTIATE_METHODS(PhotonTargets);
+INSTANTIATE_QUICK_AND_SLOW(PhotonTargets, "footprints", estimates);
 
 } // namespace
 } // namespace argand::testing

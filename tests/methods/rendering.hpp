@@ -124,13 +124,12 @@ protected:
 /// Tests that run with every method.
 class EveryMethod : public RenderTest, public ::testing::WithParamInterface<std::string> {};
 
-inline bool is_quick(const std::string& method) {
-    return method == "footprints" || method == "path";
-}
+/// The methods with an estimate of their own. `progressive` and `photon-queue` share kernels with
+/// them.
+inline const std::vector<std::string> estimates = {"path", "footprints", "photons", "knn"};
 
-inline std::vector<std::string> methods_that(bool quick) {
-    std::vector<std::string> names = method_names();
-    std::erase_if(names, [&](const std::string& name) { return is_quick(name) != quick; });
+inline std::vector<std::string> without(std::vector<std::string> names, const std::string& name) {
+    std::erase(names, name);
     return names;
 }
 
@@ -140,11 +139,16 @@ inline std::string test_name(std::string method) {
     return method;
 }
 
-// Quick tests run one method with a photon map and the one without; slow tests run all others.
-#define INSTANTIATE_METHODS(suite)                                                                 \
-    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::ValuesIn(methods_that(true)),              \
+// Quick tests run one method, slow tests all others.
+#define INSTANTIATE_QUICK_AND_SLOW(suite, quick, all)                                              \
+    INSTANTIATE_TEST_SUITE_P(Methods, suite, ::testing::Values(quick),                             \
                              [](const auto& method) { return test_name(method.param); });          \
-    INSTANTIATE_TEST_SUITE_P(SlowMethods, suite, ::testing::ValuesIn(methods_that(false)),         \
+    INSTANTIATE_TEST_SUITE_P(SlowMethods, suite, ::testing::ValuesIn(without(all, quick)),         \
                              [](const auto& method) { return test_name(method.param); })
+
+#define INSTANTIATE_METHODS(suite) INSTANTIATE_QUICK_AND_SLOW(suite, "footprints", method_names())
+
+// For tests of what all methods that take the same estimate share.
+#define INSTANTIATE_ESTIMATES(suite) INSTANTIATE_QUICK_AND_SLOW(suite, "path", estimates)
 
 } // namespace argand::testing

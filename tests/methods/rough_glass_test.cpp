@@ -111,7 +111,7 @@ TEST_P(RoughGlass, SlowLayersAgreeWithThePathTracer) {
     EXPECT_GT(mean(layer(expected, "caustic")).g, 0.05 * mean(layer(expected, "direct")).g);
 }
 
-INSTANTIATE_METHODS(RoughGlass);
+INSTANTIATE_ESTIMATES(RoughGlass);
 
 } // namespace
 } // namespace argand::testing

@@ -206,7 +206,7 @@ TEST_F(SkyLayers, MethodsAgreeOnEveryLayer) {
 }
 
 // A uniform picture in the yard is the uniform sky in it.
-TEST_F(SkyLayers, UniformPictureIsTheUniformSky) {
+TEST_F(SkyLayers, SlowUniformPictureIsTheUniformSky) {
     Scene uniform = yard();
     uniform.sky = glm::vec3(1, 0.8f, 0.6f);
     Scene scene = yard();
@@ -218,7 +218,7 @@ TEST_F(SkyLayers, UniformPictureIsTheUniformSky) {
 }
 
 // A sun in a picture casts the light and the caustic of a directional light.
-TEST_F(SkyLayers, BrightTexelIsADirectionalLight) {
+TEST_F(SkyLayers, SlowBrightTexelIsADirectionalLight) {
     Scene scene = yard();
     scene.environment = one_bright_texel(2048, 1024, 1500, 300, glm::vec3(2e5f));
     Scene with_light = yard();
@@ -231,7 +231,7 @@ TEST_F(SkyLayers, BrightTexelIsADirectionalLight) {
     expect_same(scene, "path", with_light, "path", {{"direct", 0.01}, {"indirect", 0.03}});
 }
 
-INSTANTIATE_METHODS(SkyPictures);
+INSTANTIATE_ESTIMATES(SkyPictures);
 
 } // namespace
 } // namespace argand::testing

@@ -147,7 +147,7 @@ RecordingDevice::Variant with_constant(RecordingDevice::Variant variant, const s
     return variant;
 }
 
-TEST_P(Specialisation, ChangesNoBit) {
+TEST_P(Specialisation, SlowChangesNoBit) {
     expect_same_bits(diffuse_box(), small(GetParam()));
     expect_same_bits(mixed_scene(), small(GetParam()));
     Scene under_a_picture = mixed_scene();
@@ -156,7 +156,9 @@ TEST_P(Specialisation, ChangesNoBit) {
     expect_same_bits(under_a_picture, small(GetParam()));
 }
 
-TEST_P(Specialisation, SlowChangesNoBitOfAnyScene) {
+class SpecialisationOfScenes : public Specialisation {};
+
+TEST_P(SpecialisationOfScenes, SlowChangesNoBit) {
     RenderSettings settings = small(GetParam());
     settings.photons = 20'000;
     settings.width = settings.height = 32;
@@ -319,10 +321,14 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
     EXPECT_GT(recorded(mirrors, true)->runs_of("shadow_add"), 0u);
 }
 
-INSTANTIATE_METHODS(Specialisation);
+INSTANTIATE_ESTIMATES(Specialisation);
+
+// Kernels are compiled anew for each scene, which takes long. Other methods have these kernels,
+// too.
+INSTANTIATE_TEST_SUITE_P(Methods, SpecialisationOfScenes, ::testing::Values("path", "footprints"));
 
 // Leaving out any one feature makes some kernel smaller and none larger.
-TEST_F(RenderTest, EveryMaterialAndLightIsCodeOfItsOwn) {
+TEST_F(RenderTest, SlowEveryMaterialAndLightIsCodeOfItsOwn) {
     if (device().info().backend == "cpu") {
         GTEST_SKIP() << "the SPIR-V does not depend on the backend";
     }

@@ -161,7 +161,7 @@ TEST_P(Specular, SunReflectedOntoTheFloorIsACaustic) {
     EXPECT_EQ(mean(layer(result, "direct")).g, 0);
 }
 
-INSTANTIATE_METHODS(Specular);
+INSTANTIATE_ESTIMATES(Specular);
 
 } // namespace
 } // namespace argand::testing

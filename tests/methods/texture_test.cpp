@@ -122,7 +122,7 @@ TEST_P(Textured, MaskedTexelsAreNotThere) {
     EXPECT_GT(mean(layer(cut, "indirect")).g, 0.02 * mean(layer(cut, "direct")).g);
 }
 
-INSTANTIATE_METHODS(Textured);
+INSTANTIATE_ESTIMATES(Textured);
 
 } // namespace
 } // namespace argand::testing

@@ -139,7 +139,7 @@ TEST_F(Extremes, FootprintsFromZeroToTheSizeOfTheScene) {
                    "holds");
 }
 
-TEST_F(Extremes, AThousandBouncesBetweenWhiteWalls) {
+TEST_F(Extremes, SlowAThousandBouncesBetweenWhiteWalls) {
     Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(1)));
     // Sees so much of the box that no photons are aimed at what is in view: roulette thins them
     // out.

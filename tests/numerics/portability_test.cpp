@@ -47,7 +47,7 @@ void expect_same_bits(std::initializer_list<Run> runs) {
     }
 }
 
-TEST(Portability, ValidationAndSubgroups) {
+TEST(Portability, SlowValidationAndSubgroups) {
     expect_same_bits({{"as it is", "ARGAND_VALIDATION=0", "vulkan"},
                       {"validation", "ARGAND_VALIDATION=1", "vulkan"},
                       {"no subgroups", "ARGAND_DISABLE=subgroups", "vulkan"},
