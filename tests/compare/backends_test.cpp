@@ -29,7 +29,7 @@ bool is_quick(const std::string& scene) {
 }
 
 /// The methods whose kernels differ, for other scenes than the quick ones.
-const std::vector<std::string> different_methods = {"footprints", "knn", "photon-queue"};
+const std::vector<std::string> different_methods = {"footprints", "knn", "photon-queue", "path"};
 
 std::vector<std::string> scenes_that(bool quick) {
     std::vector<std::string> names;

@@ -121,11 +121,10 @@ protected:
     }
 };
 
-/// Tests that run with every method.
+/// Tests that run with several methods.
 class EveryMethod : public RenderTest, public ::testing::WithParamInterface<std::string> {};
 
-/// The methods with an estimate of their own. `progressive` and `photon-queue` share kernels with
-/// them.
+/// The methods with an estimate of their own. `progressive` and `photon-queue` share these.
 inline const std::vector<std::string> estimates = {"path", "footprints", "photons", "knn"};
 
 inline std::vector<std::string> without(std::vector<std::string> names, const std::string& name) {
@@ -148,7 +147,7 @@ inline std::string test_name(std::string method) {
 
 #define INSTANTIATE_METHODS(suite) INSTANTIATE_QUICK_AND_SLOW(suite, "footprints", method_names())
 
-// For tests of what all methods that take the same estimate share.
+// For surfaces and lights: methods that share an estimate render them by the same kernels.
 #define INSTANTIATE_ESTIMATES(suite) INSTANTIATE_QUICK_AND_SLOW(suite, "path", estimates)
 
 } // namespace argand::testing

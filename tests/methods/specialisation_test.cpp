@@ -321,11 +321,12 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
     EXPECT_GT(recorded(mirrors, true)->runs_of("shadow_add"), 0u);
 }
 
-INSTANTIATE_ESTIMATES(Specialisation);
+INSTANTIATE_QUICK_AND_SLOW(Specialisation, "path", method_names());
 
 // Kernels are compiled anew for each scene, which takes long. Other methods have these kernels,
 // too.
-INSTANTIATE_TEST_SUITE_P(Methods, SpecialisationOfScenes, ::testing::Values("path", "footprints"));
+INSTANTIATE_TEST_SUITE_P(Methods, SpecialisationOfScenes, ::testing::Values("path", "footprints"),
+                         [](const auto& method) { return test_name(method.param); });
 
 // Leaving out any one feature makes some kernel smaller and none larger.
 TEST_F(RenderTest, SlowEveryMaterialAndLightIsCodeOfItsOwn) {
