@@ -42,6 +42,14 @@ public:
     /// The estimator of one pass, which answers queries of the map. It refers to the context.
     virtual std::unique_ptr<PhotonEstimator>
     make(const RenderContext& context, const PhotonMap& map, const Bandwidth& bandwidth) const = 0;
+
+    /// The estimator for queries of paths behind their first estimated vertices, as in a final
+    /// gather; null: the same. Their errors are hidden by the noise of the directions, so it may
+    /// be a cheaper one.
+    virtual std::unique_ptr<PhotonEstimator> make_for_gathers(const RenderContext&,
+                                                              const Bandwidth&) const {
+        return nullptr;
+    }
 };
 
 } // namespace argand

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace argand {
 
@@ -173,6 +174,9 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                             .counts = w.counts,
                             .most = slots,
                             .layers = w.layers,
+                            .records = w.paths,
+                            .bounces = batch.bounces,
+                            .at_first_vertex = vertex == 1,
                             .traversal = w.traversal},
                            *lookup);
         }
@@ -214,7 +218,7 @@ Batching batching(const EyeWorkspace& w, const EyePass& pass, bool photon_map) {
 
 /// The batch that begins at a sample of the pass and at a pixel. It ends with its part of the film.
 EyeBatch make_batch(const EyeWorkspace& w, const EyePass& pass, const Batching& most,
-                    std::uint64_t sample, std::uint64_t pixel) {
+                    std::uint64_t sample, std::uint64_t pixel, std::uint32_t untaken) {
     const std::uint64_t film_end = (pixel / w.film.pixels_per_part + 1) * w.film.pixels_per_part;
     EyeBatch batch{};
     batch.seed = pass.seed;
@@ -232,11 +236,19 @@ EyeBatch make_batch(const EyeWorkspace& w, const EyePass& pass, const Batching& 
     batch.crop_width = static_cast<std::uint32_t>(w.crop.width());
     batch.bounces = pass.bounces;
     batch.shares_queries = w.queries.sharing.cell > 0 ? 1 : 0;
-    // A final gather's noise is that of the scattered directions, so all samples have queries.
-    batch.query_step = w.queries.final_gather ? 1 : samples_per_query;
+    batch.untaken = untaken;
+    // The noise of a final gather is that of the scattered directions, so all samples have queries.
+    // A path that goes on has no query_weight, so its sample must have a query of its own.
+    batch.query_step = w.queries.final_gather || untaken != untaken_never ? 1 : samples_per_query;
     const std::uint32_t querying = (batch.samples + batch.query_step - 1) / batch.query_step;
     batch.query_weight = static_cast<float>(batch.samples) / static_cast<float>(querying);
     return batch;
+}
+
+/// The slots of the queries that an estimator answers.
+std::vector<std::uint32_t> answered_slots(Device& device, const PhotonQueries& queries) {
+    const std::uint32_t count = download_word(device, queries.count.buffer, queries.count.index);
+    return download<std::uint32_t>(device, queries.slots, count);
 }
 
 /// Collects query points instead of estimating radiance at them.
@@ -245,10 +257,8 @@ public:
     QueryCollector(Device& device, std::size_t slots) : device_(device), slots_(slots) {}
 
     void estimate(const PhotonMap&, const PhotonQueries& queries) override {
-        const std::uint32_t count =
-            download_word(device_, queries.count.buffer, queries.count.index);
         const auto records = download<QueryRecord>(device_, queries.points, slots_);
-        for (const std::uint32_t slot : download<std::uint32_t>(device_, queries.slots, count)) {
+        for (const std::uint32_t slot : answered_slots(device_, queries)) {
             const QueryRecord& record = records[slot];
             if ((record.flags & query_caustics) == 0) {
                 points.emplace_back(record.x, record.y, record.z, 0);
@@ -261,6 +271,37 @@ public:
 private:
     Device& device_;
     std::size_t slots_;
+};
+
+/// Counts answers, and those that lack the least coverage.
+class CoverageProbe final : public PhotonEstimator {
+public:
+    CoverageProbe(Device& device, std::size_t slots, double least_coverage,
+                  PhotonEstimator& estimator)
+        : device_(device), slots_(slots), least_coverage_(least_coverage), estimator_(estimator) {}
+
+    void estimate(const PhotonMap& map, const PhotonQueries& queries) override {
+        estimator_.estimate(map, queries);
+        if (queries.part == map_caustic) {
+            return;
+        }
+        const auto records = download<QueryRecord>(device_, queries.points, slots_);
+        const auto estimates = download<EstimateRecord>(device_, queries.estimates, slots_);
+        for (const std::uint32_t slot : answered_slots(device_, queries)) {
+            if ((records[slot].flags & query_caustics) == 0) {
+                ++answers;
+                lacking += estimates[slot].coverage < least_coverage_ ? 1 : 0;
+            }
+        }
+    }
+
+    std::uint64_t answers = 0, lacking = 0;
+
+private:
+    Device& device_;
+    std::size_t slots_;
+    double least_coverage_;
+    PhotonEstimator& estimator_;
 };
 
 /// One sample for each pixel of a small version of the image, with as many pixels as there are
@@ -335,6 +376,7 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     w.occluded = per_slot_if(direct, "shadow ray flags", 4);
     w.counts = device.allocate("eye path counts", 16);
     w.queries = make_eye_queries(device, plan, w.slots, camera);
+    w.queries.least_coverage = settings.least_coverage;
     w.traversal = make_traversal(device, w.slots);
     return w;
 }
@@ -366,7 +408,8 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
     bool interrupted = false;
     for (std::uint64_t sample = 0; sample < pass.samples; sample += most.samples) {
         for (std::uint64_t pixel = 0; pixel < w.film.pixels();) {
-            const EyeBatch batch = make_batch(w, pass, most, sample, pixel);
+            const EyeBatch batch = make_batch(w, pass, most, sample, pixel,
+                                              lookup != nullptr ? lookup->untaken : untaken_never);
             pixel += batch.pixels;
             trace_batch(device, scene, w, batch, lookup);
             if (!w.traversal.careful && download_word(device, w.traversal.unfinished) > 0) {
@@ -393,6 +436,31 @@ std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene, 
     const PhotonLookup lookup{.map = no_map, .estimator = collector};
     trace_paths(device, scene, w, small_image, batch, &lookup);
     return std::move(collector.points);
+}
+
+std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                            const RenderSettings& settings, const Camera& camera,
+                            const PhotonLookup& lookup) {
+    constexpr double small_share = 0.005;
+    if (!(settings.least_coverage > 0) || !scene.plan.needs(Feature::direct_light)) {
+        return untaken_never;
+    }
+    EyeBatch batch = batch_of_small_image(w, settings, 48);
+    // Other paths than the image's own, whose estimates it decides about.
+    batch.seed = pcg4d({settings.seed, 0x07a4eu, 0, 0}).x;
+    const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
+    const double cell = std::exchange(w.queries.sharing.cell, 0.0);
+    const bool careful = std::exchange(w.traversal.careful, true);
+    const bool gathers = w.queries.final_gather && lookup.gathers != nullptr;
+    CoverageProbe probe(device, batch.pixels, settings.least_coverage,
+                        gathers ? *lookup.gathers : lookup.estimator);
+    const PhotonLookup probed{.map = lookup.map, .estimator = probe};
+    trace_paths(device, scene, w, small_image, batch, &probed);
+    w.queries.sharing.cell = cell;
+    w.traversal.careful = careful;
+    return static_cast<double>(probe.lacking) > small_share * static_cast<double>(probe.answers)
+               ? untaken_often
+               : untaken_seldom;
 }
 
 FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,

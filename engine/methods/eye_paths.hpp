@@ -66,6 +66,12 @@ std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene,
                                       EyeWorkspace& workspace, const RenderSettings& settings,
                                       const Camera& camera);
 
+/// How many of the lookup's estimates are not taken (untaken_*), from the eye paths of such a small
+/// version. Its map must have area samples. Waits for the device.
+std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
+                            const RenderSettings& settings, const Camera& camera,
+                            const PhotonLookup& lookup);
+
 /// Light that a path received by a shadow ray.
 struct FoundLight {
     std::uint32_t light = 0; ///< index among the scene's lights

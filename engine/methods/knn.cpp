@@ -1,6 +1,7 @@
 #include "methods/nearest_photons.hpp"
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
+#include "photon/gather.hpp"
 #include "photon/nearest.hpp"
 
 #include <algorithm>
@@ -64,6 +65,14 @@ public:
                             .samples_per_area = samples_per_area,
                             .caustic_neighbours = bandwidth.caustic_neighbours,
                             .caustic_radius = bandwidth.radii.caustic});
+    }
+
+    // The discs of k photons reach far in the dark, and hold many photons. These queries hardly
+    // share answers, so they would take most of the time.
+    std::unique_ptr<PhotonEstimator> make_for_gathers(const RenderContext& c,
+                                                      const Bandwidth& bandwidth) const override {
+        const GatherRadii median{bandwidth.radii.indirect / reach, bandwidth.radii.caustic / reach};
+        return std::make_unique<RadiusEstimator>(c.device, c.on_device.plan, median);
     }
 };
 

@@ -122,7 +122,8 @@ void learn_lights(RenderContext& context) {
     FoundLights found = sample_lights(context.device, scene, context.eye, context.settings,
                                       context.scene.cameras[context.settings.camera]);
     make_relative(found);
-    // Where photons account for reflected light, shadow rays look for direct light only.
+    // Where photons account for reflected light, shadow rays look for direct light only, but for
+    // the few of paths that go on where an estimate is not taken.
     const bool direct_only = photons && !context.settings.final_gather;
     FoundShares for_rays{.light = std::vector<double>(emitters, 0.0)};
     FoundShares for_photons = for_rays;

@@ -69,6 +69,7 @@ struct ImageState {
     std::uint64_t first_paths = 0;
     std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
     double in_view = 0;             ///< photons stored in view per photon emitted
+    std::optional<std::uint32_t> untaken; ///< learn_untaken() of the first map with area samples
 };
 
 void persist_image(Archive& archive, ImageState& image) {
@@ -94,6 +95,7 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.first_paths);
     archive.value(image.most_photons);
     archive.value(image.in_view);
+    archive.optional(image.untaken);
 }
 
 class PhotonMapping : public Method {
@@ -360,6 +362,12 @@ void PhotonMapping::make_estimator(const PassNumbers& numbers, const StoredPhoto
                                   image_.bandwidth, cell > 0 || c_.settings.final_gather),
                               .sharp_caustics = has_sharp_caustics(image_.bandwidth)};
     made_->estimator = strategy_->make(c_, made_->map, image_.bandwidth);
+    made_->gathers = strategy_->make_for_gathers(c_, image_.bandwidth);
+    if (!image_.untaken && made_->map.area_samples > 0) {
+        image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
+                                       c_.scene.cameras[c_.settings.camera], made_->lookup());
+    }
+    made_->untaken = image_.untaken.value_or(untaken_never);
 }
 
 /// Traces the photons of the last map once more, after a load. Their flux is in the sums already.

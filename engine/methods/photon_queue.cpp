@@ -54,7 +54,8 @@ struct QueueImage {
     double in_view = 0;                            ///< photons stored in view per photon emitted
     std::optional<FootprintScale> footprint_scale; ///< of the last pass
     double mean_footprints = 0;
-    bool traced = false; ///< the photons of the next pass are in the queue already
+    bool traced = false;                  ///< the photons of the next pass are in the queue already
+    std::optional<std::uint32_t> untaken; ///< learn_untaken()
 };
 
 /// The photons queue (Shi 2012, chapter 3): each frame traces a block of photons, which takes the
@@ -453,6 +454,13 @@ void QueueMethod::make_lookup() {
         .caustics_apart = strategy_->parts_caustics(widths, cell > 0 || c_.settings.final_gather),
         .sharp_caustics = has_sharp_caustics(widths)};
     made_->estimator = strategy_->make(c_, made_->map, widths);
+    made_->gathers = strategy_->make_for_gathers(c_, widths);
+    const bool seeks_emission = !options_.direct && !options_.shows_photons;
+    if (!image_.untaken && seeks_emission && made_->map.area_samples > 0) {
+        image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
+                                       c_.scene.cameras[c_.settings.camera], made_->lookup());
+    }
+    made_->untaken = image_.untaken.value_or(untaken_never);
 }
 
 bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {
@@ -492,6 +500,7 @@ void QueueMethod::persist(Archive& archive) {
     archive.optional(image_.footprint_scale);
     archive.value(image_.mean_footprints);
     archive.flag(image_.traced);
+    archive.optional(image_.untaken);
     persist_ages(archive, ages_);
     archive.value(moment_);
     archive.value(next_);

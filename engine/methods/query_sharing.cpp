@@ -3,6 +3,7 @@
 #include "kernels/estimate_add.hpp"
 #include "kernels/query_cells.hpp"
 #include "kernels/query_owners.hpp"
+#include "methods/render_settings.hpp"
 #include "parallel/compact.hpp"
 #include "shared/query_record.h"
 
@@ -19,6 +20,7 @@ struct Round {
     std::uint32_t part = map_whole;
     double cell = 0;
     bool pixel_sized = false;
+    double least_coverage = 0; ///< of an answer that is taken
 };
 
 QueryShareParams share_params(const EyeQueries& queries, const Round& round) {
@@ -70,32 +72,35 @@ void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& 
 }
 
 void answer_round(Device& device, const EyeQueries& queries, const ActivePaths& paths,
-                  const Round& round, const PhotonLookup& lookup) {
+                  const Round& round, const PhotonMap& map, PhotonEstimator& estimator) {
     find_sources(device, queries, paths, round);
     {
         const StageScope stage(device, "compact");
         compact(device, queries.chosen, paths.slots, queries.slots,
                 {paths.counts, counts_of_queries}, Count(paths.counts, 0, paths.most));
     }
-    lookup.estimator.estimate(lookup.map,
-                              {.points = queries.points,
-                               .bsdfs = queries.bsdfs,
-                               .slots = queries.slots,
-                               .count = Count(paths.counts, counts_of_queries, paths.most),
-                               .estimates = queries.estimates,
-                               .suspended = queries.suspended,
-                               .unfinished = paths.traversal.unfinished,
-                               .until_complete = paths.traversal.careful,
-                               .part = round.part,
-                               .final_gather = queries.final_gather});
+    estimator.estimate(map, {.points = queries.points,
+                             .bsdfs = queries.bsdfs,
+                             .slots = queries.slots,
+                             .count = Count(paths.counts, counts_of_queries, paths.most),
+                             .estimates = queries.estimates,
+                             .suspended = queries.suspended,
+                             .unfinished = paths.traversal.unfinished,
+                             .until_complete = paths.traversal.careful,
+                             .part = round.part,
+                             .limits_scatterings = round.kind == query_kind_gathers &&
+                                                   paths.bounces < unlimited_bounces});
     const StageScope stage(device, "share queries");
     dispatch_indirect(device,
-                      kernels::estimate_add{.active_slots = paths.slots,
-                                            .counts = paths.counts,
-                                            .sources = queries.sources,
-                                            .queries = queries.points,
-                                            .estimates = queries.estimates,
-                                            .layers = paths.layers},
+                      kernels::estimate_add{
+                          .active_slots = paths.slots,
+                          .counts = paths.counts,
+                          .sources = queries.sources,
+                          .queries = queries.points,
+                          .estimates = queries.estimates,
+                          .layers = paths.layers,
+                          .paths = paths.records,
+                          .params = {.least_coverage = static_cast<float>(round.least_coverage)}},
                       paths.counts);
 }
 
@@ -129,19 +134,27 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
 void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                     const ActivePaths& paths, const PhotonLookup& lookup) {
     const QuerySharing& sharing = queries.sharing;
-    const bool two_parts = sharing.caustics_apart && !queries.final_gather;
-    const std::uint32_t caustic_part = sharing.caustics_apart ? map_caustic : map_whole;
-    const auto answer = [&](const Round& round) {
-        answer_round(device, queries, paths, round, lookup);
-    };
-    answer({.part = two_parts ? map_indirect : map_whole,
-            .cell = sharing.cell,
-            .pixel_sized = sharing.pixel_sized});
-    if (two_parts || (queries.final_gather && plan.needs(Feature::caustics))) {
-        answer({.kind = two_parts ? query_kind_map : query_kind_caustics,
-                .part = caustic_part,
-                .cell = sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0,
-                .pixel_sized = true});
+    const double least = lookup.untaken == untaken_never ? 0.0 : queries.least_coverage;
+    if (!queries.final_gather) {
+        answer_round(device, queries, paths,
+                     {.part = sharing.caustics_apart ? map_indirect : map_whole,
+                      .cell = sharing.cell,
+                      .least_coverage = least},
+                     lookup.map, lookup.estimator);
+    }
+    if (queries.final_gather ? plan.needs(Feature::caustics) : sharing.caustics_apart) {
+        answer_round(device, queries, paths,
+                     {.kind = queries.final_gather ? query_kind_caustics : query_kind_map,
+                      .part = sharing.caustics_apart ? map_caustic : map_whole,
+                      .cell = sharing.caustics_apart && !sharing.sharp_caustics ? sharing.cell : 0,
+                      .pixel_sized = true},
+                     lookup.map, lookup.estimator);
+    }
+    const bool gathers = queries.final_gather || lookup.untaken != untaken_never;
+    if (gathers && !paths.at_first_vertex) {
+        answer_round(device, queries, paths,
+                     {.kind = query_kind_gathers, .cell = sharing.cell, .least_coverage = least},
+                     lookup.map, lookup.gathers != nullptr ? *lookup.gathers : lookup.estimator);
     }
 }
 

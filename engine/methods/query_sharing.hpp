@@ -8,8 +8,6 @@ namespace argand {
 /// Which queries of eye paths traced together share an estimate: those in one cell of a grid.
 struct QuerySharing {
     double cell = 0; ///< largest edge of a cell, in the scene's units; 0: queries share nothing
-    bool pixel_sized = false;    ///< no cell is larger than a pixel, because estimates may change
-                                 ///< from one pixel to the next
     bool caustics_apart = false; ///< the caustic part of the map is queried separately, and shared
                                  ///< in cells no larger than a pixel
     bool sharp_caustics = false; ///< with caustics_apart: caustic queries share nothing
@@ -26,6 +24,7 @@ struct EyeQueries {
     Buffer cells, owners;        ///< hash table of cells, see query_cells.h
     CameraRecord view{};         ///< of the picture, for the size of its pixels
     bool final_gather = false;   ///< paths query the map one scattering later, except for caustics
+    double least_coverage = 0;   ///< of an answer that is taken where paths may go on
     QuerySharing sharing;
 };
 
@@ -36,15 +35,19 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
 /// The paths whose queries are to be answered.
 struct ActivePaths {
     const Buffer& slots;
-    const Buffer& counts; ///< [0]: their number; [counts_of_queries]: room for that of the queries
-    std::uint64_t most;   ///< of them
-    const Buffer& layers; ///< LayersRecord per slot, to which estimates are added
+    const Buffer& counts;  ///< [0]: their number; [counts_of_queries]: room for that of the queries
+    std::uint64_t most;    ///< of them
+    const Buffer& layers;  ///< LayersRecord per slot, to which estimates are added
+    const Buffer& records; ///< PathRecord per slot
+    std::uint32_t bounces; ///< most scatterings between the light and the first estimated vertex
+    bool at_first_vertex;  ///< none has been scattered yet
     const Traversal& traversal;
 };
 inline constexpr std::uint32_t counts_of_queries = 2;
 
 /// Estimates the radiance at the vertices that have queries, once for all queries in a cell, and
-/// adds it to the paths' layers.
+/// adds it to the paths' layers. Paths that seek emission go on where the lookup does not take the
+/// estimate.
 void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                     const ActivePaths& paths, const PhotonLookup& lookup);
 

@@ -67,6 +67,17 @@ Option query_cell_option() {
     return option;
 }
 
+Option least_coverage_option() {
+    Option option = member_option(
+        "least-coverage",
+        "Least share of an estimate's disc on surfaces; where there is less, as on leaves and "
+        "bars, "
+        "the eye path goes on instead; 0: it never does",
+        [](RenderSettings & s) -> auto& { return s.least_coverage; }, 0, 1);
+    option.sweep = {.full = {"0", "0.2"}, .matters = finds_photons};
+    return option;
+}
+
 Option leaf_size_option() {
     Option option = member_option(
         "leaf-size", "Maximum number of photons in a leaf of the photon map; 0: 16",
@@ -207,8 +218,9 @@ Option filter_option() {
 }
 
 std::vector<Option> photon_map_options() {
-    return {photons_option(),    radius_option(),          query_cell_option(),  leaf_size_option(),
-            wide_codes_option(), photon_sampling_option(), final_gather_option()};
+    return {photons_option(),         radius_option(),      query_cell_option(),
+            least_coverage_option(),  leaf_size_option(),   wide_codes_option(),
+            photon_sampling_option(), final_gather_option()};
 }
 
 std::vector<Option> progressive_options() {

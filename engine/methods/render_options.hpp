@@ -15,8 +15,8 @@ Option focus_option();
 Option filter_option();
 Option deterministic_option();
 
-/// Of methods with a photon map, in this order: photons, radius, query-cell, leaf-size, wide-codes,
-/// photon-sampling, final-gather.
+/// Of methods with a photon map, in this order: photons, radius, query-cell, least-coverage,
+/// leaf-size, wide-codes, photon-sampling, final-gather.
 std::vector<Option> photon_map_options();
 
 /// Widths that fall from pass to pass: progressive, passes, r1, radius-exponent.

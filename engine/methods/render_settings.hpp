@@ -94,6 +94,9 @@ struct RenderSettings {
     float follow_roughness = 0.25f; ///< glossy lobes up to this roughness are followed from the eye
     /// Edge of the cells that share one density estimate, in radii of estimation; 0: no sharing.
     double query_cell = 0.25;
+    /// Least share of an estimate's disc that lies on surfaces; with less the estimate is not
+    /// taken, and the eye path goes on. 0: all estimates are taken.
+    double least_coverage = 0.1;
     std::uint32_t leaf_size = 0; ///< photons in a leaf of the photon map; 0: 16
     bool wide_codes = false;     ///< photons are sorted by 63-bit Morton codes, not 30-bit ones
     QuerySearch query = QuerySearch::automatic;

@@ -14,8 +14,12 @@ namespace argand {
 struct MadeMap {
     PhotonMap map;
     std::unique_ptr<PhotonEstimator> estimator;
+    std::unique_ptr<PhotonEstimator> gathers; ///< see PhotonLookup; may be null
+    std::uint32_t untaken = untaken_never;    ///< untaken_* of shared/path_records.h
 
-    PhotonLookup lookup() const { return {.map = map, .estimator = *estimator}; }
+    PhotonLookup lookup() const {
+        return {.map = map, .estimator = *estimator, .gathers = gathers.get(), .untaken = untaken};
+    }
 };
 
 /// How the samples that query one photon map are divided into passes, so that a long render can be

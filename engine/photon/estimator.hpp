@@ -1,6 +1,7 @@
 #pragma once
 
 #include "photon/photon_map.hpp"
+#include "shared/path_records.h"
 #include "shared/query_record.h"
 
 namespace argand {
@@ -18,10 +19,10 @@ struct PhotonQueries {
                        ///< nearest photons have states of their own, and do without it.
     Buffer unfinished; ///< uint that counts queries which ran out of iterations; the caller clears
                        ///< it. Estimates of these queries are wrong.
-    bool until_complete = false;    ///< resumes queries until all are complete, and waits for the
-                                    ///< device; `unfinished` is not used then
-    std::uint32_t part = map_whole; ///< map_*: which photons count
-    bool final_gather = false;      ///< queries limit the scatterings of photons that count
+    bool until_complete = false;     ///< resumes queries until all are complete, and waits for the
+                                     ///< device; `unfinished` is not used then
+    std::uint32_t part = map_whole;  ///< map_*: which photons count
+    bool limits_scatterings = false; ///< of the photons that count, for each query
 };
 
 /// Estimates the radiance that the estimated lobes scatter towards the eye, at all query points in
@@ -41,6 +42,9 @@ public:
 struct PhotonLookup {
     const PhotonMap& map;
     PhotonEstimator& estimator;
+    /// Answers the queries of paths behind their first estimated vertices; none: `estimator` does.
+    PhotonEstimator* gathers = nullptr;
+    std::uint32_t untaken = untaken_never; ///< untaken_* of shared/path_records.h
 };
 
 } // namespace argand

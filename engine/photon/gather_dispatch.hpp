@@ -41,7 +41,7 @@ inline kernels::QueryBindings query_bindings(const PhotonMap& map, const PhotonQ
 /// Specialization constants for the member `query` of its constants.
 inline kernels::QueryConstants query_constants(const Plan& plan, const PhotonQueries& queries) {
     return {.glossy = plan.needs(Feature::glossy_estimates),
-            .final_gather = queries.final_gather,
+            .limits_scatterings = queries.limits_scatterings,
             .caustics = plan.needs(Feature::caustics)};
 }
 

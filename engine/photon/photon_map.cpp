@@ -17,6 +17,7 @@
 #include "parallel/compact.hpp"
 #include "parallel/reduce.hpp"
 #include "photon/sort_photons.hpp"
+#include "shared/bsdf.h"
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
@@ -175,8 +176,8 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
     return download_word(device, w.traversal.unfinished) == 0 || w.traversal.careful;
 }
 
-/// Finds the sides of area samples that other surfaces cover: short rays along the normals. The
-/// samples lie behind the stored slots.
+/// Finds the sides of area samples that other surfaces cover, by short rays against the normals.
+/// The samples lie behind the stored slots.
 void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                         std::uint32_t samples, double height) {
     // A rounding of positions, which are interpolated between vertices anywhere in the scene.
@@ -184,6 +185,10 @@ void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspac
                                                 scene.record.center_z)) +
                          scene.record.radius;
     const std::uint64_t sides = 2 * std::uint64_t(samples);
+    // Rays go on behind both faces of a pane.
+    const bool some_pass =
+        (scene.plan.material_features() & (LOBE_TRANSMIT | LOBE_CLEAR | MATERIAL_ALPHA)) != 0;
+    const int surfaces = some_pass ? 3 : 1;
     device.fill(w.traversal.unfinished, 0);
     for (std::uint64_t first = 0; first < sides; first += w.slots) {
         const AreaCoverParams params{
@@ -198,18 +203,22 @@ void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspac
                                     .active_slots = w.active,
                                     .params = params},
                  params.count);
-        trace_closest(device, scene.bvh, w.traversal,
-                      {w.rays, w.active, w.hits, Count(params.count)});
-        dispatch(
-            device,
-            kernels::area_cover{.triangles = scene.triangles,
-                                .materials = scene.materials,
-                                .hits = w.hits,
-                                .counters = w.counters,
-                                .photons = w.photons,
-                                .params = params,
-                                .constants = {.material_features = scene.plan.material_features()}},
-            params.count);
+        for (int surface = 0; surface < surfaces; ++surface) {
+            trace_closest(device, scene.bvh, w.traversal,
+                          {w.rays, w.active, w.hits, Count(params.count)});
+            dispatch(device,
+                     kernels::area_cover{
+                         .triangles = scene.triangles,
+                         .materials = scene.materials,
+                         .hits = w.hits,
+                         .counters = w.counters,
+                         .photons = w.photons,
+                         .positions = scene.positions,
+                         .rays = w.rays,
+                         .params = params,
+                         .constants = {.material_features = scene.plan.material_features()}},
+                     params.count);
+        }
     }
 }
 

@@ -21,7 +21,7 @@ struct Answering {
 inline kernels::FrontierConstants frontier_constants(const Plan& plan,
                                                      const PhotonQueries& queries) {
     return {.glossy = plan.needs(Feature::glossy_estimates),
-            .final_gather = queries.final_gather,
+            .limits_scatterings = queries.limits_scatterings,
             .caustics = plan.needs(Feature::caustics)};
 }
 

@@ -25,7 +25,8 @@ CONSTANT uint path_depth_mask = 0xffffu;
 CONSTANT uint path_estimated = 0x10000u;
 // Only followed lobes scattered the path since that vertex: a caustic path.
 CONSTANT uint path_followed = 0x20000u;
-// The path ends at the next surface; it is traced for the emission there only.
+// The path ends at the next surface; it is traced for the emission there only, unless the photon
+// map's estimate is not taken (estimate_add).
 CONSTANT uint path_seeks_emission = 0x40000u;
 
 // Radiance that a path has gathered so far, by layer (docs/path-classes.md).
@@ -62,6 +63,11 @@ struct FilmRecord {
     float32 lost_caustic_r, lost_caustic_g, lost_caustic_b, pad1;
 };
 
+// How many of the photon map's estimates are not taken, so that paths that seek emission go on.
+CONSTANT uint untaken_never = 0u;
+CONSTANT uint untaken_seldom = 1u;
+CONSTANT uint untaken_often = 2u;
+
 // A batch of eye paths: slot = pixel in the batch × samples per pixel + sample.
 struct EyeBatch {
     uint seed;
@@ -74,6 +80,7 @@ struct EyeBatch {
     // photon map, and each answer counts query_weight times.
     uint query_step;
     float32 query_weight;
+    uint untaken;          // untaken_*
     uint first_film_pixel; // first pixel of this part of the film
     // The film is this part of the image: pixels above are numbered in the film, and random numbers
     // are those of the pixel in the image.

@@ -54,9 +54,9 @@ FN real kernel_weight(real squared_distance) {
 
 CONSTANT real kernel_scale = real(0.63661977236758134308); // 2 / π
 
-// Least share of a disc that may lie on surfaces: a smaller value, known from few area samples, is
-// not trusted.
-CONSTANT real least_coverage = real(0.1);
+// Estimates are divided by at least this share of a disc on surfaces: a smaller value, known from
+// few area samples, is not trusted.
+CONSTANT real least_divisor = real(0.1);
 
 // Height of the disc of density estimation, over its radius: what lies higher over a surface does
 // not belong to it.

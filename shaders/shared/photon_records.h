@@ -7,7 +7,8 @@ ARGAND_SHARED_BEGIN
 
 // A record of the map: a photon, or a sample of the surfaces' area. In an area sample flux_r and
 // flux_g are the areas that it represents on the front and on the back: 0 on a side where another
-// surface lies so close over it that no light reaches it.
+// surface lies so close over it that no light reaches it. Its direction is the index of its
+// triangle.
 struct PhotonRecord {
     float32 x, y, z;
     // Packed normal of the surface (photon.h), on the photon's side; the front's for area samples.
@@ -99,10 +100,10 @@ struct AreaSampleParams {
     uint pad;
 };
 
-// Sides of area samples, 2 × sample + 1 for the back, from which short rays find what lies on them.
+// Sides of area samples, 2 × sample + 1 for the back, to which short rays find what lies on them.
 struct AreaCoverParams {
     uint first, count; // sides of this batch
-    float32 height;    // length of the rays
+    float32 height;    // at which the rays start
     float32 error;     // bound of the rounding errors of positions
 };
 

@@ -32,7 +32,8 @@ struct QueryBsdfRecord {
 CONSTANT uint query_front = 1u;      // the eye sees the front of the surface
 CONSTANT uint query_lambertian = 2u; // the estimate needs only the reflectance of the BSDF
 // With final gather, the first estimated vertex of an eye path queries caustic photons only. The
-// next one queries all photons up to a number of scatterings; the eye sees their light as indirect.
+// next ones, also of paths that go on without one, query all photons up to a number of scatterings;
+// the eye sees their light as indirect.
 CONSTANT uint query_caustics = 4u;
 CONSTANT uint query_gathers = 8u;
 // Six bits: most scatterings of a photon that counts (photon.h).
@@ -48,10 +49,12 @@ CONSTANT uint query_lobes_shift = 16u;
 // What an eye path queries; 0: nothing. Queries of one kind are answered together.
 CONSTANT uint query_kind_map = 1u;
 CONSTANT uint query_kind_caustics = 2u; // with query_caustics
+CONSTANT uint query_kind_gathers = 3u;  // with query_gathers
 
 // Answer of the photon map: radiance towards the eye.
 struct EstimateRecord {
-    float32 indirect_r, indirect_g, indirect_b, pad0;
+    float32 indirect_r, indirect_g, indirect_b;
+    float32 coverage; // share of the disc that lies on surfaces; 1 where it is not known
     float32 caustic_r, caustic_g, caustic_b, pad1;
 };
 
@@ -66,6 +69,11 @@ struct QueryShareParams {
 };
 
 CONSTANT uint no_query = 0xffffffffu;
+
+// How answers are added to paths (estimate_add).
+struct EstimateAddParams {
+    float32 least_coverage; // of an answer that is taken; with less, the path goes on instead
+};
 
 ARGAND_SHARED_END
 

@@ -134,6 +134,70 @@ TEST_F(AreaSamples, NothingCoversBeyondTheHeightOrThroughGlass) {
     }
 }
 
+double open_area(const std::vector<PhotonRecord>& samples, float PhotonRecord::*side) {
+    double area = 0;
+    for (const PhotonRecord& sample : samples) {
+        area += sample.*side;
+    }
+    return area;
+}
+
+/// A floor of 2 m by 2 m, and another one that fills the same square by triangles of other shapes.
+Scene floor_and_copy(bool faces_down) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
+    const glm::vec3 corners[] = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    const glm::vec3 middle(0.3f, 0, 0.2f);
+    for (int i = 0; i < 4; ++i) {
+        const glm::vec3 a = corners[i], b = corners[(i + 1) % 4];
+        add_triangle(scene, faces_down ? b : a, faces_down ? a : b, middle, 0);
+    }
+    return scene;
+}
+
+// Rays go on behind the faces of the pane.
+TEST_F(AreaSamples, APanelUnderGlassCoversTheFloor) {
+    Scene scene = floor_with_panel(0.01f, lambertian(glm::vec3(0.5f)));
+    const std::uint32_t pane = add_material(scene, glass(1.5f, true));
+    for (const float height : {0.014f, 0.018f}) {
+        add_quad(scene, {0, height, 1}, {1, 0, 0}, {0, 0, -2}, pane);
+    }
+    for (const PhotonRecord& sample : samples(scene, 100, 0, 0.03)) {
+        EXPECT_EQ(sample.flux_r > 0, sample.y > 0.005f || sample.x < 0) << sample.x;
+    }
+}
+
+// Photons lie on one of two surfaces in the same place, so that only one of their areas may count.
+// Rounding decides which, and favours the triangle from which the sample was computed a little.
+TEST_F(AreaSamples, CopiesOfASurfaceAddNoArea) {
+    const std::vector<PhotonRecord> found = samples(floor_and_copy(false), 20'000, 0, 0.02);
+    EXPECT_NEAR(open_area(found, &PhotonRecord::flux_r), 4, 0.25);
+    EXPECT_NEAR(open_area(found, &PhotonRecord::flux_g), 4, 0.25);
+}
+
+// Queries count the samples of surfaces that face as their own does.
+TEST_F(AreaSamples, SurfacesBackToBackKeepTheirAreas) {
+    const std::vector<PhotonRecord> found = samples(floor_and_copy(true), 20'000, 0, 0.02);
+    EXPECT_NEAR(open_area(found, &PhotonRecord::flux_r), 8, 0.01);
+    EXPECT_NEAR(open_area(found, &PhotonRecord::flux_g), 8, 0.01);
+}
+
+// Triangles of a centimetre on a floor of 2 m, 1,000 m from the origin: rounded samples lie on the
+// edges of their triangles, and beyond.
+TEST_F(AreaSamples, SmallTrianglesLoseNoAreaToTheirNeighbours) {
+    Scene scene;
+    const std::uint32_t material = add_material(scene, lambertian(glm::vec3(0.5f)));
+    constexpr int side = 200;
+    const float step = 2.0f / side;
+    for (int i = 0; i < side * side; ++i) {
+        const glm::vec3 corner(1000 + step * static_cast<float>(i % side), 0,
+                               1000 + step * static_cast<float>(i / side));
+        add_quad(scene, corner, {0, 0, step}, {step, 0, 0}, material);
+    }
+    const std::vector<PhotonRecord> found = samples(scene, 50'000, 0, 0.02);
+    EXPECT_NEAR(open_area(found, &PhotonRecord::flux_r), 4, 0.04);
+    EXPECT_NEAR(open_area(found, &PhotonRecord::flux_g), 4, 0.04);
+}
+
 // Photons lie on the panel only. Its irradiance is theirs, not half of it.
 TEST_F(AreaSamples, HiddenSurfacesDarkenNoEstimate) {
     const Scene scene = floor_with_panel(0.01f, lambertian(glm::vec3(0.5f)));

@@ -76,6 +76,7 @@ Json parameters_json(const RenderReport& render) {
         {"leaf_size", statistics.leaf_size},
         {"budget", settings.budget ? Json(*settings.budget) : Json()},
         {"query_cell", settings.query_cell},
+        {"least_coverage", settings.least_coverage},
         {"wide_codes", settings.wide_codes},
         {"follow_roughness", settings.follow_roughness},
         {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},

@@ -10,5 +10,7 @@ layout(set = 0, binding = 2) readonly buffer Sources { uint sources[]; };
 layout(set = 0, binding = 3) readonly buffer Queries { QueryRecord queries[]; };
 layout(set = 0, binding = 4) readonly buffer Estimates { EstimateRecord estimates[]; };
 layout(set = 0, binding = 5) buffer Layers { LayersRecord layers[]; };
+layout(set = 0, binding = 6) buffer Paths { PathRecord paths[]; };
+layout(push_constant) uniform Push { EstimateAddParams params; };
 
 #include "shared/kernels/methods/estimate_add.h"

@@ -3,6 +3,7 @@ layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/bsdf.h"
 #include "shared/geometry_records.h"
+#include "shared/photon.h"
 #include "shared/photon_records.h"
 #include "shared/texture_record.h"
 #include "material_features.glsl"
@@ -12,6 +13,8 @@ layout(set = 0, binding = 1) readonly buffer Materials { MaterialRecord material
 layout(set = 0, binding = 2) readonly buffer Hits { HitRecord hits[]; };
 layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 5) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 6) buffer Rays { RayRecord rays[]; };
 layout(push_constant) uniform Push { AreaCoverParams params; };
 
 #include "shared/kernels/photon/area_cover.h"

@@ -27,7 +27,7 @@ layout(set = 0, binding = 7) readonly buffer References { uvec4 references[]; };
 
 // Whether any estimated lobe of the scene is not Lambertian; else `query_bsdfs` is not read.
 layout(constant_id = 0) const bool glossy = true;
-// Whether queries limit the scatterings of photons that count (final gather, query_record.h).
-layout(constant_id = 2) const bool final_gather = false;
+// Whether queries limit the scatterings of photons that count (query_gathers, query_record.h).
+layout(constant_id = 2) const bool limits_scatterings = false;
 // Whether there may be caustic photons.
 layout(constant_id = 3) const bool caustics = true;

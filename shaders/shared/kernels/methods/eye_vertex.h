@@ -84,10 +84,13 @@ FN bool seeks_emission(IN(PathRecord) path) {
     return photon_map && (path.state & path_seeks_emission) != 0u;
 }
 
-// Caustics come from photons if there is a final gather, and must not count twice.
+// Whether photons account for the light of this layer that paths find. Caustics come from the map
+// at the first estimated vertex, and must not count twice where paths go on behind it.
+FN bool left_to_photons(uint layer) { return photon_map && layer == layer_caustic; }
+
 FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
     uint layer = layer_of_emission(path.state);
-    if (!final_gather || layer != layer_caustic) {
+    if (!left_to_photons(layer)) {
         add_to_layer(slot, layer, radiance);
     }
 }
@@ -165,11 +168,17 @@ FN void add_unlit(IN(Vertex) v) {
 }
 
 // Largest probability with which the last estimated vertex sends a ray that seeks emission. On
-// diffuse surfaces the ray matters only under the sky and near emissive triangles, and it costs a
-// round of tracing. Followed lobes need most of the rays for themselves.
+// diffuse surfaces the ray matters only under the sky, near emissive triangles, and where the
+// photon map's estimate is not taken; and it costs a round of tracing. Followed lobes need rays for
+// themselves.
 FN real seek_probability(IN(Vertex) v) {
-    bool often = has_sky() || (v.estimated & LOBE_GLOSSY) != 0u;
-    return often && v.followed == 0u && !(v.pass_probability > real(0.0)) ? real(1.0) : real(0.25);
+    bool goes_far = batch.untaken == untaken_often;
+    if (v.followed != 0u || v.pass_probability > real(0.0)) {
+        return goes_far ? real(0.5) : real(0.25);
+    }
+    bool glossy = has_emitters() && (v.estimated & LOBE_GLOSSY) != 0u;
+    bool often = goes_far || has_sky() || glossy;
+    return often ? real(1.0) : real(0.25);
 }
 
 // Decides which lobes scatter the path, and with which probabilities.
@@ -185,8 +194,9 @@ FN void split_lobes(HitRecord hit, INOUT(Vertex) v) {
     v.ends = photon_map && (!final_gather || behind_estimated(v.path));
     // The map accounts for all other light behind the last estimated vertex. But if only shadow
     // rays found lights there, those that touch the surface or that a glossy lobe reflects would
-    // become fireflies. One more ray looks for them.
-    bool seeks = direct_light && (has_sky() || has_emitters());
+    // become fireflies. One more ray looks for them. The path goes on there if the map's estimate
+    // is not taken.
+    bool seeks = batch.untaken != untaken_never || (direct_light && (has_sky() || has_emitters()));
     v.onward = !v.ends || seeks ? v.estimated : 0u;
     real estimated_albedo =
         v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
@@ -303,12 +313,15 @@ FN void sample_light(IN(Vertex) v) {
     }
     LightSample s = l.s;
     bool behind = behind_estimated(v.path);
-    bool left_to_photons = final_gather && behind;
+    uint estimated_layer = behind ? layer_indirect : layer_direct;
+    uint followed_layer =
+        behind && (v.path.state & path_followed) != 0u ? layer_caustic : estimated_layer;
+    bool samples_followed = !left_to_photons(followed_layer);
     vec3 spread = vec3(real(0.0));
-    if (scatters(v, LOBE_CLEAR) && !left_to_photons) {
+    if (scatters(v, LOBE_CLEAR) && samples_followed) {
         spread += light_by_spread_lobe(v, l, LOBE_CLEAR);
     }
-    if (scatters(v, LOBE_COAT) && !left_to_photons) {
+    if (scatters(v, LOBE_COAT) && samples_followed) {
         spread += light_by_spread_lobe(v, l, LOBE_COAT);
     }
     vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
@@ -327,19 +340,15 @@ FN void sample_light(IN(Vertex) v) {
     if (v.onward != v.estimated) {
         e += arriving * bsdf_eval(v.material, v.wo, l.wi, v.estimated & ~v.onward);
     }
-    vec3 f = s.delta && v.followed != 0u && !left_to_photons
+    vec3 f = s.delta && v.followed != 0u && samples_followed
                  ? arriving * bsdf_eval(v.material, v.wo, l.wi, v.followed)
                  : vec3(real(0.0));
     f += spread;
     if (!(max_component(e) + max_component(f) > real(0.0))) {
         return;
     }
-    uint followed_layer = !behind                                ? layer_direct
-                          : (v.path.state & path_followed) != 0u ? layer_caustic
-                                                                 : layer_indirect;
     shadow_rays[v.slot] =
         RayRecord(l.origin.x, l.origin.y, l.origin.z, s.distance, s.wi.x, s.wi.y, s.wi.z, 0u);
-    uint estimated_layer = behind ? layer_indirect : layer_direct;
     shadows[v.slot] = ShadowRecord(e.x, e.y, e.z, estimated_layer | followed_layer << 2u, f.x, f.y,
                                    f.z, l.choice.index);
 }
@@ -389,7 +398,8 @@ FN void leave_query(IN(Vertex) v) {
     uint kind = query_kind_map;
     uint flags = v.surface.front ? query_front : 0u;
     uint scatterings = batch.bounces; // most scatterings of a photon that counts
-    if (final_gather && behind_estimated(v.path)) {
+    if (behind_estimated(v.path)) {
+        kind = query_kind_gathers;
         flags |= query_gathers;
         scatterings -= (v.path.state & path_depth_mask) + 1u; // including the one at this vertex
     } else if (final_gather) {
@@ -398,7 +408,7 @@ FN void leave_query(IN(Vertex) v) {
     }
     // Without shadow rays, photons that were not scattered yet count, too.
     bool wanted = v.estimated != 0u && (scatterings > 0u || !direct_light) &&
-                  (kind == query_kind_map || followed_paths);
+                  (kind != query_kind_caustics || followed_paths);
     // If paths share estimates, every path queries; else every few samples do, and their answers
     // count for all.
     bool shares = batch.shares_queries != 0u;
@@ -521,8 +531,7 @@ FN void continue_path(INOUT(Vertex) v) {
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
     }
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
-    if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u &&
-        !(final_gather && behind_estimated(v.path))) {
+    if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u) {
         path.pdf = probability * s.pdf; // shadow rays find the same lights
     }
     path.state = state_after(path.state, !takes_estimated);

@@ -10,11 +10,12 @@ FN bool is_corrected(IN(vec3) p) {
 
 // Photons cover only the part of the kernel's support that lies on surfaces. The area samples give
 // that part once all of them have been seen.
-FN real answer_scale(IN(vec3) p, real coverage) {
-    return is_corrected(p) ? real(1.0) / max(coverage, least_coverage) : real(1.0);
-}
+FN real known_coverage(IN(vec3) p, real coverage) { return is_corrected(p) ? coverage : real(1.0); }
 
-FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic) {
-    estimates[slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, real(0.0), caustic.x,
+FN real answer_scale(real coverage) { return real(1.0) / max(coverage, least_divisor); }
+
+// coverage: known_coverage() of the query's disc.
+FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic, real coverage) {
+    estimates[slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, coverage, caustic.x,
                                      caustic.y, caustic.z, real(0.0));
 }

@@ -1,23 +1,56 @@
 #include "shared/kernels/material.h"
 
+// Hits on another triangle whose barycentric weights are all above this are no hits on a neighbour,
+// at the edge that a sample's rounded position has crossed.
+CONSTANT real least_inside = real(0.002);
+
+// Whether the triangle that was hit where the sample lies is a copy of the sample's: it faces the
+// same way, and does not only touch it. Rays hit one of such triangles, and only its area counts.
+FN bool is_copy(HitRecord hit, uint packed_normal) {
+    real least = min(min(hit.u, hit.v), real(1.0) - hit.u - hit.v);
+    uvec4 t = triangles[hit.triangle];
+    vec3 a = vec3(positions[t.x]);
+    vec3 normal = cross3(vec3(positions[t.y]) - a, vec3(positions[t.z]) - a);
+    return least > least_inside && dot3(normal, unpack_photon_normal(packed_normal)) > real(0.0);
+}
+
+// Moves the start of a ray behind its hit.
+FN void go_on_behind(uint i, real t) {
+    real by = t + params.error;
+    rays[i].origin_x += by * rays[i].direction_x;
+    rays[i].origin_y += by * rays[i].direction_y;
+    rays[i].origin_z += by * rays[i].direction_z;
+    rays[i].t_max -= by;
+}
+
 // Takes the area from those sides of area samples on which another surface lies. Glass and what is
-// partly absent let light through; where a mask takes a surface away, rays do not hit it.
+// partly absent let light through, so rays go on behind them; where a mask takes a surface away,
+// rays do not hit it.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || hits[i].triangle == no_triangle) {
         return;
     }
-    MaterialRecord material = load_material(triangles[hits[i].triangle].w);
+    uint side = params.first + i;
+    uint slot = counters[counter_stored_slots] + side / 2u;
+    HitRecord hit = hits[i];
+    real height = rays[i].t_max - params.error; // of the start over the sample
+    bool is_above = !(hit.t > height - params.error);
+    rays[i].t_max = is_above ? rays[i].t_max : -real(1.0);
+    if (hit.triangle == photons[slot].direction ||
+        (!is_above && !is_copy(hit, photons[slot].normal))) {
+        return;
+    }
+    MaterialRecord material = load_material(triangles[hit.triangle].w);
     bool passes = (bsdf_lobes(material) & (LOBE_TRANSMIT | LOBE_CLEAR)) != 0u;
     if (may_have(material, MATERIAL_ALPHA) && (material.textures & material_alpha_mask) == 0u) {
         passes = passes || material.coverage < float32(1.0) ||
                  (material.textures & material_alpha_blend) != 0u;
     }
     if (passes) {
+        go_on_behind(i, hit.t);
         return;
     }
-    uint side = params.first + i;
-    uint slot = counters[counter_stored_slots] + side / 2u;
     if (side % 2u == 0u) {
         photons[slot].flux_r = real(0.0);
     } else {

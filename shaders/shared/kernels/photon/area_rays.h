@@ -1,5 +1,5 @@
-// Writes a short ray along the normal of each side of the area samples, which finds what lies on
-// it.
+// Writes a short ray to each side of the area samples, against its normal, which finds what lies on
+// it: another surface, or the sample's own.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count) {
@@ -9,9 +9,8 @@ FN void main() {
     PhotonRecord place = photons[counters[counter_stored_slots] + side / 2u];
     vec3 front = unpack_photon_normal(place.normal);
     vec3 normal = side % 2u == 0u ? front : -front;
-    vec3 origin =
-        offset_ray_origin(vec3(place.x, place.y, place.z), vec3(params.error), normal, normal);
-    rays[i] =
-        RayRecord(origin.x, origin.y, origin.z, params.height, normal.x, normal.y, normal.z, 0u);
+    vec3 origin = vec3(place.x, place.y, place.z) + params.height * normal;
+    rays[i] = RayRecord(origin.x, origin.y, origin.z, params.height + params.error, -normal.x,
+                        -normal.y, -normal.z, 0u);
     active_slots[i] = i;
 }

@@ -39,5 +39,5 @@ FN void main() {
     real area = absent ? real(0.0) : real(params.area);
     photons[counters[counter_stored_slots] + i] =
         PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit, area, area,
-                     real(0.0), 0u);
+                     real(0.0), area_sums[low].triangle);
 }

@@ -9,8 +9,9 @@ FN void main() {
     uint slot = active_slots[i];
     GatherRecord g = gathers[slot];
     vec3 p = vec3(queries[slot].x, queries[slot].y, queries[slot].z);
-    real scale = answer_scale(p, g.coverage);
+    real coverage = known_coverage(p, g.coverage);
+    real scale = answer_scale(coverage);
     real caustic_scale = params.caustic_correction != 0u ? scale : real(1.0);
     store_estimate(slot, scale * vec3(g.indirect_r, g.indirect_g, g.indirect_b),
-                   caustic_scale * vec3(g.caustic_r, g.caustic_g, g.caustic_b));
+                   caustic_scale * vec3(g.caustic_r, g.caustic_g, g.caustic_b), coverage);
 }

@@ -299,10 +299,10 @@ FN void finish(Query q, INOUT(Search) s) {
     real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
     real trust =
         clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
-    real scale = is_corrected(q.p)
-                     ? mix(real(1.0), real(1.0) / max(coverage * density, least_coverage), trust)
-                     : real(1.0);
-    store_estimate(q.slot, scale * density * indirect, scale * density * caustic);
+    real known = known_coverage(q.p, coverage * density);
+    real scale = mix(real(1.0), answer_scale(known), trust);
+    store_estimate(q.slot, scale * density * indirect, scale * density * caustic,
+                   mix(real(1.0), known, trust));
     s.low = last_bits;
     s.phase = nearest_done;
 }

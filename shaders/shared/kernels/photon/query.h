@@ -15,7 +15,7 @@ struct Query {
     bool front;            // the eye sees the front of the surface
     uint own_normal;       // packed as photons' normals are
     uint front_normal;     // normal of the surface's front, as area samples have it
-    uint most_scatterings; // of a photon that counts; only with final_gather
+    uint most_scatterings; // of a photon that counts; only with limits_scatterings
     bool lambertian;
     vec3 reflectance; // of a Lambertian surface [1/sr]; the next four are for all others
     ReflectionParameters bsdf;
@@ -93,7 +93,7 @@ FN real open_area(IN(Query) q, uvec4 carried) {
 // Radiance that the surface scatters towards the eye from a photon's flux. carried: the photon's
 // second four words.
 FN vec3 scattered(IN(Query) q, uvec4 carried) {
-    if (final_gather && photon_scatterings(carried.w) > q.most_scatterings) {
+    if (limits_scatterings && photon_scatterings(carried.w) > q.most_scatterings) {
         return vec3(real(0.0));
     }
     vec3 flux = bits_float(uvec3(carried));

@@ -19,13 +19,14 @@ FN bool load_query(OUT(Query) q) {
 }
 
 // Suspends the query if its walk has not reached the end; else stores the estimate, times the
-// scales.
-FN void store_query(IN(Query) q, real indirect_scale, real caustic_scale) {
+// scales, and the coverage that they follow from.
+FN void store_query(IN(Query) q, real indirect_scale, real caustic_scale, real coverage) {
     if (q.node != lbvh_end) {
         store_sums(q);
         atomicAdd(unfinished[0], 1u);
         return;
     }
     gathers[q.slot].node = lbvh_end;
-    store_estimate(q.slot, indirect_scale * q.indirect.value, caustic_scale * q.caustic.value);
+    store_estimate(q.slot, indirect_scale * q.indirect.value, caustic_scale * q.caustic.value,
+                   coverage);
 }

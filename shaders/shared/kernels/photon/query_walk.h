@@ -25,6 +25,7 @@ FN void main() {
         }
         add_leaf(bandwidth, leaf, q);
     }
-    real scale = answer_scale(q.p, q.coverage);
-    store_query(q, scale, caustic_scale(bandwidth, scale));
+    real coverage = known_coverage(q.p, q.coverage);
+    real scale = answer_scale(coverage);
+    store_query(q, scale, caustic_scale(bandwidth, scale), coverage);
 }

@@ -1,0 +1,67 @@
+// Things much smaller than the disc of an estimate: their few area samples do not tell the share of
+// the disc that lies on surfaces.
+#include "rendering.hpp"
+
+#include <random>
+
+namespace argand::testing {
+namespace {
+
+/// A corner of a room of 2 m with a plant: leaves of 15 mm across, which fill the view.
+Scene plant_scene() {
+    Scene scene = room_scene();
+    scene.name = "plant";
+    Material leaf = lambertian({0.5f, 0.7f, 0.4f});
+    leaf.double_sided = true;
+    const std::uint32_t material = add_material(scene, leaf);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> within(-1, 1);
+    const auto anywhere = [&] { return glm::vec3(within(random), within(random), within(random)); };
+    const auto direction = [&] { return glm::normalize(anywhere() + glm::vec3(0, 0, 1e-3f)); };
+    for (int i = 0; i < 1500; ++i) {
+        const glm::vec3 across = direction();
+        const glm::vec3 up = glm::normalize(glm::cross(across, direction()));
+        add_quad(scene, glm::vec3(0.2f, 0.2f, 0.3f) + 0.25f * anywhere(), 0.015f * across,
+                 0.015f * up, material);
+    }
+    scene.cameras = {look_at({0.2f, 0.2f, 0.95f}, {0.2f, 0.2f, 0.3f}, 30)};
+    return scene;
+}
+
+/// A cube of 4 cm on the floor of a room of 6 m by 6 m, seen from the other side of the room.
+Scene small_cube_scene() {
+    Scene scene = scaled(room_scene(), 3);
+    scene.name = "small cube";
+    add_box(scene, {1.0f, -3, 0.5f}, {1.04f, -2.96f, 0.54f},
+            add_material(scene, lambertian(glm::vec3(0.7f))), false);
+    scene.cameras = {look_at({0.3f, 0.6f, 2.85f}, {1.02f, -2.98f, 0.52f}, 70)};
+    return scene;
+}
+
+class Thin : public EveryMethod {
+protected:
+    void expect_light_of_path(const Scene& scene, RenderSettings settings, double tolerance) {
+        RenderSettings traced = settings;
+        traced.method = "path";
+        traced.samples = 2048;
+        const RenderResult& expected = render_once(scene.name, scene, traced);
+        settings.samples = 256;
+        settings.photons = 50'000;
+        expect_same_layers(render(scene, settings), expected, tolerance);
+    }
+};
+
+TEST_P(Thin, LeavesHaveTheirIndirectLight) {
+    expect_light_of_path(plant_scene(), settings_of(GetParam(), 16, 64), 0.02);
+}
+
+TEST_P(Thin, ASmallCubeInALargeRoomHasItsIndirectLight) {
+    RenderSettings settings = settings_of(GetParam(), 1024, 64);
+    settings.crop = CropRectangle{509, 509, 515, 515};
+    expect_light_of_path(small_cube_scene(), settings, 0.03);
+}
+
+INSTANTIATE_QUICK_AND_SLOW(Thin, "photons", without(method_names(), "path"));
+
+} // namespace
+} // namespace argand::testing
