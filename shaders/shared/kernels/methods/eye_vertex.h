@@ -173,11 +173,13 @@ FN void add_unlit(IN(Vertex) v) {
 // themselves.
 FN real seek_probability(IN(Vertex) v) {
     bool goes_far = batch.untaken == untaken_often;
+    if (!goes_far && !has_sky() && !has_emitters()) {
+        return real(0.125); // there is no emission to find
+    }
     if (v.followed != 0u || v.pass_probability > real(0.0)) {
         return goes_far ? real(0.5) : real(0.25);
     }
-    bool glossy = has_emitters() && (v.estimated & LOBE_GLOSSY) != 0u;
-    bool often = goes_far || has_sky() || glossy;
+    bool often = goes_far || has_sky() || (v.estimated & LOBE_GLOSSY) != 0u;
     return often ? real(1.0) : real(0.25);
 }
 
