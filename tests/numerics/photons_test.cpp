@@ -2,7 +2,6 @@
 #include "extremes.hpp"
 
 #include "scene/light_power.hpp"
-#include "shared/photon.h"
 
 namespace argand::testing {
 namespace {

@@ -2,7 +2,6 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/geometry_records.h"
-#include "shared/intersect.h"
 #include "shared/photon.h"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
