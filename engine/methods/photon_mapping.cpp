@@ -101,8 +101,9 @@ void persist_image(Archive& archive, ImageState& image) {
 class PhotonMapping : public Method {
 public:
     PhotonMapping(RenderContext& context, std::unique_ptr<EstimationStrategy> strategy,
-                  bool progressive)
-        : c_(context), strategy_(std::move(strategy)), progressive_(progressive) {}
+                  bool progressive, std::unique_ptr<TracingStrategy> tracing)
+        : c_(context), strategy_(std::move(strategy)), tracing_(std::move(tracing)),
+          progressive_(progressive) {}
 
     void begin_frame(Budget& budget) override {
         image_ = {};
@@ -111,6 +112,9 @@ public:
         image_.emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
             c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
+        if (tracing_) {
+            tracing_->begin_frame(c_, queries);
+        }
         aim_at_casters(c_, queries);
         if (strategy_->takes_uneven_photons()) {
             aim_at_view(c_, queries);
@@ -179,7 +183,8 @@ private:
 
     RenderContext& c_;
     std::unique_ptr<EstimationStrategy> strategy_;
-    bool progressive_; ///< widths fall from pass to pass
+    std::unique_ptr<TracingStrategy> tracing_; ///< null: rays go through the scene's tree
+    bool progressive_;                         ///< widths fall from pass to pass
     PhotonWorkspace photons_;
     std::uint64_t room_ = 0; ///< photons of a pass for which the workspace was made
     ImageState image_;
@@ -231,6 +236,9 @@ void PhotonMapping::make_room(std::uint64_t photons) {
         make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
     photons_.numbers = kind_of_photon_numbers(c_.settings);
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
+    if (tracing_) {
+        photons_.tracer = tracing_->tracer(c_);
+    }
     if (sums) {
         photons_.flux_sums = sums;
     }
@@ -421,6 +429,9 @@ void PhotonMapping::persist(Archive& archive) {
         fail("loading a saved state: it is not one of photon mapping on '{}'",
              c_.device.info().name);
     }
+    if (tracing_) {
+        tracing_->persist(archive, c_);
+    }
     if (archive.loads()) {
         first_.reset();
         made_ = nullptr;
@@ -434,6 +445,9 @@ std::string PhotonMapping::describe_pass() const {
 }
 
 void PhotonMapping::report(RenderStatistics& statistics) const {
+    if (tracing_) {
+        tracing_->report(statistics);
+    }
     statistics.photons_emitted = image_.photons_emitted;
     statistics.photons_stored = image_.photons_stored;
     statistics.photons_in_view = image_.in_view * static_cast<double>(image_.photons_emitted);
@@ -452,9 +466,11 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
 
 std::unique_ptr<Method> make_photon_mapping(RenderContext& context,
                                             std::unique_ptr<EstimationStrategy> strategy,
-                                            bool progressive) {
+                                            bool progressive,
+                                            std::unique_ptr<TracingStrategy> tracing) {
     return std::make_unique<PhotonMapping>(context, std::move(strategy),
-                                           progressive || context.settings.progressive.on);
+                                           progressive || context.settings.progressive.on,
+                                           std::move(tracing));
 }
 
 } // namespace argand

@@ -13,9 +13,10 @@
 
 namespace argand {
 
-/// Flux by channel in units of FluxSums::unit: emitted = absorbed + escaped + cut, exactly.
+/// Flux by channel in units of FluxSums::unit: emitted = absorbed + escaped + cut +
+/// lost, exactly.
 struct FluxSums {
-    std::array<std::int64_t, 3> emitted{}, absorbed{}, escaped{}, cut{};
+    std::array<std::int64_t, 3> emitted{}, absorbed{}, escaped{}, cut{}, lost{};
     double unit = 0;
 };
 

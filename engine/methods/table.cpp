@@ -15,6 +15,7 @@
     METHOD(knn)                                                                                    \
     METHOD(progressive)                                                                            \
     METHOD(photon_queue)                                                                           \
+    METHOD(image_space)                                                                            \
     METHOD(path)
 
 namespace argand {

@@ -40,6 +40,7 @@ FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {
         sums.absorbed[channel] = words[3 + channel];
         sums.escaped[channel] = words[6 + channel];
         sums.cut[channel] = words[9 + channel];
+        sums.lost[channel] = words[12 + channel];
     }
     sums.unit = unit;
     return sums;

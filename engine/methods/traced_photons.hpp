@@ -14,9 +14,6 @@ namespace argand {
 /// Units of the fixed-point flux sums in the mean flux of a photon.
 inline constexpr double units_per_photon = 1 << 18;
 
-/// Words of PhotonWorkspace::flux_sums: four sums of three channels.
-inline constexpr std::size_t flux_words = 12;
-
 /// The sums of flux, for reports. unit: of the fixed-point sums.
 FluxSums flux_of(const std::vector<std::int64_t>& words, double unit);
 

@@ -77,7 +77,8 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
 }
 
 std::uint32_t kept_of(const PhotonWorkspace& w) {
-    return (w.keeps_lights ? kept_light : 0) | (w.keeps_paths ? kept_path : 0);
+    return (w.keeps_lights ? kept_light : 0) | (w.keeps_paths ? kept_path : 0) |
+           (w.tracer ? kept_start : 0);
 }
 
 /// Emits the photons of a batch.
@@ -97,6 +98,7 @@ void emit_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                   .path_lights = w.path_lights,
                                   .path_vertices = w.path_vertices,
                                   .vertices = w.vertices,
+                                  .hits = w.hits,
                                   .batch = batch,
                                   .constants = {.footprints = w.footprints,
                                                 .numbers = w.numbers,
@@ -163,7 +165,12 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
         const Count active(w.counters, counter_active, batch.count);
         {
             const StageScope stage(device, "trace photons");
-            trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
+            const RayBatch rays{w.rays, w.active, w.hits, active};
+            if (w.tracer) {
+                w.tracer(rays);
+            } else {
+                trace_closest(device, scene.bvh, w.traversal, rays);
+            }
         }
         scatter_photons(device, scene, w, batch, active);
         device.submit();
@@ -336,7 +343,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.path_lights = device.allocate("photon paths' lights", (keeps_lights ? w.slots : 1) * 4);
     w.path_vertices = device.allocate("photon paths' vertices", (keeps_paths ? w.slots : 1) * 4);
     w.counters = device.allocate("photon counters", counter_count * 4);
-    w.flux_sums = device.allocate("flux sums", 12 * 8);
+    w.flux_sums = device.allocate("flux sums", flux_words * sizeof(std::int64_t));
     device.fill(w.flux_sums, 0);
     w.traversal = make_traversal(device, w.slots);
     allocate_stored(device, w, std::max<std::uint64_t>(photons_per_pass * stored_per_emitted, 8));

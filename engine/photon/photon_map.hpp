@@ -9,6 +9,7 @@
 #include "world/device_scene.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 
 namespace argand {
@@ -50,6 +51,13 @@ struct StoredPhotons {
     std::uint64_t emitted = 0;
 };
 
+/// Finds the hits of photons' rays, as trace_closest() does. The results hold the hits that the
+/// rays leave, and start_of_path as t where they leave lights.
+using PhotonTracer = std::function<void(const RayBatch& batch)>;
+
+/// Sums of PhotonWorkspace::flux_sums: those of a FluxLedger, of three channels.
+inline constexpr std::size_t flux_words = 15;
+
 /// Device memory for tracing photons and for building maps; grows with need.
 struct PhotonWorkspace {
     std::uint64_t slots = 0;                  ///< photons traced together
@@ -69,8 +77,10 @@ struct PhotonWorkspace {
     std::uint64_t most_paths = 0; ///< photons of a pass whose paths are kept
     Buffer path_vertices;         ///< uint per slot: the last vertex of the photon's path
     Buffer vertices;              ///< PathVertex: 2 per photon of the pass, and 1 per stored photon
-    Buffer flux_sums; ///< 12 sums of 64 bits: emitted, absorbed, escaped, cut of three channels
+    Buffer flux_sums; ///< flux_words sums of 64 bits: emitted, absorbed, escaped, cut and lost,
+                      ///< of three channels each
     Traversal traversal;
+    PhotonTracer tracer;                 ///< none: rays go through the scene's tree
     Buffer last_sorted, last_footprints; ///< of the map that was built last: the next map takes
                                          ///< this memory if nobody holds that map any more
 };

@@ -71,6 +71,7 @@ Buffer unneeded(Device& device) { return device.allocate("not needed", sizeof(gl
 void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
                    const std::vector<std::uint32_t>& shining, const TexelTrees& texels,
                    DeviceScene& result) {
+    result.box = box;
     const glm::vec3 center = box.low + 0.5f * (box.high - box.low);
     // A little more than half the diagonal, so that the sphere contains the box in spite of
     // rounding.

@@ -42,6 +42,7 @@ struct DeviceScene {
     std::uint32_t texture_halvings = 0;        ///< see FittingImages
     std::shared_ptr<const SkyTable> sky_table; ///< the host's copy of `sky`; null: there is none
     TriangleBvh bvh;
+    Bounds box;             ///< of the triangles
     SceneRecord record;     ///< the host's copy of `scene`
     LightTable light_table; ///< what the host knows of `lights`, and their emitters
     /// Probabilities with which each emitter is chosen for shadow rays, and for photons.

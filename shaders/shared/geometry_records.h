@@ -36,6 +36,18 @@ struct HitRecord {
     float32 t, u, v;
 };
 
+// t of the hits that photons leave when they are emitted: on the light's triangle; no_triangle: it
+// has none.
+CONSTANT float32 start_of_path = float32(-1.0);
+// u of a miss: the ray leaves the scene, or what was searched does not show its hit.
+CONSTANT float32 ray_escaped = float32(0.0);
+CONSTANT float32 ray_lost = float32(1.0);
+
+// Hits lie one behind another by distance, and at one distance by their order in the scene.
+FN bool comes_before(HitRecord a, HitRecord b) {
+    return a.t < b.t || (a.t == b.t && a.triangle < b.triangle);
+}
+
 ARGAND_SHARED_END
 
 #endif

@@ -38,10 +38,10 @@ CONSTANT uint photon_aimed_shift = 24u;
 CONSTANT uint largest_photon_aimed = 30u;
 
 // Where the flux of one photon went, per channel, in fixed point (PhotonBatch::flux_unit) modulo
-// 2^32. `cut` is flux truncated at the bounce limit. emitted = absorbed + escaped + cut, to the
-// bit.
+// 2^32. `cut` is flux truncated at the bounce limit; `lost` is that of photons whose hits no cube map
+// shows. emitted = absorbed + escaped + cut + lost, to the bit.
 struct FluxLedger {
-    uvec4 emitted, absorbed, escaped, cut;
+    uvec4 emitted, absorbed, escaped, cut, lost;
 };
 
 // Where a photon's path begins or meets a surface, and the index of the vertex before. Those of a
@@ -53,9 +53,11 @@ struct PathVertex {
 
 CONSTANT uint no_vertex = 0xffffffffu;
 
-// What may be kept of photons: the index of their light, and the vertices of their path.
+// What may be kept of photons: the index of their light, the vertices of their path, and where they
+// start, as a hit.
 CONSTANT uint kept_light = 1u;
 CONSTANT uint kept_path = 2u;
+CONSTANT uint kept_start = 4u;
 
 // A batch of the pass's photons, traced together.
 struct PhotonBatch {

@@ -121,7 +121,8 @@ TEST_F(Commands, ReportHoldsParametersTimesFluxAndMemory) {
         const double emitted = flux.at("emitted").at(channel);
         const double rest = flux.at("absorbed").at(channel).get<double>() +
                             flux.at("escaped").at(channel).get<double>() +
-                            flux.at("cut").at(channel).get<double>();
+                            flux.at("cut").at(channel).get<double>() +
+                            flux.at("lost").at(channel).get<double>();
         EXPECT_GT(emitted, 0);
         EXPECT_NEAR(emitted, rest, 1e-9 * emitted);
     }

@@ -27,7 +27,7 @@ inline const std::vector<std::vector<std::string>> levels = {
     {"plan", "parallel"},
     {"accel"},
     {"world"},
-    {"photon"},
+    {"photon", "imagespace"},
     {"methods"},
     {"session"},
     {"autotune", "sweep", "compare"},

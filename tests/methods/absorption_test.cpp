@@ -88,8 +88,8 @@ TEST_P(Absorption, KeepsCountOfTheFlux) {
     s.bounces = 8;
     const auto flux = render(scene, s).statistics.flux;
     for (int channel = 0; channel < 3; ++channel) {
-        EXPECT_EQ(flux.emitted[channel],
-                  flux.absorbed[channel] + flux.escaped[channel] + flux.cut[channel]);
+        EXPECT_EQ(flux.emitted[channel], flux.absorbed[channel] + flux.escaped[channel] +
+                                             flux.cut[channel] + flux.lost[channel]);
         EXPECT_GT(flux.absorbed[channel], 0);
     }
 }

@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint32_t unlimited = 0xffff;
 
 struct Traced {
-    std::array<std::int64_t, 12> sums{}; // emitted, absorbed, escaped, cut of three channels
+    // Emitted, absorbed, escaped, cut and lost, of three channels each.
+    std::array<std::int64_t, flux_words> sums{};
     double unit = 0;
     glm::dvec3 power{0};
     std::uint64_t count = 0;
@@ -37,7 +38,7 @@ struct Traced {
     bool balances() const {
         bool balanced = true;
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            balanced = balanced &&
+            balanced = balanced && sums[12 + channel] == 0 &&
                        sums[channel] == sums[3 + channel] + sums[6 + channel] + sums[9 + channel];
         }
         return balanced;
@@ -278,8 +279,8 @@ TEST_F(Flux, RendersReportTheLightsPower) {
         EXPECT_EQ(statistics.photons_emitted, settings.photons);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const FluxSums& flux = statistics.flux;
-            EXPECT_EQ(flux.emitted[channel],
-                      flux.absorbed[channel] + flux.escaped[channel] + flux.cut[channel]);
+            EXPECT_EQ(flux.emitted[channel], flux.absorbed[channel] + flux.escaped[channel] +
+                                                 flux.cut[channel] + flux.lost[channel]);
             EXPECT_RELATIVE(static_cast<double>(flux.emitted[channel]) * flux.unit,
                             power[static_cast<int>(channel)], 1e-4);
         }

@@ -13,8 +13,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(MethodTable, UsersKnowTheBuiltInMethodsByTheseNames) {
-    EXPECT_THAT(method_names(),
-                ElementsAre("footprints", "photons", "knn", "progressive", "photon-queue", "path"));
+    EXPECT_THAT(method_names(), ElementsAre("footprints", "photons", "knn", "progressive",
+                                            "photon-queue", "image-space", "path"));
     EXPECT_EQ(RenderSettings().method, "footprints");
 }
 
@@ -22,7 +22,8 @@ TEST(MethodTable, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
     EXPECT_EQ(builtin_methods().find("rays"), nullptr);
     const std::string message = error_of([] { builtin_methods().at("rays"); });
     EXPECT_THAT(message, HasSubstr("'rays'"));
-    EXPECT_THAT(message, HasSubstr("footprints, photons, knn, progressive, photon-queue, path"));
+    EXPECT_THAT(message, HasSubstr("footprints, photons, knn, progressive, photon-queue, "
+                                   "image-space, path"));
 }
 
 TEST(MethodTable, EveryMethodDescribesItself) {

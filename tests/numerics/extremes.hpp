@@ -33,8 +33,8 @@ protected:
             EXPECT_EQ(result.statistics.photons_emitted,
                       settings.bounces > 0 ? settings.photons : 0);
             for (std::size_t channel = 0; channel < 3; ++channel) {
-                EXPECT_EQ(flux.emitted[channel],
-                          flux.absorbed[channel] + flux.escaped[channel] + flux.cut[channel]);
+                EXPECT_EQ(flux.emitted[channel], flux.absorbed[channel] + flux.escaped[channel] +
+                                                     flux.cut[channel] + flux.lost[channel]);
             }
         }
         return result;

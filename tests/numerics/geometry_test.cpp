@@ -25,7 +25,7 @@ protected:
         const Scene plain = room_with_floor(1);
         const Scene cut = room_with_floor(aspect);
         Largest worst;
-        for (const std::string& method : method_names()) {
+        for (const std::string& method : exact_methods()) {
             const RenderResult expected = sound(plain, small(method, 8));
             const double error = difference(sound(cut, small(method, 8)), expected);
             EXPECT_LT(error, bound) << method;
@@ -70,7 +70,7 @@ TEST_F(Extremes, CoplanarTrianglesOfTwoMaterials) {
     Largest worst;
     double most = 0;
     double least = 1;
-    for (const std::string& method : method_names()) {
+    for (const std::string& method : exact_methods()) {
         const RenderResult dark = sound(two_floors_in_one_plane(true, false), small(method, 8, 32));
         const RenderResult light =
             sound(two_floors_in_one_plane(false, true), small(method, 8, 32));
@@ -107,7 +107,7 @@ TEST_F(Extremes, EveryTriangleTwiceOrThrice) {
                                           once.triangle_material.end());
         }
         Largest worst;
-        for (const std::string& method : method_names()) {
+        for (const std::string& method : exact_methods()) {
             const double error = difference_of_means(sound(many, small(method, 8)),
                                                      sound(once, small(method, 8)), "indirect");
             EXPECT_LT(error, 0.02) << method;
@@ -134,7 +134,7 @@ TEST_F(Extremes, SunsThatGraze) {
             p.y += height;
         }
         scene.lights = {directional_light({1, -sine, 0}, glm::vec3(1 / sine))};
-        for (const std::string& method : method_names()) {
+        for (const std::string& method : exact_methods()) {
             const double found =
                 radiance(scene, direct(method), {0.3f, height + 1, 0.1f}, {0.1f, height, 0}).g;
             EXPECT_RELATIVE(found, 0.5 / double(pi), 1e-4) << method << ", sine " << sine;
@@ -150,7 +150,7 @@ TEST_F(Extremes, EyesThatGraze) {
     scene.lights = {directional_light({0, -1, 0}, glm::vec3(1))};
     Largest worst;
     for (const float sine : {1e-3f, 1e-5f, 1e-7f}) {
-        for (const std::string& method : method_names()) {
+        for (const std::string& method : exact_methods()) {
             // A bundle much narrower than its height above the floor.
             scene.cameras = {parallel_rays({0.5f, 0.5f * sine, 0}, {0, 0, 0}, 1e-4f * sine)};
             const double found = mean(layer(sound(scene, direct(method)), "")).g;
@@ -168,7 +168,7 @@ TEST_F(Extremes, EyeInsideAWall) {
     inside.cameras = {look_at({-0.2f, -0.5f, -0.4f}, {0.1f, 0.2f, 0.95f})};
     Scene within = room_scene();
     within.cameras = {look_at({1, 0.2f, 0.3f}, {0, -0.2f, -1})};
-    for (const std::string& method : method_names()) {
+    for (const std::string& method : exact_methods()) {
         EXPECT_EQ(mean(layer(sound(inside, small(method)), "")), glm::dvec3(0)) << method;
         sound(within, small(method));
     }

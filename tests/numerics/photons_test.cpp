@@ -126,7 +126,7 @@ TEST_F(Extremes, SlowAThousandBouncesBetweenWhiteWalls) {
     scene.cameras = {look_at({0, 0, 0.9f}, {0, 0, -1}, 90)};
     Largest cut;
     double least = HUGE_VAL;
-    for (const std::string& method : method_names()) {
+    for (const std::string& method : exact_methods()) {
         RenderSettings settings = small(method, 2, 8);
         settings.photons = 500;
         settings.bounces = 1000;
@@ -156,7 +156,7 @@ TEST_F(Extremes, SlowAThousandBouncesBetweenWhiteWalls) {
 TEST_F(Extremes, ThirtyBouncesBetweenWhiteWalls) {
     const Scene scene = box_scene(emitter(glm::vec3(1), glm::vec3(1)));
     Largest worst;
-    for (const std::string& method : method_names()) {
+    for (const std::string& method : exact_methods()) {
         RenderSettings settings = small(method, has_map(method) ? 4 : 128, 8);
         settings.bounces = 30;
         // The emitted radiance, and as much again for the bounce at the first vertex and for each

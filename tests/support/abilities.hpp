@@ -2,7 +2,9 @@
 
 #include "methods/method_info.hpp"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace argand::testing {
 
@@ -19,6 +21,15 @@ inline bool is_unbiased(std::string_view method) {
 /// Whether its images depend on those before them in the same session.
 inline bool keeps_photons(std::string_view method) {
     return builtin_methods().at(method).abilities.keeps_photons;
+}
+
+/// The methods whose photons hit what rays hit.
+inline std::vector<std::string> exact_methods() {
+    std::vector<std::string> names = method_names();
+    std::erase_if(names, [](const std::string& name) {
+        return builtin_methods().at(name).abilities.approximate_hits;
+    });
+    return names;
 }
 
 } // namespace argand::testing

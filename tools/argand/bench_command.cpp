@@ -11,6 +11,7 @@
 #include "bench/fd09.hpp"
 #include "bench/kdgs10.hpp"
 #include "bench/shi12.hpp"
+#include "bench/ywcyp10.hpp"
 #include "numbers.hpp"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ struct BenchOptions {
     Fd09Settings fd09;
     Kdgs10Settings kdgs10;
     Shi12Options shi12;
+    Ywcyp10Settings ywcyp10;
     bool is_dynamic = false;
     DynamicOptions dynamic;
     bool json = false;
@@ -76,10 +78,11 @@ void run_paper(const BenchOptions& options) {
         return;
     }
     const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
-    const bool simultaneous = options.paper == "kdgs10";
-    const std::vector<PaperTable> tables = simultaneous
-                                               ? std::vector{bench_kdgs10(*device, options.kdgs10)}
-                                               : bench_fd09(*device, options.fd09);
+    const bool by_row = options.paper != "fd09";
+    const std::vector<PaperTable> tables =
+        options.paper == "kdgs10"    ? std::vector{bench_kdgs10(*device, options.kdgs10)}
+        : options.paper == "ywcyp10" ? std::vector{bench_ywcyp10(*device, options.ywcyp10)}
+                                     : bench_fd09(*device, options.fd09);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const PaperTable& table : tables) {
         for (nlohmann::ordered_json row : table.rows) {
@@ -92,7 +95,7 @@ void run_paper(const BenchOptions& options) {
         return;
     }
     for (const PaperTable& table : tables) {
-        fmt::print("{}", simultaneous ? markdown_rows(table) : markdown(table));
+        fmt::print("{}", by_row ? markdown_rows(table) : markdown(table));
     }
 }
 
@@ -136,13 +139,9 @@ void run(const BenchOptions& options) {
 
 /// Throws UsageError if an option is given that the benchmark of the paper does not have.
 void check_paper_options(const CLI::App& command, const std::string& paper) {
-    const std::vector<std::string> of_fd09{"--scene",
-                                           "--part",
-                                           "--size",
-                                           "--error-size",
-                                           "--budget",
-                                           "--photons",
+    const std::vector<std::string> of_fd09{"--part", "--size", "--error-size", "--budget",
                                            "--reference-samples"};
+    const std::vector<std::string> of_both{"--scene", "--photons"};
     const std::vector<std::string> of_kdgs10{"--most-queries", "--most-photons"};
     const std::vector<std::string> of_shi12{"--output", "--scenes", "--quick"};
     std::vector<std::string> others;
@@ -152,6 +151,9 @@ void check_paper_options(const CLI::App& command, const std::string& paper) {
         }
     };
     add("fd09", of_fd09);
+    if (paper != "fd09" && paper != "ywcyp10") {
+        others.insert(others.end(), of_both.begin(), of_both.end());
+    }
     add("kdgs10", of_kdgs10);
     add("shi12", of_shi12);
     if (paper == "shi12") {
@@ -188,11 +190,12 @@ void add_bench_command(CLI::App& app) {
             ->add_option(
                 "--paper", options->paper,
                 "Repeat the measurements of a paper instead: fd09, Fabianowski and Dingliana 2009; "
-                "kdgs10, Keller et al. 2010; shi12, Shi 2012, which resumes if it is interrupted")
-            ->check(CLI::IsMember({"fd09", "kdgs10", "shi12"}));
+                "kdgs10, Keller et al. 2010; shi12, Shi 2012, which resumes if it is interrupted; "
+                "ywcyp10, Yao et al. 2010")
+            ->check(CLI::IsMember({"fd09", "kdgs10", "shi12", "ywcyp10"}));
     command
         ->add_option("--scene", fd09.scenes,
-                     "With --paper fd09: glTF files (default: scenes of this project)")
+                     "With --paper fd09 and ywcyp10: glTF files (default: scenes of this project)")
         ->needs(paper)
         ->check(CLI::ExistingFile);
     command
@@ -220,8 +223,10 @@ void add_bench_command(CLI::App& app) {
         ->capture_default_str()
         ->check(number_between(1e-3, 1e5));
     command
-        ->add_option("--photons", fd09.photons,
-                     "With --paper fd09: photons emitted (default: as in the paper)")
+        ->add_option(
+            "--photons", fd09.photons,
+            "With --paper fd09 and ywcyp10: photons emitted (default: as in the paper; with "
+            "ywcyp10 20,000)")
         ->needs(paper)
         ->check(integer_between(1, 4'000'000));
     command
@@ -284,7 +289,11 @@ void add_bench_command(CLI::App& app) {
         } else if (!options->is_dynamic) {
             check_film_options(*command);
         }
-        options->kdgs10.runs = options->shi12.runs = options->fd09.runs;
+        options->ywcyp10.scenes = options->fd09.scenes;
+        if (options->fd09.photons > 0) {
+            options->ywcyp10.photons = options->fd09.photons;
+        }
+        options->ywcyp10.runs = options->kdgs10.runs = options->shi12.runs = options->fd09.runs;
         options->shi12.scenes = options->dynamic.scenes;
         options->shi12.quick = options->dynamic.quick;
         if (command->count("--output") > 0) {

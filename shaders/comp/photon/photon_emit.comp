@@ -23,6 +23,7 @@ layout(set = 0, binding = 16) readonly buffer Sky { uint sky[]; };
 layout(set = 0, binding = 17) writeonly buffer PathLights { uint path_lights[]; };
 layout(set = 0, binding = 18) writeonly buffer PathVertices { uint path_vertices[]; };
 layout(set = 0, binding = 19) writeonly buffer Vertices { PathVertex vertices[]; };
+layout(set = 0, binding = 20) writeonly buffer Hits { HitRecord hits[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
 // Whether photons carry differentials.

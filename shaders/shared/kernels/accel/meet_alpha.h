@@ -5,11 +5,6 @@
 // Before all hits.
 FN HitRecord nothing_passed() { return HitRecord(0u, -real(1.0), real(0.0), real(0.0)); }
 
-// Hits lie one behind another by distance, and at one distance by their order in the scene.
-FN bool comes_before(HitRecord a, HitRecord b) {
-    return a.t < b.t || (a.t == b.t && a.triangle < b.triangle);
-}
-
 FN bool is_on_edge(HitRecord hit) {
     return hit.u == real(0.0) || hit.v == real(0.0) || hit.u + hit.v >= real(1.0) - error_bound(4);
 }

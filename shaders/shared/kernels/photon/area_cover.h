@@ -1,4 +1,5 @@
 #include "shared/kernels/material.h"
+#include "shared/kernels/passes_light.h"
 
 // Hits on another triangle whose barycentric weights are all above this are no hits on a neighbour,
 // at the edge that a sample's rounded position has crossed.
@@ -23,9 +24,8 @@ FN void go_on_behind(uint i, real t) {
     rays[i].t_max -= by;
 }
 
-// Takes the area from those sides of area samples on which another surface lies. Glass and what is
-// partly absent let light through, so rays go on behind them; where a mask takes a surface away,
-// rays do not hit it.
+// Takes the area from those sides of area samples on which another surface lies through which no
+// light passes.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= params.count || hits[i].triangle == no_triangle) {
@@ -42,12 +42,7 @@ FN void main() {
         return;
     }
     MaterialRecord material = load_material(triangles[hit.triangle].w);
-    bool passes = (bsdf_lobes(material) & (LOBE_TRANSMIT | LOBE_CLEAR)) != 0u;
-    if (may_have(material, MATERIAL_ALPHA) && (material.textures & material_alpha_mask) == 0u) {
-        passes = passes || material.coverage < float32(1.0) ||
-                 (material.textures & material_alpha_blend) != 0u;
-    }
-    if (passes) {
+    if (passes_light(material)) {
         go_on_behind(i, hit.t);
         return;
     }

@@ -19,16 +19,19 @@ FN void main() {
     uvec4 absorbed = uvec4(0u);
     uvec4 escaped = uvec4(0u);
     uvec4 cut = uvec4(0u);
+    uvec4 lost = uvec4(0u);
     for (uint i = first; i < min(first + ledgers_per_thread, params.count); ++i) {
         emitted += ledgers[i].emitted;
         absorbed += ledgers[i].absorbed;
         escaped += ledgers[i].escaped;
         cut += ledgers[i].cut;
+        lost += ledgers[i].lost;
     }
     for (uint channel = 0u; channel < 3u; ++channel) {
         add(channel, emitted[channel]);
         add(3u + channel, absorbed[channel]);
         add(6u + channel, escaped[channel]);
         add(9u + channel, cut[channel]);
+        add(12u + channel, lost[channel]);
     }
 }

@@ -97,11 +97,16 @@ FN void main() {
                  (aimed_by(p.for_view) << photon_view_shift);
     }
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, state);
-    ledgers[slot] =
-        FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u), uvec4(0u));
+    ledgers[slot] = FluxLedger(uvec4(flux_units(flux, batch.flux_unit), 0u), uvec4(0u), uvec4(0u),
+                               uvec4(0u), uvec4(0u));
     active_slots[slot] = slot;
     if ((keeps & kept_light) != 0u) {
         path_lights[slot] = chosen.index;
+    }
+    if ((keeps & kept_start) != 0u) {
+        uint start = is_light(light, light_kinds, light_triangle) ? light.triangle_and_sides / 2u
+                                                                  : no_triangle;
+        hits[slot] = HitRecord(start, start_of_path, real(0.0), real(0.0));
     }
     if ((keeps & kept_path) != 0u) {
         uint vertex = 2u * (batch.first_path + slot);

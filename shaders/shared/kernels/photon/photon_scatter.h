@@ -426,7 +426,12 @@ FN void main() {
     bool stores = reserve(store, path.state & photon_depth_mask);
     alive[i] = 0u;
     if (hit.triangle == no_triangle) {
-        ledgers[slot].escaped += units_of(vec3(path.flux_r, path.flux_g, path.flux_b));
+        uvec4 units = units_of(vec3(path.flux_r, path.flux_g, path.flux_b));
+        if (hit.u == ray_lost) {
+            ledgers[slot].lost += units;
+        } else {
+            ledgers[slot].escaped += units;
+        }
         return;
     }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "world/device_scene.hpp"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+namespace argand {
+
+/// Cube maps of a scene's surfaces (shared/cube_map.h).
+struct CubeMaps {
+    Buffer texels;            ///< uvec2 per texel, map by map, the layers of a center together
+    Buffer centers;           ///< vec4 each
+    std::uint32_t count = 0;  ///< of centers
+    std::uint32_t layers = 1; ///< around each, see layer_opaque of shared/image_space_records.h
+    std::uint32_t size = 0;   ///< texels along the edge of a face
+};
+
+/// Layers that the maps of a scene need.
+std::uint32_t layers_of(const DeviceScene& scene);
+
+/// The most texels of maps that fit into a buffer of the device.
+std::uint64_t max_cube_texels(const Device& device);
+
+/// Fills the maps around each center by casting rays through the scene's tree. Waits for the
+/// device. Requires centers, and no more texels than max_cube_texels().
+CubeMaps cast_cube_maps(Device& device, const DeviceScene& scene,
+                        std::span<const glm::vec3> centers, std::uint32_t size,
+                        std::uint32_t layers);
+
+/// How rays find their hits in cube maps.
+struct CubeSearchSettings {
+    std::uint32_t steps = 5; ///< iterations of the root finder
+    /// Directions in which a ray is looked at before; 0: the iteration begins as published.
+    std::uint32_t march = 16;
+    bool exact = true;        ///< hits are those of the texels' triangles; else texels are points
+    double tolerance = 0.001; ///< ε of Yao et al. 2010, equation 2, where texels are points
+};
+
+/// Finds hits as trace_closest() does, but in cube maps. u of those without one tells why
+/// (ray_escaped, ray_lost). batch.results must hold the hits that the rays leave; no_triangle where
+/// there is none, and start_of_path as t where they start anywhere on a triangle. Records only.
+void trace_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& maps,
+                     const CubeSearchSettings& settings, const RayBatch& batch);
+
+} // namespace argand

@@ -1,0 +1,98 @@
+#include "methods/cube_map_options.hpp"
+
+#include "methods/cube_map_tracing.hpp"
+#include "methods/render_options.hpp"
+
+namespace argand {
+
+namespace {
+
+Option number_option(const std::string& name, const std::string& help, OptionKind kind,
+                     const std::string& initially, double low, double high) {
+    Option option = own_option(name, help, kind, initially);
+    option.low = low;
+    option.high = high;
+    option.sweep.matters = finds_photons;
+    return option;
+}
+
+Option count_option() {
+    Option option = number_option("maps-count",
+                                  "Maps through which photons are traced (default: as many as "
+                                  "--coverage requires)",
+                                  OptionKind::integer, "auto", 1, most_centers);
+    option.sweep.full = {"4", "16"};
+    return option;
+}
+
+Option size_option() {
+    Option option = number_option("map-size", "Texels along the edge of a map's six faces",
+                                  OptionKind::integer, "128", 1, 2048);
+    option.sweep.full = {"64", "256"};
+    return option;
+}
+
+Option coverage_option() {
+    return number_option("coverage",
+                         "Share of the surfaces, and of the places where photons lie, that maps "
+                         "show: none is added that shows less than the rest",
+                         OptionKind::number, "0.99", 0, 1);
+}
+
+Option steps_option() {
+    return number_option("steps", "Iterations in which a photon's hit is found in a map",
+                         OptionKind::integer, "5", 0, 64);
+}
+
+Option march_option() {
+    Option option = number_option("march",
+                                  "Directions in which a map is looked at along a photon's way, "
+                                  "before the iterations; 0: they begin as published",
+                                  OptionKind::integer, "32", 0, 4096);
+    option.sweep.full = {"16", "64"};
+    return option;
+}
+
+Option hits_option() {
+    Option option = own_option("map-hits",
+                               "What a photon hits in a map: the triangle that a texel shows, or "
+                               "the point in the texel's middle, as published",
+                               OptionKind::choice, "triangles");
+    option.choices = {"triangles", "points"};
+    option.sweep = {.full = {"points"}, .matters = finds_photons};
+    return option;
+}
+
+Option error_option() {
+    return number_option("map-error",
+                         "With --map-hits points: one minus the cosine of the angle by which a hit "
+                         "may lie off the photon's way",
+                         OptionKind::number, "0.001", 0, 2);
+}
+
+std::uint32_t whole(const RenderSettings& settings, const Option& option) {
+    return static_cast<std::uint32_t>(own_number(settings, option));
+}
+
+} // namespace
+
+CubeMapOptions cube_map_options_of(const RenderSettings& settings) {
+    CubeMapOptions options;
+    if (count_option().get(settings) != "auto") {
+        options.centers.least = options.centers.most = whole(settings, count_option());
+    }
+    options.centers.coverage = own_number(settings, coverage_option());
+    options.size = whole(settings, size_option());
+    options.search = {.steps = whole(settings, steps_option()),
+                      .march = whole(settings, march_option()),
+                      .exact = hits_option().get(settings) == "triangles",
+                      .tolerance = own_number(settings, error_option())};
+    return options;
+}
+
+std::vector<Option> cube_map_options() {
+    return {count_option(), size_option(), coverage_option(), steps_option(),
+            march_option(), hits_option(), error_option()};
+}
+
+} // namespace argand

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "imagespace/cube_centers.hpp"
+#include "methods/option.hpp"
+
+#include <cstdint>
+
+namespace argand {
+
+/// The values of cube_map_options() in these settings.
+struct CubeMapOptions {
+    CenterSettings centers;
+    std::uint32_t size = 128; ///< texels along the edge of a map's face
+    CubeSearchSettings search;
+};
+
+CubeMapOptions cube_map_options_of(const RenderSettings& settings);
+
+} // namespace argand

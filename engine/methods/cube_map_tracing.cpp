@@ -1,0 +1,277 @@
+#include "methods/cube_map_tracing.hpp"
+
+#include "base/error.hpp"
+#include "methods/cube_map_options.hpp"
+#include "scene/light_power.hpp"
+#include "shared/cube_map.h"
+#include "shared/photon.h"
+#include "shared/random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace argand {
+
+namespace {
+
+// "A set U of 30 to 50 random points" (section 4.1), with those at lights and in view.
+constexpr std::uint32_t candidates_in_box = 24;
+constexpr std::size_t most_candidates_at_lights = 24;
+constexpr std::uint32_t candidates_in_view = 16;
+constexpr std::size_t most_near_unseen = 16;
+constexpr std::size_t most_fixed = 8; ///< centers at lights
+constexpr std::uint32_t candidate_size = 32;
+constexpr std::uint64_t emitted_for_starts = 256;
+constexpr std::uint64_t emitted_for_places = 4096;
+constexpr std::uint32_t bounces_for_places = 3;
+constexpr std::size_t most_points = 2048; ///< of photons, and of points in view
+
+/// Candidates for centers; the first `fixed` are taken in any case.
+struct Candidates {
+    std::vector<glm::vec3> places;
+    std::vector<glm::vec4> starts; ///< of photons within the scene's box
+    std::size_t fixed = 0;
+};
+
+bool is_in(const Bounds& box, const glm::vec3& place) {
+    return glm::all(glm::lessThanEqual(box.low, place)) &&
+           glm::all(glm::lessThanEqual(place, box.high));
+}
+
+/// Where a ray from outside enters the box.
+std::optional<float> entry(const Bounds& box, const glm::vec3& origin, const glm::vec3& direction) {
+    const glm::vec3 to_low = (box.low - origin) / direction;
+    const glm::vec3 to_high = (box.high - origin) / direction;
+    const glm::vec3 enter = glm::min(to_low, to_high);
+    const glm::vec3 leave = glm::max(to_low, to_high);
+    const float first = std::max({enter.x, enter.y, enter.z, 0.0f});
+    return first <= std::min({leave.x, leave.y, leave.z}) ? std::optional(first) : std::nullopt;
+}
+
+/// The strongest lights that are points within the scene: photons from there need one lookup in the
+/// light's own map.
+std::vector<glm::vec3> point_lights(const Scene& scene, const Bounds& box, std::size_t most) {
+    std::vector<std::pair<double, glm::vec3>> found;
+    for (const Light& light : scene.lights) {
+        if (light.kind != LightKind::directional && is_in(box, light.position)) {
+            const glm::dvec3 power = emitted_power(light);
+            found.emplace_back(-(power.r + power.g + power.b), light.position);
+        }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<glm::vec3> places;
+    for (const auto& [minus_power, place] : found) {
+        if (minus_power < 0 && places.size() < most) {
+            places.push_back(place);
+        }
+    }
+    return places;
+}
+
+PhotonPass pass_for(std::uint64_t count) {
+    return {.seed = 0x3a95u,
+            .first = 0,
+            .count = count,
+            .bounces = bounces_for_places,
+            .first_hits = true};
+}
+
+/// Every `step`-th of so many that `most` remain.
+std::size_t step_for(std::size_t count, std::size_t most) {
+    return std::max<std::size_t>((count + most - 1) / most, 1);
+}
+
+std::vector<glm::vec4> some_of(std::span<const glm::vec4> points, std::size_t most) {
+    std::vector<glm::vec4> some;
+    const std::size_t step = step_for(points.size(), most);
+    for (std::size_t i = 0; i < points.size(); i += step) {
+        some.push_back(points[i]);
+    }
+    return some;
+}
+
+/// Where photons start; of those from outside, on their way to the scene's box, at most this part
+/// of its radius before it.
+std::vector<glm::vec3> starts_of_photons(RenderContext& c) {
+    constexpr float before_box = 0.3f;
+    PhotonWorkspace workspace = make_photon_workspace(c.device, emitted_for_starts);
+    std::vector<glm::vec3> starts;
+    const Bounds& box = c.on_device.box;
+    workspace.tracer = [&](const RayBatch& batch) {
+        for (const RayRecord& ray : download<RayRecord>(c.device, batch.rays, workspace.slots)) {
+            const glm::vec3 origin(ray.origin_x, ray.origin_y, ray.origin_z);
+            const glm::vec3 direction(ray.direction_x, ray.direction_y, ray.direction_z);
+            if (ray.t_max >= 0 && is_in(box, origin)) {
+                starts.push_back(origin);
+            } else if (const std::optional<float> enters = entry(box, origin, direction);
+                       ray.t_max >= 0 && enters) {
+                const float u =
+                    random4(0, static_cast<std::uint32_t>(starts.size()), 2, 0xce97e5u).x;
+                const float before = before_box * c.on_device.record.radius * u * u;
+                starts.push_back(origin + direction * std::max(*enters - before, 0.0f));
+            }
+        }
+        c.device.fill(batch.results, no_triangle); // nobody goes on
+    };
+    trace_photons(c.device, c.on_device, workspace, pass_for(emitted_for_starts), 1e-6f);
+    return starts;
+}
+
+/// Where photons lie that are traced through the candidates' maps, about.
+std::vector<glm::vec4> places_of_photons(RenderContext& c, const CubeMaps& maps) {
+    PhotonWorkspace workspace = make_photon_workspace(c.device, emitted_for_places);
+    workspace.tracer = [&](const RayBatch& batch) {
+        trace_cube_maps(c.device, c.on_device, maps, {.march = 16}, batch);
+    };
+    const std::optional<StoredPhotons> stored =
+        trace_photons(c.device, c.on_device, workspace, pass_for(emitted_for_places), 1e-6f);
+    std::vector<glm::vec4> places;
+    for (const PhotonRecord& photon :
+         download<PhotonRecord>(c.device, workspace.photons, stored ? stored->slots : 0)) {
+        if (photon.normal != no_photon) {
+            places.emplace_back(photon.x, photon.y, photon.z, 0);
+        }
+    }
+    return places;
+}
+
+/// Adds a place on the way from the camera to a point in view: nothing but mirrors and glass is in
+/// the way.
+void add_toward(const RenderContext& c, const glm::vec4& query, float share,
+                std::vector<glm::vec3>& places) {
+    const glm::vec3 place =
+        glm::mix(c.scene.cameras[c.settings.camera].position, glm::vec3(query), share);
+    if (is_in(c.on_device.box, place)) {
+        places.push_back(place);
+    }
+}
+
+Candidates find_candidates(RenderContext& c, std::span<const glm::vec4> queries, std::size_t most) {
+    Candidates found;
+    const Bounds& box = c.on_device.box;
+    found.places = point_lights(c.scene, box, std::min(most_fixed, most - 1));
+    found.fixed = found.places.size();
+    const std::vector<glm::vec3> starts = starts_of_photons(c);
+    for (const glm::vec3& start : starts) {
+        if (is_in(box, start)) {
+            found.starts.emplace_back(start, 0);
+        }
+    }
+    const std::size_t step = step_for(starts.size(), most_candidates_at_lights);
+    for (std::size_t i = 0; i < starts.size(); i += step) {
+        if (std::find(found.places.begin(), found.places.end(), starts[i]) == found.places.end()) {
+            found.places.push_back(starts[i]);
+        }
+    }
+    for (std::uint32_t i = 0; i < candidates_in_view && !queries.empty(); ++i) {
+        const glm::vec4 u = random4(0, i, 1, 0xce97e5u);
+        const auto query =
+            static_cast<std::size_t>(double(u.x) * static_cast<double>(queries.size()));
+        add_toward(c, queries[query], 0.3f + 0.6f * u.y, found.places);
+    }
+    for (const glm::vec3& place : random_centers(box, candidates_in_box, 0)) {
+        found.places.push_back(place);
+    }
+    return found;
+}
+
+class CubeMapTracing : public TracingStrategy {
+public:
+    void begin_frame(RenderContext& c, std::span<const glm::vec4> queries) override {
+        const SceneRecord& scene = c.on_device.record;
+        if (scene.triangle_count == 0 || scene.light_count == 0) {
+            missing_ = 0;
+            centers_ = {glm::vec3(0)}; // no photon is traced
+            cast(c);
+            return;
+        }
+        const CubeMapOptions options = cube_map_options_of(c.settings);
+        Candidates candidates = find_candidates(c, queries, options.centers.most);
+        CubeMaps maps = cast_cube_maps(c.device, c.on_device, candidates.places, candidate_size, 1);
+        std::vector<glm::vec4> points = some_of(queries, most_points);
+        const std::size_t in_view = points.size();
+        for (const std::vector<glm::vec4>& more : {places_of_photons(c, maps), candidates.starts}) {
+            const std::vector<glm::vec4> some = some_of(more, most_points);
+            points.insert(points.end(), some.begin(), some.end());
+        }
+        const auto choose = [&] {
+            return choose_centers(c.device, c.on_device, maps, candidates.fixed, points,
+                                  options.centers);
+        };
+        ChosenCenters chosen = choose();
+        // Points in view that no candidate sees have candidates of their own, in a second choice.
+        std::erase_if(chosen.unseen, [&](std::size_t point) { return point >= in_view; });
+        if (!chosen.unseen.empty()) {
+            const std::size_t step = step_for(chosen.unseen.size(), most_near_unseen);
+            for (std::size_t i = step / 2; i < chosen.unseen.size(); i += step) {
+                add_toward(c, points[chosen.unseen[i]], 0.9f, candidates.places);
+            }
+            maps = cast_cube_maps(c.device, c.on_device, candidates.places, candidate_size, 1);
+            chosen = choose();
+        }
+        missing_ = chosen.missing;
+        centers_.clear();
+        for (const std::size_t candidate : chosen.candidates) {
+            centers_.push_back(candidates.places[candidate]);
+        }
+        if (centers_.empty()) { // nobody sees anything
+            centers_.push_back(candidates.places.front());
+        }
+        cast(c);
+    }
+
+    void persist(Archive& archive, RenderContext& c) override {
+        archive.values(centers_);
+        archive.value(missing_);
+        if (archive.loads()) {
+            const bool finite = std::all_of(centers_.begin(), centers_.end(), [](const auto& p) {
+                return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+            });
+            if (centers_.empty() || centers_.size() > most_centers || !finite) {
+                fail("loading a saved state: it has no centers of cube maps for '{}'",
+                     c.scene.name);
+            }
+            cast(c);
+        }
+    }
+
+    PhotonTracer tracer(RenderContext& c) const override {
+        return [this, &c, search = cube_map_options_of(c.settings).search](const RayBatch& rays) {
+            trace_cube_maps(c.device, c.on_device, maps_, search, rays);
+        };
+    }
+
+    void report(RenderStatistics& statistics) const override {
+        statistics.own["maps"] = static_cast<double>(centers_.size());
+        statistics.own["map_size"] = static_cast<double>(maps_.size);
+        statistics.own["map_layers"] = static_cast<double>(maps_.layers);
+        statistics.own["maps_missing"] = missing_;
+    }
+
+private:
+    /// Makes the maps, as large as the device allows.
+    void cast(RenderContext& c) {
+        std::uint32_t size = cube_map_options_of(c.settings).size;
+        const std::uint32_t layers = layers_of(c.on_device);
+        const std::uint64_t most =
+            max_cube_texels(c.device) / (std::uint64_t(layers) * centers_.size());
+        while (size > 1 && cube_texels(size) > most) {
+            size /= 2;
+        }
+        maps_ = cast_cube_maps(c.device, c.on_device, centers_, size, layers);
+    }
+
+    std::vector<glm::vec3> centers_;
+    double missing_ = 0;
+    CubeMaps maps_;
+};
+
+} // namespace
+
+std::unique_ptr<TracingStrategy> make_cube_map_tracing() {
+    return std::make_unique<CubeMapTracing>();
+}
+
+} // namespace argand

@@ -1,0 +1,100 @@
+// Photons that find their hits in cube maps, against those that find them through the tree.
+#include "rendering.hpp"
+
+#include <gmock/gmock.h>
+
+namespace argand::testing {
+namespace {
+
+RenderSettings cube_settings(int size = 48) { return settings_of("image-space", size, 8); }
+
+class ImageSpace : public RenderTest {
+protected:
+    /// Expects the mean of the indirect light of `photons`, and its picture, within these bounds.
+    void expect_indirect_of_photons(const std::string& asset, double mean_tolerance, double error) {
+        const Scene scene = load_asset(asset);
+        const RenderResult found = render(scene, cube_settings());
+        RenderSettings settings = cube_settings();
+        settings.method = "photons";
+        const RenderResult expected = render(scene, settings);
+        EXPECT_TRUE(same_bits(layer(found, "direct"), layer(expected, "direct")));
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_RELATIVE(mean(layer(found, "indirect"))[channel],
+                            mean(layer(expected, "indirect"))[channel], mean_tolerance)
+                << asset;
+        }
+        EXPECT_LT(compare(layer(found, ""), layer(expected, "")).rel_mse, error) << asset;
+    }
+};
+
+TEST_F(ImageSpace, HasTheLightOfPhotonsInABox) {
+    expect_indirect_of_photons("cornell_area.glb", 0.02, 0.004);
+    expect_indirect_of_photons("cornell_point.glb", 0.02, 0.004);
+}
+
+TEST_F(ImageSpace, SlowHasTheLightOfPhotonsElsewhere) {
+    expect_indirect_of_photons("cornell_glass.glb", 0.03, 0.01);
+    expect_indirect_of_photons("closed_room.glb", 0.02, 0.004);
+    expect_indirect_of_photons("courtyard.glb", 0.25, 0.02); // from the sky; see the results
+    expect_indirect_of_photons("forty_rooms.glb", 0.03, 0.01);
+    // The sun on the ground outside is 10^9 times as bright as the lamp within.
+    expect_indirect_of_photons("sunlit_ground.glb", 0.05, 0.02);
+}
+
+TEST_F(ImageSpace, LittleFluxIsLostInABox) {
+    const RenderStatistics statistics =
+        render(load_asset("cornell_area.glb"), cube_settings(16)).statistics;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const FluxSums& flux = statistics.flux;
+        EXPECT_EQ(flux.emitted[channel], flux.absorbed[channel] + flux.escaped[channel] +
+                                             flux.cut[channel] + flux.lost[channel]);
+        EXPECT_LT(flux.lost[channel], 0.01 * static_cast<double>(flux.emitted[channel]));
+    }
+    EXPECT_GE(statistics.own.at("maps"), 1);
+    EXPECT_LE(statistics.own.at("maps"), 8);
+    EXPECT_EQ(statistics.own.at("map_size"), 128);
+    EXPECT_EQ(statistics.own.at("map_layers"), 1);
+    EXPECT_LE(statistics.own.at("maps_missing"), 0.01);
+}
+
+TEST_F(ImageSpace, HasAsManyMapsAsRequested) {
+    const Scene scene = load_asset("cornell_point.glb");
+    for (const char* count : {"1", "3", "30"}) {
+        RenderSettings settings = cube_settings(8);
+        settings.own["maps-count"] = count;
+        settings.own["map-size"] = "16";
+        const double maps = render(scene, settings).statistics.own.at("maps");
+        EXPECT_LE(maps, std::stod(count));
+        EXPECT_GE(maps, std::min(std::stod(count), 3.0));
+    }
+}
+
+TEST_F(ImageSpace, SearchesAsPublishedOnRequest) {
+    const Scene scene = load_asset("cornell_area.glb");
+    RenderSettings settings = cube_settings(24);
+    settings.own = {{"map-hits", "points"}, {"march", "0"}, {"maps-count", "8"}};
+    const FluxSums flux = render(scene, settings).statistics.flux;
+    EXPECT_GT(flux.lost[1], 0.005 * static_cast<double>(flux.emitted[1]));
+    EXPECT_LT(flux.lost[1], 0.5 * static_cast<double>(flux.emitted[1]));
+}
+
+TEST_F(ImageSpace, RendersWithoutAnythingToTrace) {
+    Scene empty;
+    empty.cameras = load_asset("cornell_point.glb").cameras;
+    EXPECT_EQ(mean(layer(render(empty, cube_settings(8)), "")), glm::dvec3(0));
+    Scene dark = load_asset("cornell_point.glb");
+    dark.lights.clear();
+    EXPECT_EQ(mean(layer(render(dark, cube_settings(8)), "indirect")), glm::dvec3(0));
+}
+
+TEST_F(ImageSpace, MapsShrinkToWhatTheDeviceAddresses) {
+    Device& small = open({"small", "", "storage_range=4MiB"});
+    RenderSettings settings = cube_settings(8);
+    settings.photons = 1000;
+    settings.own = {{"map-size", "512"}, {"maps-count", "4"}};
+    const RenderResult result = testing::render(small, load_asset("cornell_point.glb"), settings);
+    EXPECT_EQ(result.statistics.own.at("map_size"), 128);
+}
+
+} // namespace
+} // namespace argand::testing
