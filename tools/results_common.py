@@ -59,6 +59,8 @@ PAGES = [
     ("Error at equal time", "budgets.md", "a script outside the repository"),
     ("Fabianowski and Dingliana 2009", "fd09.md", "argand bench --paper fd09"),
     ("Keller et al. 2010: simultaneous queries", "kdgs10.md", "argand bench --paper kdgs10"),
+    ("Yao et al. 2010: hits in cube maps", "ywcyp10.md",
+     "argand bench --paper ywcyp10, argand render, argand compare"),
     ("Shi 2012: a photons queue", "shi12.md", "argand bench --paper shi12"),
     ("Bandwidth", "bandwidth.md", "a script outside the repository"),
     ("Footprints: choices", "footprints.md", "argand render, argand compare"),

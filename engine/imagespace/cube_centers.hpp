@@ -25,9 +25,9 @@ inline constexpr std::uint32_t most_centers = 30;
 /// The chosen centers, and how the choice came about.
 struct ChosenCenters {
     std::vector<std::size_t> candidates; ///< in the order in which they were chosen
-    double missing = 0;       ///< share of the points that candidates see and no chosen map does
+    double missing = 0; ///< share of the points that candidates see and no chosen map does
     std::vector<std::size_t> unseen; ///< points that no candidate sees
-    std::uint32_t rounds = 0; ///< in which a map was added and one was dropped
+    std::uint32_t rounds = 0;        ///< in which a map was added and one was dropped
 };
 
 /// Chooses centers that show as much as possible (Yao et al. 2010, section 4): first, greedily, the

@@ -38,8 +38,8 @@ CONSTANT uint photon_aimed_shift = 24u;
 CONSTANT uint largest_photon_aimed = 30u;
 
 // Where the flux of one photon went, per channel, in fixed point (PhotonBatch::flux_unit) modulo
-// 2^32. `cut` is flux truncated at the bounce limit; `lost` is that of photons whose hits no cube map
-// shows. emitted = absorbed + escaped + cut + lost, to the bit.
+// 2^32. `cut` is flux truncated at the bounce limit; `lost` is that of photons whose hits no cube
+// map shows. emitted = absorbed + escaped + cut + lost, to the bit.
 struct FluxLedger {
     uvec4 emitted, absorbed, escaped, cut, lost;
 };

@@ -170,7 +170,6 @@ nlohmann::ordered_json Bench::measure(const std::string& name, const Way& way) {
             {"right", share(sums.right)},
             {"wrong", share(sums.wrong)},
             {"lost", share(sums.lost)},
-            {"missing area", chosen.missing},
             {"choose [s]", seconds_to_choose},
             {"cast [s]", seconds_to_cast},
             {"trace [s]", median(map_times)},
