@@ -36,8 +36,8 @@ struct ChosenCenters {
 /// surfaces from behind are not chosen, unless all do. What counts is, one half each, the area of
 /// the surfaces, as in the paper, and the number of `points`: a room on a large ground is small,
 /// but there the photons may be. Without points it is the area alone.
-/// candidates: their maps, of one layer. fixed: how many of them, from the first on, are chosen in
-/// any case; less than settings.most. Waits for the device.
+/// candidates: their maps, of one layer and an even size. fixed: how many of them, from the first
+/// on, are chosen in any case; less than settings.most. Waits for the device.
 ChosenCenters choose_centers(Device& device, const DeviceScene& scene, const CubeMaps& candidates,
                              std::size_t fixed, std::span<const glm::vec4> points,
                              const CenterSettings& settings);

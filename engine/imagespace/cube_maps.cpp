@@ -79,12 +79,11 @@ CubeMaps cast_cube_maps(Device& device, const DeviceScene& scene,
     for (const glm::vec3& center : centers) {
         places.emplace_back(center, 0);
     }
-    const CubeMaps maps{.texels =
-                            device.allocate("cube maps", directions * layers * sizeof(glm::uvec2)),
-                        .centers = upload(device, "centers of cube maps", places),
-                        .count = static_cast<std::uint32_t>(centers.size()),
-                        .layers = layers,
-                        .size = size};
+    CubeMaps maps{.texels = device.allocate("cube maps", directions * layers * sizeof(glm::uvec2)),
+                  .centers = upload(device, "centers of cube maps", places),
+                  .count = static_cast<std::uint32_t>(centers.size()),
+                  .layers = layers,
+                  .size = size};
     const std::uint64_t slots =
         std::min({directions, most_rays, device.info().limits.storage_range / sizeof(RayRecord)});
     Rays w{.rays = device.scratch("rays of cube maps", slots * sizeof(RayRecord)),

@@ -33,7 +33,7 @@ CubeMaps cast_cube_maps(Device& device, const DeviceScene& scene,
 struct CubeSearchSettings {
     std::uint32_t steps = 5; ///< iterations of the root finder
     /// Directions in which a ray is looked at before; 0: the iteration begins as published.
-    std::uint32_t march = 16;
+    std::uint32_t march = 32;
     bool exact = true;        ///< hits are those of the texels' triangles; else texels are points
     double tolerance = 0.001; ///< ε of Yao et al. 2010, equation 2, where texels are points
 };

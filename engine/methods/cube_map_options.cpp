@@ -18,24 +18,28 @@ Option number_option(const std::string& name, const std::string& help, OptionKin
 
 Option count_option() {
     Option option = number_option("maps-count",
-                                  "Maps through which photons are traced (default: as many as "
-                                  "--coverage requires)",
+                                  "Maps through which photons are traced, at most; fewer if these "
+                                  "show all (default: as many as --coverage requires)",
                                   OptionKind::integer, "auto", 1, most_centers);
     option.sweep.full = {"4", "16"};
     return option;
 }
 
 Option size_option() {
-    Option option = number_option("map-size", "Texels along the edge of a map's six faces",
-                                  OptionKind::integer, "128", 1, 2048);
+    Option option =
+        number_option("map-size",
+                      "Texels along the edge of a map's six faces; halved until the maps fit "
+                      "into a buffer of the device",
+                      OptionKind::integer, "128", 1, 2048);
     option.sweep.full = {"64", "256"};
     return option;
 }
 
 Option coverage_option() {
     return number_option("coverage",
-                         "Share of the surfaces, and of the places where photons lie, that maps "
-                         "show: none is added that shows less than the rest",
+                         "Maps are added until they show this share of the points in view and of "
+                         "the places where photons lie, and until the best further one would add "
+                         "less than the rest to the area that they show",
                          OptionKind::number, "0.99", 0, 1);
 }
 

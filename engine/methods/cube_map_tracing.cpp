@@ -15,7 +15,8 @@ namespace argand {
 
 namespace {
 
-// "A set U of 30 to 50 random points" (section 4.1), with those at lights and in view.
+// The paper has 30 to 50 random points (section 4.1). Here some are where photons start, and some
+// are in view.
 constexpr std::uint32_t candidates_in_box = 24;
 constexpr std::size_t most_candidates_at_lights = 24;
 constexpr std::uint32_t candidates_in_view = 16;
@@ -70,12 +71,8 @@ std::vector<glm::vec3> point_lights(const Scene& scene, const Bounds& box, std::
     return places;
 }
 
-PhotonPass pass_for(std::uint64_t count) {
-    return {.seed = 0x3a95u,
-            .first = 0,
-            .count = count,
-            .bounces = bounces_for_places,
-            .first_hits = true};
+PhotonPass pass_for(std::uint64_t count, std::uint32_t bounces) {
+    return {.seed = 0x3a95u, .first = 0, .count = count, .bounces = bounces, .first_hits = true};
 }
 
 /// Every `step`-th of so many that `most` remain.
@@ -115,7 +112,7 @@ std::vector<glm::vec3> starts_of_photons(RenderContext& c) {
         }
         c.device.fill(batch.results, no_triangle); // nobody goes on
     };
-    trace_photons(c.device, c.on_device, workspace, pass_for(emitted_for_starts), 1e-6f);
+    trace_photons(c.device, c.on_device, workspace, pass_for(emitted_for_starts, 0), 1e-6f);
     return starts;
 }
 
@@ -125,8 +122,8 @@ std::vector<glm::vec4> places_of_photons(RenderContext& c, const CubeMaps& maps)
     workspace.tracer = [&](const RayBatch& batch) {
         trace_cube_maps(c.device, c.on_device, maps, {.march = 16}, batch);
     };
-    const std::optional<StoredPhotons> stored =
-        trace_photons(c.device, c.on_device, workspace, pass_for(emitted_for_places), 1e-6f);
+    const std::optional<StoredPhotons> stored = trace_photons(
+        c.device, c.on_device, workspace, pass_for(emitted_for_places, bounces_for_places), 1e-6f);
     std::vector<glm::vec4> places;
     for (const PhotonRecord& photon :
          download<PhotonRecord>(c.device, workspace.photons, stored ? stored->slots : 0)) {
@@ -137,8 +134,8 @@ std::vector<glm::vec4> places_of_photons(RenderContext& c, const CubeMaps& maps)
     return places;
 }
 
-/// Adds a place on the way from the camera to a point in view: nothing but mirrors and glass is in
-/// the way.
+/// Adds a place on the way from the camera to a point in view. Nothing is in the way, unless the
+/// point is seen by way of a mirror, or the camera is not a perspective one.
 void add_toward(const RenderContext& c, const glm::vec4& query, float share,
                 std::vector<glm::vec3>& places) {
     const glm::vec3 place =
@@ -181,7 +178,8 @@ class CubeMapTracing : public TracingStrategy {
 public:
     void begin_frame(RenderContext& c, std::span<const glm::vec4> queries) override {
         const SceneRecord& scene = c.on_device.record;
-        if (scene.triangle_count == 0 || scene.light_count == 0) {
+        if (scene.triangle_count == 0 || scene.light_count == 0 || c.settings.photons == 0 ||
+            c.settings.bounces == 0) {
             missing_ = 0;
             centers_ = {glm::vec3(0)}; // no photon is traced
             cast(c);
@@ -205,11 +203,14 @@ public:
         std::erase_if(chosen.unseen, [&](std::size_t point) { return point >= in_view; });
         if (!chosen.unseen.empty()) {
             const std::size_t step = step_for(chosen.unseen.size(), most_near_unseen);
+            const std::size_t before = candidates.places.size();
             for (std::size_t i = step / 2; i < chosen.unseen.size(); i += step) {
                 add_toward(c, points[chosen.unseen[i]], 0.9f, candidates.places);
             }
-            maps = cast_cube_maps(c.device, c.on_device, candidates.places, candidate_size, 1);
-            chosen = choose();
+            if (candidates.places.size() > before) {
+                maps = cast_cube_maps(c.device, c.on_device, candidates.places, candidate_size, 1);
+                chosen = choose();
+            }
         }
         missing_ = chosen.missing;
         centers_.clear();
@@ -247,7 +248,7 @@ public:
         statistics.own["maps"] = static_cast<double>(centers_.size());
         statistics.own["map_size"] = static_cast<double>(maps_.size);
         statistics.own["map_layers"] = static_cast<double>(maps_.layers);
-        statistics.own["maps_missing"] = missing_;
+        statistics.own["points_missed"] = missing_;
     }
 
 private:

@@ -17,8 +17,7 @@ std::vector<Option> image_space_options() {
 
 } // namespace
 
-/// Photons are traced through environment maps of the scene's surfaces; densities are those of
-/// `photons`.
+/// Photons are traced through cube maps of the scene's surfaces; densities are those of `photons`.
 MethodInfo image_space_method() {
     return {.name = "image-space",
             .summary = "photon mapping, photons traced through cube maps of the surfaces",

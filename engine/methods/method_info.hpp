@@ -21,8 +21,8 @@ struct Abilities {
     bool footprints = false;    ///< its photons carry ray differentials
     bool progressive = false;   ///< its widths fall from pass to pass, without an option for that
     bool keeps_photons = false; ///< images depend on those before them in the same session
-    /// Photons find their hits in images of the scene, which do not show everything: some are lost,
-    /// and some hit what lies behind.
+    /// Photons find their hits in cube maps, which do not show everything: some are lost, and some
+    /// hit what lies behind.
     bool approximate_hits = false;
 };
 

@@ -48,7 +48,8 @@ struct CubeCoverage {
     uint pad0, pad1;
 };
 
-// Texels of a candidate that one invocation adds up; it divides the texels of every map.
+// Texels of a candidate that one invocation adds up. It divides the texels of maps whose size is
+// even.
 CONSTANT uint texels_per_area = 24u;
 
 // Bit in the mask of a point: no candidate sees it. The others are those of chosen maps.

@@ -54,10 +54,10 @@ TEST_F(ImageSpace, LittleFluxIsLostInABox) {
     EXPECT_LE(statistics.own.at("maps"), 8);
     EXPECT_EQ(statistics.own.at("map_size"), 128);
     EXPECT_EQ(statistics.own.at("map_layers"), 1);
-    EXPECT_LE(statistics.own.at("maps_missing"), 0.01);
+    EXPECT_LE(statistics.own.at("points_missed"), 0.01);
 }
 
-TEST_F(ImageSpace, HasAsManyMapsAsRequested) {
+TEST_F(ImageSpace, HasAtMostAsManyMapsAsRequested) {
     const Scene scene = load_asset("cornell_point.glb");
     for (const char* count : {"1", "3", "30"}) {
         RenderSettings settings = cube_settings(8);

@@ -1,9 +1,9 @@
 #include "shared/kernels/imagespace/triangle_plane.h"
 
-// A map sees a place if the plane of the triangle that it shows in that direction is as far, but
+// A map shows a place if the plane of the triangle that it shows in that direction is as far, but
 // for this share: neighbouring triangles of a curved surface are, though a small map shows only
-// some.
-CONSTANT real least_depth = real(0.998);
+// some. If it is farther, the place is too small for the map.
+CONSTANT real depth_error = real(0.002);
 
 // Surfaces that are seen at a smaller cosine do not count as seen: a texel shows very much of them.
 CONSTANT real least_cosine = real(0.05);
@@ -24,5 +24,6 @@ FN bool map_sees(uint map, vec3 position, uint triangle) {
     TrianglePlane plane = triangle_plane(shown);
     real cosine = dot3(plane.normal, way);
     real depth = dot3(plane.normal, plane.corner - center) / cosine;
-    return abs(cosine) >= least_cosine && (shown == triangle || depth >= least_depth * distance);
+    return abs(cosine) >= least_cosine &&
+           (shown == triangle || abs(depth - distance) <= depth_error * distance);
 }

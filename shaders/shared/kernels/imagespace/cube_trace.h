@@ -31,6 +31,10 @@ struct Search {
     bool escapes;
 };
 
+FN bool leaves_triangle(IN(Search) search) {
+    return search.from != no_triangle && search.enter == real(0.0);
+}
+
 FN bool accept(HitRecord found, INOUT(Search) search) {
     if (!comes_before(search.passed, found)) {
         return false;
@@ -152,7 +156,7 @@ FN void search_as_published(INOUT(Search) search) {
     for (uint map = 0u; map < params.centers * params.layers; ++map) {
         PlaneRay ray = plane_ray(search.origin - center_of(map), search.direction);
         Look ahead = look(ray, map, vec2(real(1.0), real(0.0)));
-        if (!sees_surface(ahead)) {
+        if (!sees_surface(ahead)) { // "a point at infinity" (type A)
             search.escapes = search.escapes || map % params.layers == layer_opaque;
         } else if (ray.start == real(0.0) && ray.height == real(0.0)) {
             meet_at(ray, map, ahead, search);
@@ -166,11 +170,11 @@ FN void search_as_published(INOUT(Search) search) {
 struct Start {
     Look look;
     bool hidden;
-    bool clear; // the map shows all that is near
+    bool shown; // the map shows the triangle that the ray leaves
 };
 
 // On the triangle that the ray leaves, the start is hidden where the ray leaves on the side that
-// faces away from the center. Elsewhere it may be too small for the map to show it.
+// faces away from the center.
 FN Start look_at_start(IN(PlaneRay) ray, uint map, IN(Search) search) {
     vec2 place = vec2(ray.start + search.enter, ray.height);
     real reach = sqrt(place.x * place.x + place.y * place.y);
@@ -178,24 +182,33 @@ FN Start look_at_start(IN(PlaneRay) ray, uint map, IN(Search) search) {
     start.look = look(ray, map, place);
     real distance = start.look.distance;
     start.hidden = distance < (real(1.0) - depth_error) * reach;
-    start.clear = !start.hidden;
-    if (search.from != no_triangle && search.enter == real(0.0)) {
+    start.shown = false;
+    if (leaves_triangle(search)) {
         vec3 in_map = in_space(ray, place);
-        bool shown =
+        start.shown =
             abs(distance - reach) <= depth_error * reach || shows(map, in_map, search.from);
         bool away = dot3(search.normal, in_map) * dot3(search.normal, search.direction) > real(0.0);
-        start.hidden = shown ? away : start.hidden;
-        start.clear = shown && !away;
+        start.hidden = start.shown ? away : start.hidden;
     }
     start.look.distance = start.hidden ? min(distance, reach) : max(distance, reach);
     return start;
 }
 
+// Whether some map around the center shows the triangle that the ray leaves. It may be too small.
+FN bool shows_start(IN(PlaneRay) ray, uint center, IN(Search) search) {
+    bool shown = !leaves_triangle(search);
+    for (uint layer = 0u; layer < params.layers && !shown; ++layer) {
+        shown = look_at_start(ray, center * params.layers + layer, search).shown;
+    }
+    return shown;
+}
+
 // Looks at the ray's points within the scene, in directions that turn evenly, and searches where a
 // surface begins to hide them, or ends to: from behind a wall, the ray comes through it. Where it
 // only passes the edge of something, nothing is met. Returns whether the map shows all of the ray's
-// way to its hit, or that there is none.
-FN bool march(IN(PlaneRay) ray, uint map, INOUT(Search) search) {
+// way to its hit, or that there is none. start_shown: some map around the center shows where the
+// ray starts.
+FN bool march(IN(PlaneRay) ray, uint map, bool start_shown, INOUT(Search) search) {
     vec2 from = unit_direction(vec2(ray.start + search.enter, ray.height));
     vec2 to = unit_direction(vec2(ray.start + search.leave, ray.height));
     vec2 middle = unit_direction(from + to);
@@ -203,8 +216,8 @@ FN bool march(IN(PlaneRay) ray, uint map, INOUT(Search) search) {
     Start start = look_at_start(ray, map, search);
     Look before = start.look;
     bool hidden = start.hidden;
-    bool clear = start.clear;
-    search.is_seen = search.is_seen || clear;
+    bool clear = start_shown && !hidden;
+    search.is_seen = search.is_seen || (clear && (start.shown || !leaves_triangle(search)));
     for (uint i = 1u; i <= params.march; ++i) {
         real turned = real(2u * i) / real(params.march);
         vec2 direction =
@@ -249,10 +262,13 @@ FN bool look_from_center(IN(PlaneRay) ray, uint map, INOUT(Search) search) {
 FN bool search_around(uint center, INOUT(Search) search) {
     PlaneRay ray = plane_ray(search.origin - vec3(centers[center]), search.direction);
     bool from_center = ray.start == real(0.0) && ray.height == real(0.0);
+    bool start_shown = from_center || shows_start(ray, center, search);
+    search.is_seen = search.is_seen || from_center;
     bool done = true;
     for (uint layer = 0u; layer < params.layers; ++layer) {
         uint map = center * params.layers + layer;
-        bool clear = from_center ? look_from_center(ray, map, search) : march(ray, map, search);
+        bool clear =
+            from_center ? look_from_center(ray, map, search) : march(ray, map, start_shown, search);
         done = done && clear;
     }
     return done;

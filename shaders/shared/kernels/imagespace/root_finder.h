@@ -101,10 +101,10 @@ FN Look iterate(IN(PlaneRay) ray, uint map, Look ahead, uint steps) {
     Look last = ahead;
     real x = ahead.distance;
     for (uint i = 0u; i < steps; ++i) {
-        x = max(x, ray.start);
         if (!is_finite(x)) {
             break;
         }
+        x = max(x, ray.start);
         Look before = hidden;
         last = look(ray, map, vec2(x, ray.height));
         if (!sees_surface(last)) {
