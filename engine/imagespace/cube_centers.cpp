@@ -14,8 +14,10 @@ namespace argand {
 
 namespace {
 
-// Rounds of adding one and dropping one. They end by themselves, unless two candidates take turns.
+// Rounds of adding one and dropping one. They end where one adds hardly more than the one that it
+// would replace: else two candidates may take turns.
 constexpr std::uint32_t most_rounds = 16;
+constexpr double least_progress = 1e-3;
 
 /// The candidates, and what the chosen ones of them see.
 class Candidates {
@@ -214,11 +216,15 @@ bool update(Candidates& all, std::size_t fixed, std::vector<std::size_t>& chosen
     if (!best || chosen.size() == fixed) {
         return false;
     }
+    const double gained = all.gain(*best);
     all.choose(*best);
     chosen.push_back(*best);
-    const auto least =
+    auto least =
         std::min_element(chosen.begin() + static_cast<std::ptrdiff_t>(fixed), chosen.end(),
                          [&](std::size_t a, std::size_t b) { return all.gain(a) < all.gain(b); });
+    if (gained - all.gain(*least) <= least_progress) {
+        least = chosen.end() - 1;
+    }
     const std::size_t dropped = *least;
     all.drop(dropped);
     chosen.erase(least);
