@@ -147,7 +147,7 @@ nlohmann::ordered_json Bench::measure(const std::string& name, const Way& way) {
             const auto all = download<RayRecord>(device_, rays.rays, workspace.slots);
             for (const std::uint32_t i : active) {
                 if (all[i].t_max >= 0) {
-                    compare(truths[i], hits[i], scene_.record.radius, sums);
+                    compare(truths[i], hits[i], double(scene_.record.radius), sums);
                 }
             }
         };
