@@ -134,6 +134,15 @@ std::vector<glm::vec4> places_of_photons(RenderContext& c, const CubeMaps& maps)
     return places;
 }
 
+/// Maps of one layer around each place, of an even size that fits into a buffer.
+CubeMaps cast_candidates(RenderContext& c, const std::vector<glm::vec3>& places) {
+    std::uint32_t size = candidate_size;
+    while (size > 2 && cube_texels(size) * places.size() > max_cube_texels(c.device)) {
+        size /= 2;
+    }
+    return cast_cube_maps(c.device, c.on_device, places, size, 1);
+}
+
 /// Adds a place on the way from the camera to a point in view. Nothing is in the way, unless the
 /// point is seen by way of a mirror, or the camera is not a perspective one.
 void add_toward(const RenderContext& c, const glm::vec4& query, float share,
@@ -187,7 +196,7 @@ public:
         }
         const CubeMapOptions options = cube_map_options_of(c.settings);
         Candidates candidates = find_candidates(c, queries, options.centers.most);
-        CubeMaps maps = cast_cube_maps(c.device, c.on_device, candidates.places, candidate_size, 1);
+        CubeMaps maps = cast_candidates(c, candidates.places);
         std::vector<glm::vec4> points = some_of(queries, most_points);
         const std::size_t in_view = points.size();
         for (const std::vector<glm::vec4>& more : {places_of_photons(c, maps), candidates.starts}) {
@@ -208,7 +217,7 @@ public:
                 add_toward(c, points[chosen.unseen[i]], 0.9f, candidates.places);
             }
             if (candidates.places.size() > before) {
-                maps = cast_cube_maps(c.device, c.on_device, candidates.places, candidate_size, 1);
+                maps = cast_candidates(c, candidates.places);
                 chosen = choose();
             }
         }

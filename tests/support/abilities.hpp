@@ -23,6 +23,11 @@ inline bool keeps_photons(std::string_view method) {
     return builtin_methods().at(method).abilities.keeps_photons;
 }
 
+/// Whether its photons find their hits in cube maps, whose size depends on the device.
+inline bool has_approximate_hits(std::string_view method) {
+    return builtin_methods().at(method).abilities.approximate_hits;
+}
+
 /// The methods whose photons hit what rays hit.
 inline std::vector<std::string> exact_methods() {
     std::vector<std::string> names = method_names();
