@@ -79,14 +79,14 @@ public:
     }
 
     /// Share of the points that some candidate sees and no chosen one does.
-    double missing() const {
-        const std::vector<std::uint32_t> masks = point_masks();
+    double missing() const { return missing_of(point_masks()); }
+
+    static double missing_of(const std::vector<std::uint32_t>& masks) {
         const auto missed = std::count(masks.begin(), masks.end(), 0u);
-        const auto unseen = std::count_if(masks.begin(), masks.end(), [](std::uint32_t mask) {
-            return (mask & unseen_by_any) != 0;
+        const auto seen = std::count_if(masks.begin(), masks.end(), [](std::uint32_t mask) {
+            return (mask & unseen_by_any) == 0;
         });
-        const auto seen = static_cast<double>(masks.size()) - static_cast<double>(unseen);
-        return seen > 0 ? static_cast<double>(missed) / seen : 0;
+        return seen > 0 ? static_cast<double>(missed) / static_cast<double>(seen) : 0;
     }
 
     void choose(std::size_t candidate) {
@@ -137,10 +137,7 @@ private:
         p.map = map;
         p.bit = bit;
         dispatch(device_,
-                 kernels::cube_cover{.texels = maps_.texels,
-                                     .centers = maps_.centers,
-                                     .positions = scene_.positions,
-                                     .triangles = scene_.triangles,
+                 kernels::cube_cover{.cube = cube_bindings(scene_, maps_),
                                      .masks = masks_,
                                      .points = points_,
                                      .params = p},
@@ -154,19 +151,13 @@ private:
         }
         device_.upload(records_, 0, std::as_bytes(std::span(records)));
         dispatch(device_,
-                 kernels::cube_areas{.texels = maps_.texels,
-                                     .centers = maps_.centers,
-                                     .positions = scene_.positions,
-                                     .triangles = scene_.triangles,
+                 kernels::cube_areas{.cube = cube_bindings(scene_, maps_),
                                      .masks = masks_,
                                      .candidates = records_,
                                      .params = params()},
                  texel_count() / texels_per_area);
         dispatch(device_,
-                 kernels::cube_points{.texels = maps_.texels,
-                                      .centers = maps_.centers,
-                                      .positions = scene_.positions,
-                                      .triangles = scene_.triangles,
+                 kernels::cube_points{.cube = cube_bindings(scene_, maps_),
                                       .masks = masks_,
                                       .points = points_,
                                       .candidates = records_,
@@ -243,8 +234,8 @@ ChosenCenters choose_centers(Device& device, const DeviceScene& scene, const Cub
     while (result.rounds < most_rounds && update(all, fixed, result.candidates)) {
         ++result.rounds;
     }
-    result.missing = all.missing();
     const std::vector<std::uint32_t> masks = all.point_masks();
+    result.missing = Candidates::missing_of(masks);
     for (std::size_t i = 0; i < masks.size(); ++i) {
         if ((masks[i] & unseen_by_any) != 0) {
             result.unseen.push_back(i);

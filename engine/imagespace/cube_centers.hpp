@@ -32,12 +32,12 @@ struct ChosenCenters {
 
 /// Chooses centers that show as much as possible (Yao et al. 2010, section 4): first, greedily, the
 /// candidate that shows the most of what those before do not; then one is added and the one is
-/// dropped that shows the least alone, until these are the same. Candidates that mostly see
-/// surfaces from behind are not chosen, unless all do. What counts is, one half each, the area of
-/// the surfaces, as in the paper, and the number of `points`: a room on a large ground is small,
-/// but there the photons may be. Without points it is the area alone.
-/// candidates: their maps, of one layer and an even size. fixed: how many of them, from the first
-/// on, are chosen in any case; less than settings.most. Waits for the device.
+/// dropped that shows the least alone, until one adds hardly more than the other showed. Candidates
+/// that mostly see surfaces from behind are not chosen, unless all do. What counts is, one half
+/// each, the area of the surfaces, as in the paper, and the number of `points`: a room on a large
+/// ground is small, but there the photons may be. Without points it is the area alone. candidates:
+/// their maps, of one layer and an even size. fixed: how many of them, from the first on, are
+/// chosen in any case; less than settings.most. Waits for the device.
 ChosenCenters choose_centers(Device& device, const DeviceScene& scene, const CubeMaps& candidates,
                              std::size_t fixed, std::span<const glm::vec4> points,
                              const CenterSettings& settings);

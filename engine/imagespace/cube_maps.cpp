@@ -70,6 +70,13 @@ std::uint64_t max_cube_texels(const Device& device) {
                                    std::numeric_limits<std::uint32_t>::max());
 }
 
+kernels::CubeBindings cube_bindings(const DeviceScene& scene, const CubeMaps& maps) {
+    return {.texels = maps.texels,
+            .centers = maps.centers,
+            .positions = scene.positions,
+            .triangles = scene.triangles};
+}
+
 CubeMaps cast_cube_maps(Device& device, const DeviceScene& scene,
                         std::span<const glm::vec3> centers, std::uint32_t size,
                         std::uint32_t layers) {
@@ -90,19 +97,16 @@ CubeMaps cast_cube_maps(Device& device, const DeviceScene& scene,
            .active = device.scratch("active rays of cube maps", slots * sizeof(std::uint32_t)),
            .hits = device.scratch("hits of cube maps", slots * sizeof(HitRecord)),
            .traversal = make_traversal(device, slots)};
-    const SceneRecord& record = scene.record;
-    const double reach =
-        glm::length(glm::dvec3(record.center_x, record.center_y, record.center_z)) + record.radius;
     for (std::uint64_t first = 0; first < directions; first += slots) {
-        const CubeBatch batch{
-            .first = static_cast<std::uint32_t>(first),
-            .count = static_cast<std::uint32_t>(std::min(slots, directions - first)),
-            .size = size,
-            .layers = layers,
-            .error = static_cast<float>(reach * 8 * std::numeric_limits<float>::epsilon()),
-            .pad0 = 0,
-            .pad1 = 0,
-            .pad2 = 0};
+        const CubeBatch batch{.first = static_cast<std::uint32_t>(first),
+                              .count =
+                                  static_cast<std::uint32_t>(std::min(slots, directions - first)),
+                              .size = size,
+                              .layers = layers,
+                              .error = position_error(scene.record),
+                              .pad0 = 0,
+                              .pad1 = 0,
+                              .pad2 = 0};
         w.traversal.careful = false;
         while (!cast(device, scene, w, maps, batch)) {
             w.traversal.careful = true;
@@ -131,20 +135,14 @@ void trace_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& m
                             .high_x = high.x,
                             .high_y = high.y,
                             .high_z = high.z};
-    const kernels::cube_trace kernel{.texels = maps.texels,
-                                     .centers = maps.centers,
-                                     .positions = scene.positions,
-                                     .triangles = scene.triangles,
-                                     .rays = batch.rays,
-                                     .active_rays = batch.active,
-                                     .counts = counts_or(batch.count, batch.active),
-                                     .hits = batch.results,
-                                     .params = params};
-    if (batch.count.on_device()) {
-        dispatch_indirect(device, kernel, batch.count.buffer, batch.count.index);
-    } else {
-        dispatch(device, kernel, batch.count.bound);
-    }
+    dispatch(device,
+             kernels::cube_trace{.cube = cube_bindings(scene, maps),
+                                 .rays = batch.rays,
+                                 .active_rays = batch.active,
+                                 .counts = counts_or(batch.count, batch.active),
+                                 .hits = batch.results,
+                                 .params = params},
+             batch.count);
 }
 
 } // namespace argand

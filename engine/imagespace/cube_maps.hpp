@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/cube_bindings.hpp"
 #include "world/device_scene.hpp"
 
 #include <cstdint>
@@ -22,6 +23,10 @@ std::uint32_t layers_of(const DeviceScene& scene);
 
 /// The most texels of maps that fit into a buffer of the device.
 std::uint64_t max_cube_texels(const Device& device);
+
+/// What the kernels that read cube maps bind in common
+/// (shaders/comp/imagespace/cube_bindings.glsl).
+kernels::CubeBindings cube_bindings(const DeviceScene& scene, const CubeMaps& maps);
 
 /// Fills the maps around each center by casting rays through the scene's tree. Waits for the
 /// device. Requires centers, and no more texels than max_cube_texels().

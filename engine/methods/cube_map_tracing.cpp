@@ -91,23 +91,23 @@ std::vector<glm::vec4> some_of(std::span<const glm::vec4> points, std::size_t mo
 
 /// Where photons start; of those from outside, on their way to the scene's box, at most this part
 /// of its radius before it.
-std::vector<glm::vec3> starts_of_photons(RenderContext& c) {
+std::vector<glm::vec4> starts_of_photons(RenderContext& c) {
     constexpr float before_box = 0.3f;
     PhotonWorkspace workspace = make_photon_workspace(c.device, emitted_for_starts);
-    std::vector<glm::vec3> starts;
+    std::vector<glm::vec4> starts;
     const Bounds& box = c.on_device.box;
     workspace.tracer = [&](const RayBatch& batch) {
         for (const RayRecord& ray : download<RayRecord>(c.device, batch.rays, workspace.slots)) {
             const glm::vec3 origin(ray.origin_x, ray.origin_y, ray.origin_z);
             const glm::vec3 direction(ray.direction_x, ray.direction_y, ray.direction_z);
             if (ray.t_max >= 0 && is_in(box, origin)) {
-                starts.push_back(origin);
+                starts.emplace_back(origin, 0);
             } else if (const std::optional<float> enters = entry(box, origin, direction);
                        ray.t_max >= 0 && enters) {
                 const float u =
                     random4(0, static_cast<std::uint32_t>(starts.size()), 2, 0xce97e5u).x;
                 const float before = before_box * c.on_device.record.radius * u * u;
-                starts.push_back(origin + direction * std::max(*enters - before, 0.0f));
+                starts.emplace_back(origin + direction * std::max(*enters - before, 0.0f), 0);
             }
         }
         c.device.fill(batch.results, no_triangle); // nobody goes on
@@ -159,18 +159,14 @@ Candidates find_candidates(RenderContext& c, std::span<const glm::vec4> queries,
     const Bounds& box = c.on_device.box;
     found.places = point_lights(c.scene, box, std::min(most_fixed, most - 1));
     found.fixed = found.places.size();
-    const std::vector<glm::vec3> starts = starts_of_photons(c);
-    for (const glm::vec3& start : starts) {
-        if (is_in(box, start)) {
-            found.starts.emplace_back(start, 0);
+    found.starts = starts_of_photons(c);
+    for (const glm::vec4& start : some_of(found.starts, most_candidates_at_lights)) {
+        const glm::vec3 place(start);
+        if (std::find(found.places.begin(), found.places.end(), place) == found.places.end()) {
+            found.places.push_back(place);
         }
     }
-    const std::size_t step = step_for(starts.size(), most_candidates_at_lights);
-    for (std::size_t i = 0; i < starts.size(); i += step) {
-        if (std::find(found.places.begin(), found.places.end(), starts[i]) == found.places.end()) {
-            found.places.push_back(starts[i]);
-        }
-    }
+    std::erase_if(found.starts, [&](const glm::vec4& start) { return !is_in(box, start); });
     for (std::uint32_t i = 0; i < candidates_in_view && !queries.empty(); ++i) {
         const glm::vec4 u = random4(0, i, 1, 0xce97e5u);
         const auto query =

@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace argand {
@@ -187,10 +186,6 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
 /// The samples lie behind the stored slots.
 void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                         std::uint32_t samples, double height) {
-    // A rounding of positions, which are interpolated between vertices anywhere in the scene.
-    const double reach = glm::length(glm::dvec3(scene.record.center_x, scene.record.center_y,
-                                                scene.record.center_z)) +
-                         scene.record.radius;
     const std::uint64_t sides = 2 * std::uint64_t(samples);
     // Rays go on behind both faces of a pane.
     const bool some_pass =
@@ -202,7 +197,7 @@ void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspac
             .first = static_cast<std::uint32_t>(first),
             .count = static_cast<std::uint32_t>(std::min(w.slots, sides - first)),
             .height = static_cast<float>(height),
-            .error = static_cast<float>(reach * 8 * std::numeric_limits<float>::epsilon())};
+            .error = position_error(scene.record)};
         dispatch(device,
                  kernels::area_rays{.counters = w.counters,
                                     .photons = w.photons,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -128,6 +129,12 @@ float radius_around(const glm::vec3& point, const SceneRecord& scene) {
     constexpr float rounding = 1.0001f;
     const glm::vec3 center(scene.center_x, scene.center_y, scene.center_z);
     return rounding * (scene.radius + glm::distance(point, center));
+}
+
+float position_error(const SceneRecord& scene) {
+    const double reach =
+        glm::length(glm::dvec3(scene.center_x, scene.center_y, scene.center_z)) + scene.radius;
+    return static_cast<float>(reach * 8 * std::numeric_limits<float>::epsilon());
 }
 
 void set_aims(Device& device, DeviceScene& scene, std::vector<LightAim> aims) {

@@ -85,6 +85,10 @@ void set_light_choices(Device& device, DeviceScene& scene, const std::vector<dou
 /// Radius of a sphere around a point that contains the scene's bounding sphere.
 float radius_around(const glm::vec3& point, const SceneRecord& scene);
 
+/// Bound of the rounding errors of positions, which are interpolated between vertices anywhere in
+/// the scene.
+float position_error(const SceneRecord& scene);
+
 /// Aims photons from outside, and uploads `lights` with it. Those of lights that are not from
 /// outside are left as they are. Records only.
 void set_aims(Device& device, DeviceScene& scene, std::vector<LightAim> aims);

@@ -19,9 +19,7 @@ FN uint cube_coordinate(real s, uint size) {
 // The texel in a direction of any length but 0. Faces look along +x, -x, +y, -y, +z and -z; columns
 // and rows follow the two axes after that one, in cyclic order.
 FN uint cube_texel(vec3 direction, uint size) {
-    vec3 extent = abs(direction);
-    uint axis =
-        extent.x > extent.y ? (extent.x > extent.z ? 0u : 2u) : (extent.y > extent.z ? 1u : 2u);
+    uint axis = longest_axis(direction);
     vec3 d = axis_last(axis, direction);
     uint face = 2u * axis + (d.z < real(0.0) ? 1u : 0u);
     real scale = real(1.0) / abs(d.z);
@@ -46,9 +44,7 @@ FN vec3 cube_direction(uint texel, uint size) {
 // A direction some texels away from another one, along the two axes after that of its face. Beyond
 // the edge of a face it lies on the next one.
 FN vec3 cube_neighbour(vec3 direction, vec2 texels, uint size) {
-    vec3 extent = abs(direction);
-    uint axis =
-        extent.x > extent.y ? (extent.x > extent.z ? 0u : 2u) : (extent.y > extent.z ? 1u : 2u);
+    uint axis = longest_axis(direction);
     vec3 d = axis_last(axis, direction);
     real step = abs(d.z) * real(2.0) / real(size);
     return axis_in_place(axis, vec3(d.x + texels.x * step, d.y + texels.y * step, d.z));

@@ -33,11 +33,16 @@ FN vec3 axis_last(uint axis, vec3 v) {
     return axis == 0u ? vec3(v.y, v.z, v.x) : (axis == 1u ? vec3(v.z, v.x, v.y) : v);
 }
 
+// The axis along which v is longest.
+FN uint longest_axis(vec3 v) {
+    vec3 size = abs(v);
+    return size.x > size.y ? (size.x > size.z ? 0u : 2u) : (size.y > size.z ? 1u : 2u);
+}
+
 // direction: of any length but 0.
 FN RayShear ray_shear(vec3 direction) {
-    vec3 size = abs(direction);
     RayShear shear;
-    shear.axis = size.x > size.y ? (size.x > size.z ? 0u : 2u) : (size.y > size.z ? 1u : 2u);
+    shear.axis = longest_axis(direction);
     vec3 d = axis_last(shear.axis, direction);
     shear.x = d.x / d.z;
     shear.y = d.y / d.z;

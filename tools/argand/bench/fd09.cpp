@@ -20,10 +20,19 @@ std::uint64_t photons_in_paper(const std::string& name) {
     return name.starts_with("sibenik") ? 512'000 : name.starts_with("sponza") ? 256'000 : 128'000;
 }
 
-std::vector<std::string> files(const Fd09Settings& settings) {
-    std::vector<std::string> found = settings.scenes;
+std::string cell(const nlohmann::ordered_json& value) {
+    return value.is_number_float() ? fmt::format("{:.4g}", value.get<double>())
+           : value.is_string()     ? value.get<std::string>()
+                                   : value.dump();
+}
+
+} // namespace
+
+std::vector<std::string> scene_files(const std::vector<std::string>& given,
+                                     std::span<const char* const> own) {
+    std::vector<std::string> found = given;
     if (found.empty()) {
-        for (const char* name : own_scenes) {
+        for (const char* name : own) {
             const std::string file = fmt::format("assets/{}.glb", name);
             if (!std::filesystem::exists(file)) {
                 fail("measuring '{}': there is no such file here; run in the project's folder, or "
@@ -35,14 +44,6 @@ std::vector<std::string> files(const Fd09Settings& settings) {
     }
     return found;
 }
-
-std::string cell(const nlohmann::ordered_json& value) {
-    return value.is_number_float() ? fmt::format("{:.4g}", value.get<double>())
-           : value.is_string()     ? value.get<std::string>()
-                                   : value.dump();
-}
-
-} // namespace
 
 std::vector<std::string> fd09_parts() {
     return {"table1", "table2", "table3", "figure4", "figure5", "budgets"};
@@ -59,7 +60,7 @@ std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings)
     PaperTable kernels{"Figure 4: kernels"};
     PaperTable shares{"Figure 5: where the time goes"};
     PaperTable budgets{"Error at equal time"};
-    for (const std::string& file : files(settings)) {
+    for (const std::string& file : scene_files(settings.scenes, own_scenes)) {
         Scene scene = load_gltf(file);
         scene.name = std::filesystem::path(file).stem().string();
         RenderSettings render;

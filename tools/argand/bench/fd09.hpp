@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,11 @@ struct TreeTables {
 };
 
 std::vector<std::string> fd09_parts();
+
+/// The glTF files of a benchmark: those given, or those of these names among this project's own.
+/// Throws Error if there is one that does not exist.
+std::vector<std::string> scene_files(const std::vector<std::string>& given,
+                                     std::span<const char* const> own);
 
 /// Measures one scene after the other.
 std::vector<PaperTable> bench_fd09(Device& device, const Fd09Settings& settings);

@@ -1,7 +1,6 @@
 #include "ywcyp10.hpp"
 
 #include "base/clock.hpp"
-#include "base/error.hpp"
 #include "base/median.hpp"
 #include "device/copy_elements.hpp"
 #include "imagespace/cube_centers.hpp"
@@ -179,19 +178,8 @@ nlohmann::ordered_json Bench::measure(const std::string& name, const Way& way) {
 } // namespace
 
 PaperTable bench_ywcyp10(Device& device, const Ywcyp10Settings& settings) {
-    std::vector<std::string> files = settings.scenes;
-    if (files.empty()) {
-        for (const char* name : own_scenes) {
-            files.push_back(fmt::format("assets/{}.glb", name));
-        }
-    }
     PaperTable table{"Hits in cube maps"};
-    for (const std::string& file : files) {
-        if (!std::filesystem::exists(file)) {
-            fail("measuring '{}': there is no such file here; run in the project's folder, or name "
-                 "scenes with --scene",
-                 file);
-        }
+    for (const std::string& file : scene_files(settings.scenes, own_scenes)) {
         const Scene scene = load_gltf(file);
         Bench bench(device, scene, settings);
         for (const Way& way : ways) {

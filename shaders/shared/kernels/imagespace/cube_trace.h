@@ -194,26 +194,16 @@ FN Start look_at_start(IN(PlaneRay) ray, uint map, IN(Search) search) {
     return start;
 }
 
-// Whether some map around the center shows the triangle that the ray leaves. It may be too small.
-FN bool shows_start(IN(PlaneRay) ray, uint center, IN(Search) search) {
-    bool shown = !leaves_triangle(search);
-    for (uint layer = 0u; layer < params.layers && !shown; ++layer) {
-        shown = look_at_start(ray, center * params.layers + layer, search).shown;
-    }
-    return shown;
-}
-
 // Looks at the ray's points within the scene, in directions that turn evenly, and searches where a
 // surface begins to hide them, or ends to: from behind a wall, the ray comes through it. Where it
 // only passes the edge of something, nothing is met. Returns whether the map shows all of the ray's
 // way to its hit, or that there is none. start_shown: some map around the center shows where the
 // ray starts.
-FN bool march(IN(PlaneRay) ray, uint map, bool start_shown, INOUT(Search) search) {
+FN bool march(IN(PlaneRay) ray, uint map, Start start, bool start_shown, INOUT(Search) search) {
     vec2 from = unit_direction(vec2(ray.start + search.enter, ray.height));
     vec2 to = unit_direction(vec2(ray.start + search.leave, ray.height));
     vec2 middle = unit_direction(from + to);
     middle = middle.y > real(0.0) ? middle : vec2(real(0.0), real(1.0));
-    Start start = look_at_start(ray, map, search);
     Look before = start.look;
     bool hidden = start.hidden;
     bool clear = start_shown && !hidden;
@@ -261,15 +251,24 @@ FN bool look_from_center(IN(PlaneRay) ray, uint map, INOUT(Search) search) {
 // Searches the maps around a center. Returns whether no others can show anything nearer.
 FN bool search_around(uint center, INOUT(Search) search) {
     PlaneRay ray = plane_ray(search.origin - vec3(centers[center]), search.direction);
-    bool from_center = ray.start == real(0.0) && ray.height == real(0.0);
-    bool start_shown = from_center || shows_start(ray, center, search);
-    search.is_seen = search.is_seen || from_center;
+    uint first = center * params.layers;
     bool done = true;
+    if (ray.start == real(0.0) && ray.height == real(0.0)) {
+        search.is_seen = true;
+        for (uint layer = 0u; layer < params.layers; ++layer) {
+            done = look_from_center(ray, first + layer, search) && done;
+        }
+        return done;
+    }
+    // The triangle that the ray leaves is in one layer, if it is not too small to be in any.
+    Start starts[most_layers];
+    bool shown = !leaves_triangle(search);
     for (uint layer = 0u; layer < params.layers; ++layer) {
-        uint map = center * params.layers + layer;
-        bool clear =
-            from_center ? look_from_center(ray, map, search) : march(ray, map, start_shown, search);
-        done = done && clear;
+        starts[layer] = look_at_start(ray, first + layer, search);
+        shown = shown || starts[layer].shown;
+    }
+    for (uint layer = 0u; layer < params.layers; ++layer) {
+        done = march(ray, first + layer, starts[layer], shown, search) && done;
     }
     return done;
 }
