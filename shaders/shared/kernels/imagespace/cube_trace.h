@@ -47,8 +47,9 @@ FN bool accept(HitRecord found, INOUT(Search) search) {
 
 // A direction from the middle of a texel to that of one of the eight around it, or of itself.
 FN vec3 around(vec3 direction, uint which) {
-    return cube_neighbour(
-        direction, vec2(real(which % 3u) - real(1.0), real(which / 3u) - real(1.0)), params.size);
+    uint row = which / 3u;
+    vec2 step = vec2(real(which % 3u) - real(1.0), real(row) - real(1.0));
+    return cube_neighbour(direction, step, params.size);
 }
 
 FN bool intersect(vec3 origin, IN(RayShear) shear, uint triangle, OUT(HitRecord) found) {

@@ -18,6 +18,20 @@ FN AimedNumbers aim(LightRecord light, vec4 u) {
     return a;
 }
 
+FN Targets scene_targets() {
+    SceneRecord s = scene[0];
+    Targets targets;
+    targets.spheres[0] = vec4(s.target_0);
+    targets.spheres[1] = vec4(s.target_1);
+    targets.spheres[2] = vec4(s.target_2);
+    targets.spheres[3] = vec4(s.target_3);
+    targets.count = s.target_count;
+    targets.share = s.target_share;
+    targets.view = vec4(s.view);
+    targets.view_share = s.view_share;
+    return targets;
+}
+
 // The cone of one of the pass's photons, as if all were of this light.
 FN uint emitted_cone(LightRecord light) {
     real photons = real(1.0) / batch.inverse_total;
@@ -54,16 +68,6 @@ FN void main() {
     Sphere bounds;
     bounds.center = scene_center();
     bounds.radius = scene[0].radius;
-    SceneRecord s = scene[0];
-    Targets targets;
-    targets.spheres[0] = vec4(s.target_0);
-    targets.spheres[1] = vec4(s.target_1);
-    targets.spheres[2] = vec4(s.target_2);
-    targets.spheres[3] = vec4(s.target_3);
-    targets.count = s.target_count;
-    targets.share = s.target_share;
-    targets.view = vec4(s.view);
-    targets.view_share = s.view_share;
     EmittedPhoton p;
     bool emitted;
     vec4 rest = vec4(v.z, v.w, v.x, v.y);
@@ -79,7 +83,7 @@ FN void main() {
     if (aimed_from_outside) {
         emitted = light_emit_from_disc(light, light_kinds, bounds, aimed.concentration, u, rest, p);
     } else {
-        emitted = light_emit_aimed(light, light_kinds, bounds, targets, u, rest, w.y, p);
+        emitted = light_emit_aimed(light, light_kinds, bounds, scene_targets(), u, rest, w.y, p);
     }
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
