@@ -50,7 +50,8 @@ std::vector<std::uint32_t> words_of(Device& device, const BufferView& range) {
 PairedDevice::PairedDevice(Device& a, Device& b, Pairing pairing)
     : a_(a), b_(b), pairing_(pairing), info_(a.info()),
       primitives_(make_paired_primitives(*this, a, b)) {
-    // Kernels use only what both devices offer.
+    // Kernels use only what both devices offer. What rasterisers draw is not the same everywhere.
+    info_.features.raster = false;
     info_.driver += " and " + b.info().driver;
     info_.limits.storage_range =
         std::min(a.info().limits.storage_range, b.info().limits.storage_range);

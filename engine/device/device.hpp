@@ -39,6 +39,7 @@ struct BlockUse {
 };
 
 class Primitives;
+class Raster;
 
 /// A device that executes commands in the order in which they are recorded. All calls except
 /// wait(), download() and stage_times() only record. Barriers follow from the reads and writes that
@@ -85,6 +86,9 @@ public:
 
     /// The backend's own sort, scan, reduce and compact; null if kernels implement them.
     virtual Primitives* primitives() { return nullptr; }
+
+    /// The device's rasteriser; null if it has none.
+    virtual Raster* raster() { return nullptr; }
 
     /// Submits recorded commands without waiting for them.
     virtual void submit() = 0;

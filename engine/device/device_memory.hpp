@@ -28,6 +28,8 @@ public:
                                             const BlockPool::Allocate& allocate,
                                             std::uint32_t kind = 0);
 
+    /// Memory outside blocks is entered by its owner.
+    MemoryLedger& ledger() { return ledger_; }
     const MemoryLedger& ledger() const { return ledger_; }
     const BlockUse& blocks() const { return pool_.use(); }
 

@@ -70,6 +70,7 @@ void apply_environment(DeviceInfo& info) {
         {"subgroups", &info.features.subgroups},
         {"push_descriptors", &info.features.push_descriptors},
         {"timestamps", &info.features.timestamps},
+        {"raster", &info.features.raster},
         {"lane_serial", &info.features.lane_serial}};
     const std::string disabled = environment("ARGAND_DISABLE");
     for (const std::string_view name : split(disabled)) {
@@ -95,7 +96,9 @@ void apply_environment(DeviceInfo& info) {
         {"shared_memory", lower(info.limits.shared_memory)},
         {"storage_buffers", lower(info.limits.storage_buffers)},
         {"texels", lower(info.limits.texels)},
-        {"groups", lower(info.limits.groups)}};
+        {"groups", lower(info.limits.groups)},
+        {"image", lower(info.limits.image)},
+        {"layers", lower(info.limits.layers)}};
     const std::string limited = environment("ARGAND_LIMIT");
     for (const std::string_view setting : split(limited)) {
         const std::size_t equals = std::min(setting.find('='), setting.size());

@@ -16,6 +16,7 @@ struct Features {
     bool subgroups = false; ///< arithmetic, ballot and shuffle in compute shaders ("subgroups")
     bool push_descriptors = false; ///< VK_KHR_push_descriptor ("push_descriptors")
     bool timestamps = false;       ///< GPU time stamps ("timestamps")
+    bool raster = false;           ///< a rasteriser into layers ("raster")
     bool lane_serial = false;      ///< see DeviceInfo::lane_serial() ("lane_serial")
 };
 
@@ -29,6 +30,8 @@ struct Limits {
     std::uint32_t storage_buffers = 0; ///< per shader stage ("storage_buffers")
     std::uint64_t texels = 0; ///< in a buffer that a kernel reads as a utextureBuffer ("texels")
     std::uint32_t groups = 0; ///< work-groups per dimension ("groups")
+    std::uint32_t image = 0;  ///< width and height of what the rasteriser draws ("image")
+    std::uint32_t layers = 0; ///< that it draws at once ("layers")
 };
 
 struct DeviceInfo {

@@ -28,11 +28,18 @@ std::uint64_t max_cube_texels(const Device& device);
 /// (shaders/comp/imagespace/cube_bindings.glsl).
 kernels::CubeBindings cube_bindings(const DeviceScene& scene, const CubeMaps& maps);
 
-/// Fills the maps around each center by casting rays through the scene's tree. Waits for the
-/// device. Requires centers, and no more texels than max_cube_texels().
-CubeMaps cast_cube_maps(Device& device, const DeviceScene& scene,
+/// How maps are made: drawn by the device's rasteriser, or by casting rays through the scene's
+/// tree.
+enum class MapMaking : std::uint8_t { raster, cast };
+
+/// The most texels along the edge of a face that the device draws; 0 if it has no rasteriser.
+std::uint32_t max_drawn_size(Device& device);
+
+/// Makes the maps around each center. Requires centers, no more texels than max_cube_texels(), and
+/// if they are drawn, a size of at most max_drawn_size(). If they are cast, waits for the device.
+CubeMaps make_cube_maps(Device& device, const DeviceScene& scene,
                         std::span<const glm::vec3> centers, std::uint32_t size,
-                        std::uint32_t layers);
+                        std::uint32_t layers, MapMaking making);
 
 /// How rays find their hits in cube maps.
 struct CubeSearchSettings {

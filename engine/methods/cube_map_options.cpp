@@ -25,6 +25,16 @@ Option count_option() {
     return option;
 }
 
+Option making_option() {
+    Option option = own_option("maps",
+                               "How maps are made: drawn by the device's rasteriser, or by casting "
+                               "rays; auto: drawn, unless the device has none or is a CPU",
+                               OptionKind::choice, "auto");
+    option.choices = {"auto", "raster", "cast"};
+    option.sweep.matters = finds_photons;
+    return option;
+}
+
 Option size_option() {
     Option option =
         number_option("map-size",
@@ -86,6 +96,10 @@ CubeMapOptions cube_map_options_of(const RenderSettings& settings) {
         options.centers.least = options.centers.most = whole(settings, count_option());
     }
     options.centers.coverage = own_number(settings, coverage_option());
+    const std::string& making = making_option().get(settings);
+    if (making != "auto") {
+        options.making = making == "raster" ? MapMaking::raster : MapMaking::cast;
+    }
     options.size = whole(settings, size_option());
     options.search = {.steps = whole(settings, steps_option()),
                       .march = whole(settings, march_option()),
@@ -95,8 +109,8 @@ CubeMapOptions cube_map_options_of(const RenderSettings& settings) {
 }
 
 std::vector<Option> cube_map_options() {
-    return {count_option(), size_option(), coverage_option(), steps_option(),
-            march_option(), hits_option(), error_option()};
+    return {count_option(), size_option(),  coverage_option(), making_option(),
+            steps_option(), march_option(), hits_option(),     error_option()};
 }
 
 } // namespace argand

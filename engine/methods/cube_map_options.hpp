@@ -4,13 +4,15 @@
 #include "methods/option.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace argand {
 
 /// The values of cube_map_options() in these settings.
 struct CubeMapOptions {
     CenterSettings centers;
-    std::uint32_t size = 128; ///< texels along the edge of a map's face
+    std::uint32_t size = 128;        ///< texels along the edge of a map's face
+    std::optional<MapMaking> making; ///< none: the faster one on the device
     CubeSearchSettings search;
 };
 

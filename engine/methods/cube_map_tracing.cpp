@@ -134,13 +134,26 @@ std::vector<glm::vec4> places_of_photons(RenderContext& c, const CubeMaps& maps)
     return places;
 }
 
+/// A CPU casts rays faster than it draws the triangles of any but small scenes, six times a map.
+MapMaking making_of(RenderContext& c) {
+    const std::optional<MapMaking> wanted = cube_map_options_of(c.settings).making;
+    const bool can_draw = max_drawn_size(c.device) > 0;
+    if (wanted == MapMaking::raster && !can_draw) {
+        fail("drawing cube maps: '{}' has no rasteriser; try --maps cast, or another device with "
+             "--device",
+             c.device.info().name);
+    }
+    const bool draws = can_draw && c.device.info().kind != DeviceKind::cpu;
+    return wanted ? *wanted : draws ? MapMaking::raster : MapMaking::cast;
+}
+
 /// Maps of one layer around each place, of an even size that fits into a buffer.
-CubeMaps cast_candidates(RenderContext& c, const std::vector<glm::vec3>& places) {
+CubeMaps make_candidates(RenderContext& c, const std::vector<glm::vec3>& places) {
     std::uint32_t size = candidate_size;
     while (size > 2 && cube_texels(size) * places.size() > max_cube_texels(c.device)) {
         size /= 2;
     }
-    return cast_cube_maps(c.device, c.on_device, places, size, 1);
+    return make_cube_maps(c.device, c.on_device, places, size, 1, making_of(c));
 }
 
 /// Adds a place on the way from the camera to a point in view. Nothing is in the way, unless the
@@ -187,12 +200,12 @@ public:
             c.settings.bounces == 0) {
             missing_ = 0;
             centers_ = {glm::vec3(0)}; // no photon is traced
-            cast(c);
+            make(c);
             return;
         }
         const CubeMapOptions options = cube_map_options_of(c.settings);
         Candidates candidates = find_candidates(c, queries, options.centers.most);
-        CubeMaps maps = cast_candidates(c, candidates.places);
+        CubeMaps maps = make_candidates(c, candidates.places);
         std::vector<glm::vec4> points = some_of(queries, most_points);
         const std::size_t in_view = points.size();
         for (const std::vector<glm::vec4>& more : {places_of_photons(c, maps), candidates.starts}) {
@@ -213,7 +226,7 @@ public:
                 add_toward(c, points[chosen.unseen[i]], 0.9f, candidates.places);
             }
             if (candidates.places.size() > before) {
-                maps = cast_candidates(c, candidates.places);
+                maps = make_candidates(c, candidates.places);
                 chosen = choose();
             }
         }
@@ -225,7 +238,7 @@ public:
         if (centers_.empty()) { // nobody sees anything
             centers_.push_back(candidates.places.front());
         }
-        cast(c);
+        make(c);
     }
 
     void persist(Archive& archive, RenderContext& c) override {
@@ -239,7 +252,7 @@ public:
                 fail("loading a saved state: it has no centers of cube maps for '{}'",
                      c.scene.name);
             }
-            cast(c);
+            make(c);
         }
     }
 
@@ -253,25 +266,30 @@ public:
         statistics.own["maps"] = static_cast<double>(centers_.size());
         statistics.own["map_size"] = static_cast<double>(maps_.size);
         statistics.own["map_layers"] = static_cast<double>(maps_.layers);
+        statistics.own["maps_drawn"] = drawn_ ? 1 : 0;
         statistics.own["points_missed"] = missing_;
     }
 
 private:
     /// Makes the maps, as large as the device allows.
-    void cast(RenderContext& c) {
+    void make(RenderContext& c) {
         std::uint32_t size = cube_map_options_of(c.settings).size;
         const std::uint32_t layers = layers_of(c.on_device);
         const std::uint64_t most =
             max_cube_texels(c.device) / (std::uint64_t(layers) * centers_.size());
-        while (size > 1 && cube_texels(size) > most) {
+        const MapMaking making = making_of(c);
+        while (size > 1 && (cube_texels(size) > most ||
+                            (making == MapMaking::raster && size > max_drawn_size(c.device)))) {
             size /= 2;
         }
-        maps_ = cast_cube_maps(c.device, c.on_device, centers_, size, layers);
+        maps_ = make_cube_maps(c.device, c.on_device, centers_, size, layers, making);
+        drawn_ = making == MapMaking::raster;
     }
 
     std::vector<glm::vec3> centers_;
     double missing_ = 0;
     CubeMaps maps_;
+    bool drawn_ = false; ///< by the rasteriser
 };
 
 } // namespace

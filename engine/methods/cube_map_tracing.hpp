@@ -12,7 +12,7 @@ namespace argand {
 /// each image: so an image does not depend on those before it.
 std::unique_ptr<TracingStrategy> make_cube_map_tracing();
 
-/// maps-count, map-size, coverage, steps, march, map-hits, map-error.
+/// maps-count, map-size, coverage, maps, steps, march, map-hits, map-error.
 std::vector<Option> cube_map_options();
 
 } // namespace argand

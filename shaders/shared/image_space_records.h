@@ -23,6 +23,15 @@ struct CubeBatch {
     uint pad0, pad1, pad2;
 };
 
+// A layer of maps that are drawn together.
+struct CubeDraw {
+    uint first; // number of the first map's center
+    uint layer, layers;
+    uint size;       // texels along the edge of a face
+    float32 nearest; // what is nearer to a center is not drawn
+    float32 error;   // bound of the rounding errors of positions
+};
+
 // How rays find their hits in cube maps (Yao et al. 2010, section 5).
 struct CubeSearch {
     CountRecord count;

@@ -47,7 +47,7 @@ protected:
     }
 
     CubeMaps cast(const std::vector<glm::vec3>& centers, std::uint32_t size) {
-        return cast_cube_maps(open(), scene_, centers, size, layers_of(scene_));
+        return make_cube_maps(open(), scene_, centers, size, layers_of(scene_), MapMaking::cast);
     }
 
     std::vector<HitRecord> by_maps(const CubeMaps& maps, const std::vector<RayRecord>& rays,
@@ -225,7 +225,8 @@ TEST_F(CubeMapsTest, ChosenCentersShowMoreThanRandomOnes) {
         std::vector<glm::vec3> places = random_centers(scene_.box, 40, 1);
         const std::vector<glm::vec4> points = points_on(scene, 2000);
         const auto missing = [&](std::size_t fixed, const CenterSettings& settings) {
-            return choose_centers(open(), scene_, cast_cube_maps(open(), scene_, places, 32, 1),
+            return choose_centers(open(), scene_,
+                                  make_cube_maps(open(), scene_, places, 32, 1, MapMaking::cast),
                                   fixed, points, settings);
         };
         const ChosenCenters chosen = missing(0, {.least = k, .most = k});
@@ -248,7 +249,7 @@ TEST_F(CubeMapsTest, ChosenCentersShowMoreThanRandomOnes) {
 TEST_F(CubeMapsTest, AFixedCenterIsChosenWhateverItShows) {
     load("cornell_area.glb");
     std::vector<glm::vec3> places = {{0.9f, 0.1f, 0.9f}, {0, 1, 0.5f}, {50, 50, 50}};
-    const CubeMaps maps = cast_cube_maps(open(), scene_, places, 16, 1);
+    const CubeMaps maps = make_cube_maps(open(), scene_, places, 16, 1, MapMaking::cast);
     const ChosenCenters chosen = choose_centers(open(), scene_, maps, 1, {}, {.most = 2});
     ASSERT_FALSE(chosen.candidates.empty());
     EXPECT_EQ(chosen.candidates.front(), 0u);

@@ -87,6 +87,38 @@ TEST_F(ImageSpace, RendersWithoutAnythingToTrace) {
     EXPECT_EQ(mean(layer(render(dark, cube_settings(8)), "indirect")), glm::dvec3(0));
 }
 
+TEST_F(ImageSpace, DrawnMapsGiveThePictureOfCastOnes) {
+    if (!device().raster()) {
+        GTEST_SKIP() << device().info().name << " has no rasteriser";
+    }
+    for (const char* asset : {"cornell_area.glb", "veil.glb"}) {
+        const Scene scene = load_asset(asset);
+        RenderSettings settings = cube_settings(16);
+        settings.photons = 20'000;
+        settings.own["maps"] = "cast";
+        const RenderResult cast = render(scene, settings);
+        settings.own["maps"] = "raster";
+        const RenderResult drawn = render(scene, settings);
+        EXPECT_EQ(cast.statistics.own.at("maps_drawn"), 0);
+        EXPECT_EQ(drawn.statistics.own.at("maps_drawn"), 1);
+        EXPECT_LT(compare(layer(drawn, ""), layer(cast, "")).rel_mse, 1e-3) << asset;
+    }
+}
+
+TEST_F(ImageSpace, RefusesToDrawWithoutARasteriser) {
+    Device& device = open({"no raster", "raster", ""});
+    const Scene scene = load_asset("cornell_point.glb");
+    RenderSettings settings = cube_settings(4);
+    EXPECT_EQ(testing::render(device, scene, settings).statistics.own.at("maps_drawn"), 0);
+    settings.own["maps"] = "raster";
+    try {
+        testing::render(device, scene, settings);
+        FAIL() << "nothing can draw";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("has no rasteriser; try --maps cast"));
+    }
+}
+
 TEST_F(ImageSpace, MapsShrinkToWhatTheDeviceAddresses) {
     Device& small = open({"small", "", "storage_range=4MiB"});
     RenderSettings settings = cube_settings(8);

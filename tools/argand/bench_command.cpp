@@ -80,9 +80,10 @@ void run_paper(const BenchOptions& options) {
     const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
     const bool by_row = options.paper != "fd09";
     const std::vector<PaperTable> tables =
-        options.paper == "kdgs10"    ? std::vector{bench_kdgs10(*device, options.kdgs10)}
-        : options.paper == "ywcyp10" ? std::vector{bench_ywcyp10(*device, options.ywcyp10)}
-                                     : bench_fd09(*device, options.fd09);
+        options.paper == "kdgs10" ? std::vector{bench_kdgs10(*device, options.kdgs10)}
+        : options.paper == "ywcyp10"
+            ? std::vector{bench_cube_making(*device), bench_cube_hits(*device, options.ywcyp10)}
+            : bench_fd09(*device, options.fd09);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const PaperTable& table : tables) {
         for (nlohmann::ordered_json row : table.rows) {

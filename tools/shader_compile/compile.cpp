@@ -63,6 +63,13 @@ Messages messages(const std::string& log, const std::string& kernel) {
     return result;
 }
 
+EShLanguage stage_of(const std::string& path) {
+    const std::filesystem::path extension = std::filesystem::path(path).extension();
+    return extension == ".vert"   ? EShLangVertex
+           : extension == ".frag" ? EShLangFragment
+                                  : EShLangCompute;
+}
+
 [[noreturn]] void fail_with(const Messages& said, const std::string& kernel) {
     if (said.error.empty()) {
         fail("{}:1: error: glslang refuses it without a reason", kernel);
@@ -87,7 +94,8 @@ Compiled compile_text(const std::string& path, const std::string& text,
         fail("{}:1: error: a kernel begins with #version 460", path);
     }
 
-    glslang::TShader shader(EShLangCompute);
+    const EShLanguage stage = stage_of(path);
+    glslang::TShader shader(stage);
     const char* const string = text.data();
     const int length = static_cast<int>(text.size());
     const char* const name = path.c_str();
@@ -95,7 +103,7 @@ Compiled compile_text(const std::string& path, const std::string& text,
     const std::string preamble = fmt::format("#extension GL_GOOGLE_include_directive : require\n{}",
                                              lean ? fmt::format("#define {}\n", lean_macro) : "");
     shader.setPreamble(preamble.c_str());
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+    shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
 
@@ -115,8 +123,7 @@ Compiled compile_text(const std::string& path, const std::string& text,
     glslang::SpvOptions options;
     options.disableOptimizer = true;
     spv::SpvBuildLogger logger;
-    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &logger,
-                          &options);
+    glslang::GlslangToSpv(*program.getIntermediate(stage), result.spirv, &logger, &options);
     result.warnings = said.warnings;
     return result;
 }

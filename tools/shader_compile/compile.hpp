@@ -17,7 +17,8 @@ struct Compiled {
 /// Defined while the lean module of a kernel is compiled, see device/kernel.hpp.
 inline constexpr const char* lean_macro = "ARGAND_LEAN";
 
-/// Compiles a GLSL compute shader for Vulkan 1.2. Throws Error "file:line: error: ...".
+/// Compiles a GLSL shader for Vulkan 1.2: a vertex shader if the path ends in .vert, a fragment
+/// shader if it ends in .frag, else a compute shader. Throws Error "file:line: error: ...".
 Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories,
                  bool lean = false);
 

@@ -176,6 +176,36 @@ void emit_group_checks(Out out, const Reflection& interface) {
     }
 }
 
+/// An array of words. The names differ between kernels, so that the sources of several make one
+/// translation unit.
+void emit_spirv(Out out, const std::string& name, const Spirv& spirv) {
+    fmt::format_to(out, "\nconstexpr std::uint32_t {}_spirv[] = {{", name);
+    emit_words(out, spirv);
+    fmt::format_to(out, "\n}};\n");
+}
+
+std::string_view info_type(const Kernel& kernel) {
+    return kernel.fragment ? "RasterInfo" : "KernelInfo";
+}
+
+void emit_interface(Out out, const Kernel& kernel) {
+    const Reflection& interface = kernel.interface;
+    fmt::format_to(out, "    .bindings = {},\n",
+                   interface.bindings.empty() ? "{}" : kernel.name + "_bindings");
+    fmt::format_to(out, "    .constants = {},\n",
+                   interface.constants.empty() ? "{}" : kernel.name + "_constants");
+    fmt::format_to(out, "    .push_bytes = {},\n", interface.push ? interface.push->size : 0);
+}
+
+void emit_raster_info(Out out, const Kernel& program) {
+    fmt::format_to(out,
+                   "constinit const RasterInfo {0}::info{{\n    .name = \"{0}\",\n"
+                   "    .vertex = {0}_spirv,\n    .fragment = {0}_fragment_spirv,\n",
+                   program.name);
+    emit_interface(out, program);
+    fmt::format_to(out, "    .words = {},\n}};\n\n", program.interface.result_words);
+}
+
 void emit_info(Out out, const Kernel& kernel) {
     const Reflection& interface = kernel.interface;
     const std::string& name = kernel.name;
@@ -192,11 +222,7 @@ void emit_info(Out out, const Kernel& kernel) {
         fmt::format_to(out, "    .lean = {{{}_lean_spirv, {}, {}}},\n", name, kernel.lean->constant,
                        kernel.lean->bits);
     }
-    fmt::format_to(out, "    .bindings = {},\n",
-                   interface.bindings.empty() ? "{}" : name + "_bindings");
-    fmt::format_to(out, "    .constants = {},\n",
-                   interface.constants.empty() ? "{}" : name + "_constants");
-    fmt::format_to(out, "    .push_bytes = {},\n", interface.push ? interface.push->size : 0);
+    emit_interface(out, kernel);
     fmt::format_to(out, "    .local_size = {{{}, {}, {}}},\n", interface.local_size[0],
                    interface.local_size[1], interface.local_size[2]);
     fmt::format_to(out, "    .uses_subgroups = {},\n", interface.uses_subgroups);
@@ -229,9 +255,8 @@ std::string emit_header(const Kernel& kernel) {
     std::string text;
     const Out out(text);
     fmt::format_to(
-        out,
-        "// Written by shader_compile from {}.\n#pragma once\n\n#include \"device/kernel.hpp\"\n",
-        kernel.path);
+        out, "// Written by shader_compile from {}.\n#pragma once\n\n#include \"device/{}.hpp\"\n",
+        kernel.path, kernel.fragment ? "raster" : "kernel");
     for (const std::string& group : groups_of(interface)) {
         fmt::format_to(out, "#include \"kernels/{}_bindings.hpp\"\n", group);
     }
@@ -249,9 +274,10 @@ std::string emit_header(const Kernel& kernel) {
     if (!interface.constants.empty()) {
         emit_constants(out, interface);
     }
-    fmt::format_to(
-        out, "\n    static const KernelInfo info;\n    KernelArguments arguments() const;\n}};\n\n"
-             "}} // namespace argand::kernels\n");
+    fmt::format_to(out,
+                   "\n    static const {} info;\n    KernelArguments arguments() const;\n}};\n\n"
+                   "}} // namespace argand::kernels\n",
+                   info_type(kernel));
     return text;
 }
 
@@ -309,14 +335,12 @@ std::string emit_source(const Kernel& kernel) {
         emit_checks(out, record);
     }
     emit_group_checks(out, interface);
-    // The names differ between kernels, so that the sources of several make one translation unit.
-    fmt::format_to(out, "\nconstexpr std::uint32_t {}_spirv[] = {{", kernel.name);
-    emit_words(out, kernel.spirv);
-    fmt::format_to(out, "\n}};\n");
+    emit_spirv(out, kernel.name, kernel.spirv);
     if (kernel.lean) {
-        fmt::format_to(out, "\nconstexpr std::uint32_t {}_lean_spirv[] = {{", kernel.name);
-        emit_words(out, kernel.lean->spirv);
-        fmt::format_to(out, "\n}};\n");
+        emit_spirv(out, kernel.name + "_lean", kernel.lean->spirv);
+    }
+    if (kernel.fragment) {
+        emit_spirv(out, kernel.name + "_fragment", *kernel.fragment);
     }
     if (!interface.bindings.empty()) {
         emit_bindings(out, kernel);
@@ -329,7 +353,11 @@ std::string emit_source(const Kernel& kernel) {
         fmt::format_to(out, "}};\n");
     }
     fmt::format_to(out, "\n}} // namespace\n\n");
-    emit_info(out, kernel);
+    if (kernel.fragment) {
+        emit_raster_info(out, kernel);
+    } else {
+        emit_info(out, kernel);
+    }
     fmt::format_to(out, "KernelArguments {}::arguments() const {{\n    KernelArguments result;\n",
                    kernel.name);
     for (const Binding& binding : interface.bindings) {

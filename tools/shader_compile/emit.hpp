@@ -11,14 +11,15 @@ struct Lean {
     std::string bits;     ///< a C++ literal
 };
 
-/// A kernel, or a group of bindings, of which files are generated.
+/// A kernel, a raster program, or a group of bindings, of which files are generated.
 struct Kernel {
     std::string name; ///< of a group: NAME in NAME_bindings.glsl
     std::string path; ///< of its source, for the documentation
     Reflection interface;
-    Spirv spirv;      ///< final; a group has none
+    Spirv spirv;      ///< final; a group has none; of a raster program: the vertex shader
     std::string twin; ///< the kernel whose body other backends run; empty: none
     std::optional<Lean> lean = {};
+    std::optional<Spirv> fragment = {}; ///< the fragment shader of a raster program
 };
 
 /// NAME.hpp: the typed binding.
@@ -27,7 +28,8 @@ std::string emit_header(const Kernel& kernel);
 /// NAME_bindings.hpp: the structs NameBindings and NameConstants, see group_of().
 std::string emit_group(const Kernel& group);
 
-/// NAME.cpp: the SPIR-V, its KernelInfo, and checks that host and GPU lay out shared records alike.
+/// NAME.cpp: the SPIR-V, its KernelInfo or RasterInfo, and checks that host and GPU lay out shared
+/// records alike.
 std::string emit_source(const Kernel& kernel);
 
 /// NAME.twin.h: a struct with what the kernel declares. The kernel's twin derives from it.

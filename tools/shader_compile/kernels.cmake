@@ -4,6 +4,9 @@
 # NAME_bindings.glsl becomes generated/kernels/NAME_bindings.hpp: the buffers that it declares as one struct, which the
 # kernels that include it share.
 #
+# NAME.vert is a raster program together with NAME.frag beside it, and has no twin: where nothing rasterises, kernels fill
+# the same buffers in other ways.
+#
 # With TWINS, other backends run the kernels too. FOLDER/NAME.comp then needs a body, shaders/shared/kernels/FOLDER/NAME.h,
 # from which shader_compile writes the twin generated/kernels/NAME.cu and the header NAME.twin.h. A twin that needs more than
 # the body is written by hand, as FOLDER/NAME.cu in the directory TWINS. FOLDER/NAME_texels.comp shares the twin of NAME.comp.
@@ -34,7 +37,9 @@ function(argand_add_kernels target)
         get_filename_component(parent ${file} DIRECTORY)
         get_filename_component(folder ${parent} NAME)
         set(may_lack_twin FALSE)
-        if(folder MATCHES "^(parallel|device)$" AND NOT EXISTS ${CMAKE_SOURCE_DIR}/shaders/shared/kernels/${folder}/${name}.h)
+        if(file MATCHES "[.]vert$")
+            set(may_lack_twin TRUE)
+        elseif(folder MATCHES "^(parallel|device)$" AND NOT EXISTS ${CMAKE_SOURCE_DIR}/shaders/shared/kernels/${folder}/${name}.h)
             set(may_lack_twin TRUE)
         endif()
         if(ARG_TWINS AND NOT may_lack_twin AND NOT name MATCHES "_bindings$")

@@ -1,9 +1,10 @@
 // shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME [--write-twin]]
-// KERNEL.comp
+// KERNEL.comp | NAME.vert
 //
-// Compiles a GLSL kernel to SPIR-V and writes its C++ binding: KERNEL.hpp and KERNEL.cpp. --twin
-// names the kernel that other backends run instead; if that is the kernel itself, KERNEL.twin.h
-// declares what its body uses. --write-twin also writes the twin, KERNEL.cu.
+// Compiles a GLSL kernel, or the raster program of NAME.vert and NAME.frag beside it, to SPIR-V and
+// writes its C++ binding: KERNEL.hpp and KERNEL.cpp. --twin names the kernel that other backends
+// run instead; if that is the kernel itself, KERNEL.twin.h declares what its body uses.
+// --write-twin also writes the twin, KERNEL.cu.
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
@@ -54,7 +55,7 @@ Options parse(const std::vector<std::string>& words) {
     }
     if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
         throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE "
-                         "[--twin NAME [--write-twin]] KERNEL.comp");
+                         "[--twin NAME [--write-twin]] KERNEL.comp | NAME.vert");
     }
     return options;
 }
@@ -114,13 +115,70 @@ std::optional<Lean> compile_lean(const Options& options, const Compiled& whole,
     return {};
 }
 
-void run(const Options& options) {
-    const std::string name = fs::path(options.kernel).stem().string();
+std::string name_of(const Options& options) {
+    std::string name = fs::path(options.kernel).stem().string();
     if (!is_cpp_name(name)) {
         fail(
             "{}:1: error: the file's name becomes the name of a C++ struct, and '{}' cannot be one",
             options.kernel, name);
     }
+    return name;
+}
+
+/// Both shaders of a raster program have the interface of its C++ struct, of which either may use
+/// a part only.
+void expect_same_interface(const Kernel& vertex, const Reflection& fragment,
+                           const std::string& fragment_path) {
+    const auto declares = [](const Reflection& interface) {
+        std::string text = interface.push ? interface.push->name : "";
+        for (const Binding& binding : interface.bindings) {
+            text += "; " + binding.name + " " + binding.words;
+        }
+        for (const Constant& constant : interface.constants) {
+            text += fmt::format("; {} {} {}", constant.id, constant.name, constant.value);
+        }
+        return text;
+    };
+    if (declares(vertex.interface) != declares(fragment)) {
+        fail("{}:1: error: it declares other buffers or constants than {}; declare them in one "
+             "file that both include",
+             fragment_path, vertex.path);
+    }
+}
+
+/// Writes the binding of a raster program, NAME.vert and NAME.frag.
+void run_raster(const Options& options) {
+    const std::string name = name_of(options);
+    const std::string fragment_path = fs::path(options.kernel).replace_extension(".frag").string();
+    const Compiled vertex = compile(options.kernel, options.include_directories);
+    const Compiled fragment = compile(fragment_path, options.include_directories);
+    std::fputs((vertex.warnings + fragment.warnings).c_str(), stderr);
+
+    Kernel program{name,
+                   options.kernel,
+                   reflect(vertex, options.include_directories),
+                   optimise(vertex.spirv, options.kernel),
+                   {}};
+    validate(program.spirv, options.kernel);
+    const Reflection interface = reflect(fragment, options.include_directories);
+    expect_same_interface(program, interface, fragment_path);
+    program.interface.result_words = interface.result_words;
+    program.fragment = optimise(fragment.spirv, fragment_path);
+    validate(*program.fragment, fragment_path);
+
+    const std::string header = in(options.out, name + ".hpp");
+    const std::string source = in(options.out, name + ".cpp");
+    std::vector<std::string> inputs = absolute_paths(vertex.sources);
+    for (const std::string& path : absolute_paths(fragment.sources)) {
+        inputs.push_back(path);
+    }
+    write_if_changed(options.depfile, emit_depfile({header, source}, inputs));
+    write_if_changed(header, emit_header(program));
+    write_if_changed(source, emit_source(program));
+}
+
+void run(const Options& options) {
+    const std::string name = name_of(options);
     const Compiled compiled = compile(options.kernel, options.include_directories);
     std::fputs(compiled.warnings.c_str(), stderr);
 
@@ -156,10 +214,12 @@ int main(int count, char** words) {
     try {
         using namespace argand::shader_compile;
         const Options options = parse({words + 1, words + count});
-        if (group_of(options.kernel).empty()) {
-            run(options);
-        } else {
+        if (!group_of(options.kernel).empty()) {
             run_group(options);
+        } else if (options.kernel.ends_with(".vert")) {
+            run_raster(options);
+        } else {
+            run(options);
         }
         return 0;
     } catch (const argand::UsageError& error) {

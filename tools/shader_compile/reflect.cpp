@@ -346,6 +346,31 @@ void read_local_size(const Reader& reader, Reflection& result) {
     }
 }
 
+/// The shaders of raster programs read buffers, and the fragment shader writes unsigned words.
+void read_raster_stage(const Reader& reader, Reflection& result) {
+    for (const Binding& binding : result.bindings) {
+        if (binding.access != Access::read) {
+            fail("{}buffer {} is not readonly; a raster program writes its result only",
+                 error_at(reader.sources, {binding.name}), binding.name);
+        }
+    }
+    const auto& results = reader.resources.stage_outputs;
+    if (reader.spirv.get_execution_model() == spv::ExecutionModelVertex) {
+        for (const Resource& input : reader.resources.stage_inputs) {
+            fail("{}input {}: a vertex shader reads its vertices from buffers",
+                 error_at(reader.sources, {input.name}), input.name);
+        }
+        return;
+    }
+    const SPIRType* type =
+        results.size() == 1 ? &reader.spirv.get_type(results[0].type_id) : nullptr;
+    if (!type || type->basetype != SPIRType::UInt || type->vecsize == 3 || !type->array.empty()) {
+        fail("{}a fragment shader has one output, of type uint, uvec2 or uvec4",
+             error_at(reader.sources, {results.empty() ? "no output" : results[0].name}));
+    }
+    result.result_words = type->vecsize;
+}
+
 bool uses_subgroups(const Compiler& spirv) {
     const auto& capabilities = spirv.get_declared_capabilities();
     return std::any_of(capabilities.begin(), capabilities.end(), [](spv::Capability capability) {
@@ -403,7 +428,11 @@ Reflection reflect(const Compiled& compiled, const std::vector<std::string>& inc
         refuse_other_resources(reader);
         read_buffers(reader, is_group, result);
         read_push(reader, result);
-        read_local_size(reader, result);
+        if (spirv.get_execution_model() == spv::ExecutionModelGLCompute) {
+            read_local_size(reader, result);
+        } else {
+            read_raster_stage(reader, result);
+        }
         read_constants(reader, result);
         check_names(reader, result);
         result.uses_subgroups = uses_subgroups(spirv);

@@ -54,8 +54,9 @@ struct Reflection {
     std::vector<std::string> headers;
     /// Headers of the constants that annotations name.
     std::vector<std::string> constant_headers;
-    std::array<std::uint32_t, 3> local_size;
+    std::array<std::uint32_t, 3> local_size; ///< of compute shaders
     bool uses_subgroups;
+    std::uint32_t result_words; ///< of the value that a fragment shader writes; else 0
 };
 
 /// The NAME of a file NAME_bindings.glsl, empty for other files. What such a file declares is one

@@ -1,5 +1,6 @@
 #include "base/error.hpp"
 #include "device/vulkan/instance.hpp"
+#include "device/vulkan/raster_image.hpp"
 #include "device/vulkan/result.hpp"
 
 #include <algorithm>
@@ -57,6 +58,25 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
     }
 }
 
+/// Whether a device of Vulkan 1.2 draws as VulkanRaster does.
+bool can_draw(VkPhysicalDevice physical) {
+    const std::uint32_t family = compute_queue_family(physical);
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    VkPhysicalDeviceVulkan12Features features{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    all.pNext = &features;
+    vkGetPhysicalDeviceFeatures2(physical, &all);
+    VkFormatProperties depth;
+    vkGetPhysicalDeviceFormatProperties(physical, depth_format, &depth);
+    return family < count && (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 &&
+           features.shaderOutputLayer == VK_TRUE &&
+           (depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
+}
+
 std::uint64_t largest_local_heap(VkPhysicalDevice physical) {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
@@ -108,6 +128,7 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
         extensions.end();
     info.features.timestamps = basic.limits.timestampComputeAndGraphics;
     info.features.lane_serial = info.kind == DeviceKind::cpu;
+    info.features.raster = basic.apiVersion >= VK_API_VERSION_1_2 && can_draw(physical);
 
     info.limits.storage_range = basic.limits.maxStorageBufferRange;
     info.limits.memory = largest_local_heap(physical);
@@ -117,6 +138,11 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
     info.limits.storage_buffers = std::min(basic.limits.maxPerStageDescriptorStorageBuffers,
                                            basic.limits.maxDescriptorSetStorageBuffers);
     info.limits.texels = basic.limits.maxTexelBufferElements;
+    info.limits.image =
+        std::min({basic.limits.maxImageDimension2D, basic.limits.maxFramebufferWidth,
+                  basic.limits.maxFramebufferHeight});
+    info.limits.layers =
+        std::min(basic.limits.maxImageArrayLayers, basic.limits.maxFramebufferLayers);
     info.limits.groups = std::min({basic.limits.maxComputeWorkGroupCount[0],
                                    basic.limits.maxComputeWorkGroupCount[1],
                                    basic.limits.maxComputeWorkGroupCount[2]});

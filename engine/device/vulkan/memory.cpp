@@ -7,10 +7,6 @@
 
 namespace argand::vulkan {
 
-namespace {
-
-/// Index of a memory type with the required and, if possible, the preferred properties; UINT32_MAX
-/// if there is none.
 std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed,
                           VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) {
     VkPhysicalDeviceMemoryProperties properties;
@@ -25,8 +21,6 @@ std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed,
     }
     return UINT32_MAX;
 }
-
-} // namespace
 
 LogicalDevice::~LogicalDevice() {
     if (handle) {

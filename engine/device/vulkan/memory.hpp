@@ -41,6 +41,11 @@ private:
     std::uint64_t bytes_in_use_ = 0;
 };
 
+/// Index of a memory type with the required and, if possible, the preferred properties; UINT32_MAX
+/// if there is none.
+std::uint32_t memory_type(VkPhysicalDevice physical, std::uint32_t allowed,
+                          VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred);
+
 /// Null if memory has run out.
 std::unique_ptr<MemoryBlock> allocate_block(VkPhysicalDevice physical,
                                             const std::shared_ptr<LogicalDevice>& device,

@@ -4,6 +4,7 @@
 #include "base/environment.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
+#include "device/vulkan/raster_pipeline.hpp"
 #include "device/vulkan/result.hpp"
 
 namespace argand::vulkan {
@@ -22,6 +23,22 @@ std::filesystem::path cache_file_of(const VkPhysicalDeviceProperties& properties
     return directory /
            fmt::format("pipelines-{:x}-{:x}-{}.bin", properties.vendorID, properties.deviceID, id);
 }
+
+/// Values of specialization constants, as pipelines take them.
+struct Specialization {
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info{};
+
+    Specialization(std::span<const KernelConstant> constants, const KernelArguments& arguments) {
+        for (std::uint32_t i = 0; i < arguments.constant_count; ++i) {
+            entries.push_back({constants[i].id, i * 4, 4});
+        }
+        info = {static_cast<std::uint32_t>(entries.size()), entries.data(),
+                arguments.constant_count * 4, arguments.constants.data()};
+    }
+    Specialization(const Specialization&) = delete;
+    Specialization& operator=(const Specialization&) = delete;
+};
 
 /// Returns the cache file's contents. An unreadable file counts as empty because the cache is
 /// optional; drivers reject a file that is not theirs.
@@ -90,7 +107,7 @@ VkDescriptorSetLayout Pipelines::set_layout(Slots slots) {
             const VkDescriptorType type = (slots.texels >> i & 1) != 0
                                               ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-            bindings[i] = {i, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+            bindings[i] = {i, type, 1, slots.stages, nullptr};
         }
         VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
         create.flags =
@@ -107,7 +124,7 @@ VkPipelineLayout Pipelines::pipeline_layout(Slots slots, std::uint32_t push_byte
     VkPipelineLayout& layout = pipeline_layouts_[{slots, push_bytes}];
     if (!layout) {
         const VkDescriptorSetLayout set = set_layout(slots);
-        const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
+        const VkPushConstantRange range{slots.stages, 0, push_bytes};
         VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
         create.setLayoutCount = 1;
         create.pSetLayouts = &set;
@@ -119,6 +136,26 @@ VkPipelineLayout Pipelines::pipeline_layout(Slots slots, std::uint32_t push_byte
     return layout;
 }
 
+void Pipelines::add_layouts(Pipeline& pipeline, std::span<const KernelBinding> bindings,
+                            std::uint32_t push_bytes, VkShaderStageFlags stages) {
+    Slots slots{static_cast<std::uint32_t>(bindings.size()), 0, stages};
+    for (const KernelBinding& binding : bindings) {
+        slots.texels |= binding.texels ? 1u << binding.binding : 0u;
+    }
+    pipeline.set_layout = set_layout(slots);
+    pipeline.layout = pipeline_layout(slots, push_bytes);
+}
+
+VkShaderModule Pipelines::make_module(std::span<const std::uint32_t> spirv,
+                                      const std::string& doing) {
+    VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    create.codeSize = spirv.size_bytes();
+    create.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device_, &create, nullptr, &module), doing);
+    return module;
+}
+
 const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& arguments) {
     Key key{&kernel,
             {arguments.constants.begin(), arguments.constants.begin() + arguments.constant_count}};
@@ -128,37 +165,48 @@ const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& 
     }
     const std::string doing = fmt::format("compiling kernel {}", kernel.name);
 
-    std::vector<VkSpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < arguments.constant_count; ++i) {
-        entries.push_back({kernel.constants[i].id, i * 4, 4});
-    }
-    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
-                                              entries.data(), arguments.constant_count * 4,
-                                              arguments.constants.data()};
-
-    VkShaderModuleCreateInfo module_create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    const std::span<const std::uint32_t> spirv = module_for(kernel, key.second);
-    module_create.codeSize = spirv.size_bytes();
-    module_create.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device_, &module_create, nullptr, &module), doing);
-
-    Slots slots{static_cast<std::uint32_t>(kernel.bindings.size()), 0};
-    for (const KernelBinding& binding : kernel.bindings) {
-        slots.texels |= binding.texels ? 1u << binding.binding : 0u;
-    }
-    pipeline.set_layout = set_layout(slots);
-    pipeline.layout = pipeline_layout(slots, kernel.push_bytes);
+    const Specialization specialization(kernel.constants, arguments);
+    const VkShaderModule module = make_module(module_for(kernel, key.second), doing);
+    add_layouts(pipeline, kernel.bindings, kernel.push_bytes, VK_SHADER_STAGE_COMPUTE_BIT);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     create.stage.module = module;
     create.stage.pName = "main";
-    create.stage.pSpecializationInfo = &specialization;
+    create.stage.pSpecializationInfo = &specialization.info;
     create.layout = pipeline.layout;
     const VkResult result =
         vkCreateComputePipelines(device_, cache_, 1, &create, nullptr, &pipeline.pipeline);
     vkDestroyShaderModule(device_, module, nullptr);
+    check(result, doing);
+    return pipeline;
+}
+
+const Pipeline& Pipelines::get(const RasterInfo& program, const KernelArguments& arguments,
+                               VkRenderPass pass) {
+    Key key{&program,
+            {arguments.constants.begin(), arguments.constants.begin() + arguments.constant_count}};
+    Pipeline& pipeline = pipelines_[key];
+    if (pipeline.pipeline) {
+        return pipeline;
+    }
+    const std::string doing = fmt::format("compiling raster program {}", program.name);
+    const Specialization specialization(program.constants, arguments);
+    add_layouts(pipeline, program.bindings, program.push_bytes, raster_stages);
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (const bool is_fragment : {false, true}) {
+        VkPipelineShaderStageCreateInfo& stage = stages[is_fragment ? 1 : 0];
+        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stage.stage = is_fragment ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT;
+        stage.module = make_module(is_fragment ? program.fragment : program.vertex, doing);
+        stage.pName = "main";
+        stage.pSpecializationInfo = &specialization.info;
+    }
+    const VkResult result =
+        create_raster_pipeline(device_, cache_, stages, pipeline.layout, pass, pipeline.pipeline);
+    for (const VkPipelineShaderStageCreateInfo& stage : stages) {
+        vkDestroyShaderModule(device_, stage.module, nullptr);
+    }
     check(result, doing);
     return pipeline;
 }

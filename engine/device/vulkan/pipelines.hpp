@@ -1,6 +1,6 @@
 #pragma once
 
-#include "device/kernel.hpp"
+#include "device/raster.hpp"
 
 #include <compare>
 #include <filesystem>
@@ -25,19 +25,28 @@ public:
     ~Pipelines();
 
     const Pipeline& get(const KernelInfo& kernel, const KernelArguments& arguments);
+    /// The pipeline of a raster program that draws in a render pass for its values.
+    const Pipeline& get(const RasterInfo& program, const KernelArguments& arguments,
+                        VkRenderPass pass);
 
 private:
-    using Key = std::pair<const KernelInfo*, std::vector<std::uint32_t>>;
+    /// A kernel or a raster program, and the values of its specialization constants.
+    using Key = std::pair<const void*, std::vector<std::uint32_t>>;
 
-    /// Number of buffers that a kernel binds, and a bit mask of those bound as texels.
+    /// Number of buffers that a kernel binds, a bit mask of those bound as texels, and the stages
+    /// that see them.
     struct Slots {
         std::uint32_t count = 0;
         std::uint32_t texels = 0;
+        VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
         auto operator<=>(const Slots&) const = default; // NOLINT(modernize-use-nullptr)
     };
 
     VkDescriptorSetLayout set_layout(Slots slots);
     VkPipelineLayout pipeline_layout(Slots slots, std::uint32_t push_bytes);
+    void add_layouts(Pipeline& pipeline, std::span<const KernelBinding> bindings,
+                     std::uint32_t push_bytes, VkShaderStageFlags stages);
+    VkShaderModule make_module(std::span<const std::uint32_t> spirv, const std::string& doing);
     void save() const;
 
     VkDevice device_;

@@ -47,7 +47,11 @@ VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice 
     if (std::find(offered.begin(), offered.end(), portability) != offered.end()) {
         extensions.push_back(portability);
     }
+    VkPhysicalDeviceVulkan12Features features{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    features.shaderOutputLayer = info_.features.raster ? VK_TRUE : VK_FALSE;
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    create.pNext = &features;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
@@ -60,6 +64,10 @@ VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice 
     vkGetPhysicalDeviceProperties(physical_, &properties);
     pipelines_ =
         std::make_unique<Pipelines>(device_->handle, info_.features.push_descriptors, properties);
+    if (info_.features.raster) {
+        raster_ = std::make_unique<VulkanRaster>(*this);
+        work_ |= VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    }
 
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
@@ -162,19 +170,23 @@ void VulkanDevice::barrier_for(std::span<const Use> uses) {
         barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
                                 VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
                                 VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
-        constexpr VkPipelineStageFlags work =
-            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
         // A separate pipeline stage reads indirect counts. The barrier includes it because the next
         // command may overwrite them.
-        vkCmdPipelineBarrier(recording, work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                             work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &barrier, 0, nullptr,
-                             0, nullptr);
+        vkCmdPipelineBarrier(recording, work_ | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                             work_ | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &barrier, 0,
+                             nullptr, 0, nullptr);
         hazards_.barrier();
     }
     for (const Use& use : uses) {
         hazards_.record(*use.buffer->storage(), use.access);
         recording_->keep_alive.push_back(use.buffer->storage());
     }
+}
+
+/// Until the commands recorded now are complete.
+void VulkanDevice::keep_alive(std::shared_ptr<const void> object) {
+    commands();
+    recording_->keep_alive.push_back(std::move(object));
 }
 
 void VulkanDevice::upload(const Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
@@ -258,6 +270,16 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
              kernel.name, arguments.buffer_count, kernel.local_size[0], info_.name,
              info_.limits.storage_buffers, info_.limits.invocations);
     }
+    bind({.name = kernel.name,
+          .bindings = kernel.bindings,
+          .push_bytes = kernel.push_bytes,
+          .pipeline = pipelines_->get(kernel, arguments),
+          .point = VK_PIPELINE_BIND_POINT_COMPUTE,
+          .stages = VK_SHADER_STAGE_COMPUTE_BIT},
+         arguments);
+}
+
+void VulkanDevice::bind(const Bound& bound, const KernelArguments& arguments) {
     std::array<VkDescriptorBufferInfo, max_bindings> infos;
     std::array<VkBufferView, max_bindings> views;
     std::array<VkWriteDescriptorSet, max_bindings> writes;
@@ -273,10 +295,10 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         writes[i].pBufferInfo = &infos[i];
-        if (kernel.bindings[i].texels) {
+        if (bound.bindings[i].texels) {
             if (buffer.size() / 16 > info_.limits.texels) {
                 fail("running kernel {}: '{}' has {} texels, '{}' allows {}; please report this",
-                     kernel.name, buffer.name(), buffer.size() / 16, info_.name,
+                     bound.name, buffer.name(), buffer.size() / 16, info_.name,
                      info_.limits.texels);
             }
             views[i] = block.texels(arguments.offsets[i],
@@ -286,11 +308,11 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
             writes[i].pTexelBufferView = &views[i];
         }
     }
-    const Pipeline& pipeline = pipelines_->get(kernel, arguments);
+    const Pipeline& pipeline = bound.pipeline;
     const VkCommandBuffer recording = commands();
-    vkCmdBindPipeline(recording, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
+    vkCmdBindPipeline(recording, bound.point, pipeline.pipeline);
     if (info_.features.push_descriptors) {
-        vkCmdPushDescriptorSetKHR(recording, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0,
+        vkCmdPushDescriptorSetKHR(recording, bound.point, pipeline.layout, 0,
                                   arguments.buffer_count, writes.data());
     } else {
         const VkDescriptorSet set = allocate_set(pipeline.set_layout);
@@ -298,12 +320,11 @@ void VulkanDevice::bind(const KernelInfo& kernel, const KernelArguments& argumen
             writes[i].dstSet = set;
         }
         vkUpdateDescriptorSets(device_->handle, arguments.buffer_count, writes.data(), 0, nullptr);
-        vkCmdBindDescriptorSets(recording, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1,
-                                &set, 0, nullptr);
+        vkCmdBindDescriptorSets(recording, bound.point, pipeline.layout, 0, 1, &set, 0, nullptr);
     }
-    if (kernel.push_bytes > 0) {
-        vkCmdPushConstants(recording, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                           kernel.push_bytes, arguments.push.data());
+    if (bound.push_bytes > 0) {
+        vkCmdPushConstants(recording, pipeline.layout, bound.stages, 0, bound.push_bytes,
+                           arguments.push.data());
     }
 }
 

@@ -6,6 +6,7 @@
 #include "device/vulkan/memory.hpp"
 #include "device/vulkan/pipelines.hpp"
 #include "device/vulkan/stage_timer.hpp"
+#include "device/vulkan/vulkan_raster.hpp"
 
 #include <deque>
 #include <memory>
@@ -21,7 +22,17 @@ struct Submission {
     std::vector<VkDescriptorPool> descriptor_pools;
     std::uint32_t descriptor_sets_left = 0;
     StageQueries queries;
-    std::vector<std::shared_ptr<BufferStorage>> keep_alive;
+    std::vector<std::shared_ptr<const void>> keep_alive;
+};
+
+/// A compute or graphics pipeline whose arguments are bound.
+struct Bound {
+    const char* name;
+    std::span<const KernelBinding> bindings;
+    std::uint32_t push_bytes;
+    const Pipeline& pipeline;
+    VkPipelineBindPoint point;
+    VkShaderStageFlags stages;
 };
 
 class VulkanDevice final : public Device {
@@ -38,6 +49,7 @@ public:
                   std::uint64_t threads) override;
     void dispatch_indirect(const KernelInfo& kernel, const KernelArguments& arguments,
                            const Buffer& counts, std::uint32_t count_index) override;
+    Raster* raster() override { return raster_.get(); }
     void submit() override;
     void wait() override;
     void download(const Buffer& from, std::uint64_t offset, std::span<std::byte> data) override;
@@ -53,6 +65,8 @@ public:
     std::vector<std::string> validation_messages() const override;
 
 private:
+    friend class VulkanRaster;
+
     struct Use {
         const Buffer* buffer;
         Access access;
@@ -62,7 +76,9 @@ private:
     void destroy(Submission& submission);
     VkCommandBuffer commands();
     void barrier_for(std::span<const Use> uses);
+    void keep_alive(std::shared_ptr<const void> object);
     void bind(const KernelInfo& kernel, const KernelArguments& arguments);
+    void bind(const Bound& bound, const KernelArguments& arguments);
     VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
     Buffer allocate(std::string name, std::uint64_t bytes, MemoryKind kind);
     void finish_oldest();
@@ -76,6 +92,9 @@ private:
     std::uint32_t queue_family_ = 0;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::unique_ptr<Pipelines> pipelines_;
+    std::unique_ptr<VulkanRaster> raster_; ///< null: the device has no rasteriser
+    VkPipelineStageFlags work_ = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                 VK_PIPELINE_STAGE_TRANSFER_BIT; ///< that uses buffers
     std::optional<StageTimer> timer_;
     HazardTracker hazards_;
     std::optional<Submission> recording_;

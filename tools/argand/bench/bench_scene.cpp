@@ -26,8 +26,8 @@ void add_grid(BenchScene& scene, std::uint32_t rows, std::uint32_t columns, auto
     }
 }
 
-void add_wall(BenchScene& scene, int axis, float side) {
-    add_grid(scene, 16, 16, [&](double u, double v) {
+void add_wall(BenchScene& scene, std::uint32_t detail, int axis, float side) {
+    add_grid(scene, detail, detail, [&](double u, double v) {
         glm::vec3 point;
         point[axis] = side;
         point[(axis + 1) % 3] = room * float(2 * u - 1);
@@ -36,8 +36,8 @@ void add_wall(BenchScene& scene, int axis, float side) {
     });
 }
 
-void add_bumpy_sphere(BenchScene& scene, glm::vec3 centre, double radius) {
-    add_grid(scene, 32, 64, [&](double u, double v) {
+void add_bumpy_sphere(BenchScene& scene, std::uint32_t detail, glm::vec3 centre, double radius) {
+    add_grid(scene, 2 * detail, 4 * detail, [&](double u, double v) {
         const double theta = M_PI * u;
         const double phi = 2 * M_PI * v;
         const double r =
@@ -49,21 +49,21 @@ void add_bumpy_sphere(BenchScene& scene, glm::vec3 centre, double radius) {
 
 } // namespace
 
-BenchScene make_bench_scene() {
+BenchScene make_bench_scene(std::uint32_t detail) {
     BenchScene scene;
     scene.eye = {-4.2f, 0.8f, -4.5f};
     scene.target = {0.5f, -0.8f, 0.5f};
     scene.light = {0.5f, 4.5f, 0};
     for (int axis = 0; axis < 3; ++axis) {
-        add_wall(scene, axis, -room);
-        add_wall(scene, axis, room);
+        add_wall(scene, detail, axis, -room);
+        add_wall(scene, detail, axis, room);
     }
     for (int i = 0; i < 19; ++i) {
         // A spiral that fills the room, with larger spheres below.
         const double angle = 2.4 * i;
         const double distance = 0.95 * std::sqrt(i + 0.3);
         const double height = -3.6 + 0.38 * i;
-        add_bumpy_sphere(scene,
+        add_bumpy_sphere(scene, detail,
                          glm::vec3(distance * std::cos(angle), height, distance * std::sin(angle)),
                          1.1 - 0.03 * i);
     }

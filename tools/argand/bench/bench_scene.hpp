@@ -6,7 +6,7 @@
 
 namespace argand {
 
-/// Scene of the ray benchmarks: a closed room with bumpy spheres, about 80,000 triangles.
+/// Scene of the ray benchmarks: a closed room with bumpy spheres.
 struct BenchScene {
     std::vector<glm::vec4> positions;
     std::vector<glm::uvec4> triangles;
@@ -15,7 +15,9 @@ struct BenchScene {
     glm::vec3 light;
 };
 
-BenchScene make_bench_scene();
+/// detail: triangles along a wall's edge; four times as many make a circle of a sphere. With 16,
+/// there are about 80,000 triangles.
+BenchScene make_bench_scene(std::uint32_t detail = 16);
 
 /// Camera rays through the pixel centres of a square image, in tiles of 8 x 4 pixels.
 struct BenchRays {

@@ -104,7 +104,8 @@ nlohmann::ordered_json Bench::measure(const std::string& name, const Way& way) {
     const Clock::time_point choosing = Clock::now();
     const std::vector<glm::vec3> places = random_centers(scene_.box, candidates, 1);
     const ChosenCenters chosen = choose_centers(
-        device_, scene_, cast_cube_maps(device_, scene_, places, 32, 1), 0, {}, choice);
+        device_, scene_, make_cube_maps(device_, scene_, places, 32, 1, MapMaking::cast), 0, {},
+        choice);
     std::vector<glm::vec3> centers;
     for (const std::size_t candidate : chosen.candidates) {
         centers.push_back(places[candidate]);
@@ -114,7 +115,8 @@ nlohmann::ordered_json Bench::measure(const std::string& name, const Way& way) {
         return nullptr;
     }
     const Clock::time_point casting = Clock::now();
-    const CubeMaps maps = cast_cube_maps(device_, scene_, centers, way.size, layers_of(scene_));
+    const CubeMaps maps =
+        make_cube_maps(device_, scene_, centers, way.size, layers_of(scene_), MapMaking::cast);
     const double seconds_to_cast = seconds_since(casting);
     PhotonWorkspace workspace = make_photon_workspace(device_, settings_.photons);
     const Buffer found = device_.allocate("hits in cube maps", workspace.slots * sizeof(HitRecord));
@@ -177,7 +179,7 @@ nlohmann::ordered_json Bench::measure(const std::string& name, const Way& way) {
 
 } // namespace
 
-PaperTable bench_ywcyp10(Device& device, const Ywcyp10Settings& settings) {
+PaperTable bench_cube_hits(Device& device, const Ywcyp10Settings& settings) {
     PaperTable table{"Hits in cube maps"};
     for (const std::string& file : scene_files(settings.scenes, own_scenes)) {
         const Scene scene = load_gltf(file);

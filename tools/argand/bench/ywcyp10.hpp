@@ -18,6 +18,9 @@ struct Ywcyp10Settings {
 
 /// Hits that rays of photons find in cube maps, against those of the tree: by way of search, by
 /// number of maps, and by their size.
-PaperTable bench_ywcyp10(Device& device, const Ywcyp10Settings& settings);
+PaperTable bench_cube_hits(Device& device, const Ywcyp10Settings& settings);
+
+/// Time to make the maps of a scene and time to build its tree, by number of triangles.
+PaperTable bench_cube_making(Device& device);
 
 } // namespace argand
