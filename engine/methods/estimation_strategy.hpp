@@ -25,6 +25,9 @@ public:
         return bandwidth.radii.indirect;
     }
 
+    /// Whether photons keep the sizes of splats, from which footprints() makes discs.
+    virtual bool splats() const { return false; }
+
     /// Size of the photons' footprints in a map of `photons` emitted photons; none if the estimator
     /// uses points.
     virtual std::optional<FootprintScale> footprints(const Bandwidth&, const FootprintSettings&,

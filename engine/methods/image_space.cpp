@@ -2,22 +2,35 @@
 #include "methods/fixed_radius.hpp"
 #include "methods/photon_mapping.hpp"
 #include "methods/render_options.hpp"
+#include "methods/splats.hpp"
 
 namespace argand {
 
 namespace {
 
+Option estimate_option() {
+    Option option = own_option("estimate",
+                               "How densities are estimated: over discs of one radius, as photons "
+                               "does, or over each photon's splat, as published",
+                               OptionKind::choice, "discs");
+    option.choices = {"discs", "splats"};
+    option.sweep = {.full = {"splats"}, .matters = finds_photons};
+    return option;
+}
+
 std::vector<Option> image_space_options() {
     std::vector<Option> own = fixed_radius_options();
-    for (const Option& option : cube_map_options()) {
-        own.push_back(option);
+    own.push_back(estimate_option());
+    for (const std::vector<Option>& more : {splat_options(), cube_map_options()}) {
+        own.insert(own.end(), more.begin(), more.end());
     }
     return all_photon_map_options(own);
 }
 
 } // namespace
 
-/// Photons are traced through cube maps of the scene's surfaces; densities are those of `photons`.
+/// Photons are traced through cube maps of the scene's surfaces; densities are those of `photons`,
+/// or of splats.
 MethodInfo image_space_method() {
     return {.name = "image-space",
             .summary = "photon mapping, photons traced through cube maps of the surfaces",
@@ -26,8 +39,10 @@ MethodInfo image_space_method() {
             .law = photon_mapping_law,
             .options = image_space_options(),
             .make = [](RenderContext& context) {
-                return make_photon_mapping(context, make_fixed_radius(), false,
-                                           make_cube_map_tracing());
+                const bool splats = estimate_option().get(context.settings) == "splats";
+                return make_photon_mapping(context,
+                                           splats ? make_splats(context) : make_fixed_radius(),
+                                           false, make_cube_map_tracing());
             }};
 }
 

@@ -232,8 +232,8 @@ void PhotonMapping::make_room(std::uint64_t photons) {
     }
     const Buffer sums = photons_.flux_sums;
     photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
-    photons_ =
-        make_photon_workspace(c_.device, room, c_.on_device.plan.needs(Feature::differentials));
+    photons_ = make_photon_workspace(
+        c_.device, room, strategy_->splats() ? extents_splats : extents_of(c_.on_device.plan));
     photons_.numbers = kind_of_photon_numbers(c_.settings);
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     if (tracing_) {

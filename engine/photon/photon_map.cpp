@@ -45,8 +45,9 @@ constexpr std::uint32_t automatic_leaf_size = 16;
 void allocate_stored(Device& device, PhotonWorkspace& w, std::uint64_t capacity) {
     w.capacity = capacity;
     w.photons = device.allocate("photons", capacity * sizeof(PhotonRecord));
-    w.offsets = device.allocate("photon differentials, stored",
-                                w.footprints ? capacity * sizeof(glm::uvec4) : sizeof(glm::uvec4));
+    w.offsets = device.allocate("photon differentials, stored", w.extents != extents_none
+                                                                    ? capacity * sizeof(glm::uvec4)
+                                                                    : sizeof(glm::uvec4));
     w.lights = device.allocate("photons' lights", (w.keeps_lights ? capacity : 1) * 4);
     w.vertices =
         device.allocate("vertices of photons' paths",
@@ -69,7 +70,8 @@ void make_room(Device& device, PhotonWorkspace& w, std::uint64_t stored, std::ui
     const Buffer vertices = w.vertices;
     allocate_stored(device, w, capacity);
     copy_elements(device, photons, 0, w.photons, 0, stored, sizeof(PhotonRecord));
-    copy_elements(device, offsets, 0, w.offsets, 0, w.footprints ? stored : 0, sizeof(glm::uvec4));
+    copy_elements(device, offsets, 0, w.offsets, 0, w.extents != extents_none ? stored : 0,
+                  sizeof(glm::uvec4));
     copy_elements(device, lights, 0, w.lights, 0, w.keeps_lights ? stored : 0, 4);
     copy_elements(device, vertices, 0, w.vertices, 0, w.keeps_paths ? 2 * w.most_paths + stored : 0,
                   sizeof(PathVertex));
@@ -99,7 +101,7 @@ void emit_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                                   .vertices = w.vertices,
                                   .hits = w.hits,
                                   .batch = batch,
-                                  .constants = {.footprints = w.footprints,
+                                  .constants = {.footprints = w.extents == extents_differentials,
                                                 .numbers = w.numbers,
                                                 .keeps = kept_of(w),
                                                 .scene = scene.constants(),
@@ -131,7 +133,7 @@ void scatter_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& 
                  .path_vertices = w.path_vertices,
                  .vertices = w.vertices,
                  .batch = batch,
-                 .constants = {.footprints = w.footprints,
+                 .constants = {.extents = w.extents,
                                .reemission = w.reemission,
                                .numbers = w.numbers,
                                .followed_paths = scene.plan.needs(Feature::followed_paths),
@@ -304,6 +306,10 @@ void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& 
 
 } // namespace
 
+std::uint32_t extents_of(const Plan& plan) {
+    return plan.needs(Feature::differentials) ? extents_differentials : extents_none;
+}
+
 std::uint64_t max_stored_photons(const Device& device) {
     return std::min<std::uint64_t>(device.info().limits.storage_range / sizeof(PhotonRecord),
                                    most_photons_in_map);
@@ -314,9 +320,9 @@ std::uint64_t max_photons_per_pass(const Device& device) {
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints, bool keeps_lights, bool keeps_paths) {
+                                      std::uint32_t extents, bool keeps_lights, bool keeps_paths) {
     PhotonWorkspace w;
-    w.footprints = footprints;
+    w.extents = extents;
     w.keeps_lights = keeps_lights;
     w.keeps_paths = keeps_paths;
     w.most_paths = photons_per_pass;
@@ -333,8 +339,9 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.active = per_slot("active photons", 4);
     w.next_active = per_slot("active photons", 4);
     w.alive = per_slot("photon flags", 4);
-    w.differentials = device.allocate("photon differentials",
-                                      (footprints ? w.slots : 1) * sizeof(DifferentialRecord));
+    w.differentials =
+        device.allocate("photon differentials", (extents == extents_differentials ? w.slots : 1) *
+                                                    sizeof(DifferentialRecord));
     w.path_lights = device.allocate("photon paths' lights", (keeps_lights ? w.slots : 1) * 4);
     w.path_vertices = device.allocate("photon paths' vertices", (keeps_paths ? w.slots : 1) * 4);
     w.counters = device.allocate("photon counters", counter_count * 4);

@@ -62,14 +62,14 @@ inline constexpr std::size_t flux_words = 15;
 struct PhotonWorkspace {
     std::uint64_t slots = 0;                  ///< photons traced together
     std::uint64_t capacity = 0;               ///< photons stored
-    bool footprints = false;                  ///< whether photons carry differentials
+    std::uint32_t extents = extents_none;     ///< extents_* of shared/photon_records.h
     std::uint32_t numbers = numbers_sobol;    ///< numbers_* of shared/sampling.h
     std::uint32_t reemission = REEMIT_COSINE; ///< REEMIT_* of shared/differential.h
     Buffer rays, hits, paths, ledgers, active, next_active, alive, counters, photons, codes, order,
         heads;
     Buffer differentials; ///< DifferentialRecord per slot
-    Buffer offsets;       ///< uvec4 per stored photon: its positional differentials, pack_dual of
-                          ///< shared/footprint.h
+    Buffer offsets;       ///< uvec4 per stored photon: its positional differentials, or its splat's
+                          ///< size, pack_dual of shared/footprint.h
     bool keeps_lights = false;    ///< whether photons keep the indices of their lights
     Buffer path_lights;           ///< uint per slot: the photon's light
     Buffer lights;                ///< uint per stored photon: its light
@@ -86,8 +86,11 @@ struct PhotonWorkspace {
 };
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      bool footprints = false, bool keeps_lights = false,
-                                      bool keeps_paths = false);
+                                      std::uint32_t extents = extents_none,
+                                      bool keeps_lights = false, bool keeps_paths = false);
+
+/// What photons need for footprints if the plan has them.
+std::uint32_t extents_of(const Plan& plan);
 
 /// The most photons that a map may hold on this device.
 std::uint64_t max_stored_photons(const Device& device);

@@ -8,7 +8,7 @@ namespace argand {
 
 PhotonQueue sort_by_kdtree(Device& device, const PhotonWorkspace& w, std::uint64_t records,
                            double reach, std::uint32_t leaf_size, bool parts_caustics) {
-    PhotonQueue q = make_photon_queue(1, leaf_size, w.footprints);
+    PhotonQueue q = make_photon_queue(1, leaf_size, w.extents != extents_none);
     q.stage = "build photon kd-tree";
     KdTree tree;
     {

@@ -50,8 +50,41 @@ FN FootprintScale make_footprint_scale(real photons, real reference_photons, rea
     s.caustic_max = s.radius_max;
     s.flatness = float32(tuning.flatness);
     s.principal_axes = 0u;
-    s.pad0 = s.pad1 = s.pad2 = 0u;
+    s.splats = 0u;
+    s.pad0 = s.pad1 = 0u;
     return s;
+}
+
+// Splats of Yao et al. 2010, section 6: discs of the radius h = size / sqrt(p), p = cos(theta) /
+// d², where d is relative to the scene's length, and p is clamped to `densities`. sizes: of
+// photons, and of caustic ones; C0 sqrt(A / N) there for both.
+FN FootprintScale splat_scale(vec2 sizes, real length, vec2 densities, real flatness) {
+    FootprintScale s;
+    s.spacing = float32(length);
+    s.diffuse = float32(sizes.x);
+    s.caustic = float32(sizes.y / length);
+    s.radius_min = float32(sizes.x / sqrt(densities.y));
+    s.radius_max = float32(sizes.x / sqrt(densities.x));
+    s.caustic_min = float32(sizes.y / sqrt(densities.y));
+    s.caustic_max = float32(sizes.y / sqrt(densities.x));
+    s.flatness = float32(flatness);
+    s.principal_axes = 0u;
+    s.splats = 1u;
+    s.pad0 = s.pad1 = 0u;
+    return s;
+}
+
+// What a splatted photon keeps in the place of its differential: a circle of the radius 1 /
+// sqrt(p), not clamped, in the plane of the surface. direction: in which it travels; distance: of
+// its ray's hit.
+FN PhotonDifferential splat_differential(vec3 direction, real distance, vec3 normal) {
+    real cosine = max(abs(dot3(direction, normal)), real(1e-6));
+    real radius = distance / sqrt(cosine);
+    Frame frame = make_frame(normal);
+    PhotonDifferential d = no_differential();
+    d.dp_du = frame.x * radius;
+    d.dp_dv = frame.y * radius;
+    return d;
 }
 
 // Turns conjugate semi-axes of an ellipse into its principal axes, u the longer (one Jacobi
@@ -90,8 +123,9 @@ FN vec3 footprint_axis(vec3 dp, vec3 normal, bool caustic, IN(FootprintScale) s)
               // removes the rounding error where dp is along the normal
               normal * dot3(tangent, normal);
     vec3 unit = unit_and_length(tangent, size);
-    real radius =
-        caustic ? size * real(s.caustic) : real(s.diffuse) * sqrt(sqrt(size / real(s.spacing)));
+    real spread = size / real(s.spacing);
+    real radius = caustic ? size * real(s.caustic)
+                          : real(s.diffuse) * (s.splats != 0u ? spread : sqrt(sqrt(spread)));
     return unit * (caustic ? clamp(radius, real(s.caustic_min), real(s.caustic_max))
                            : clamp(radius, real(s.radius_min), real(s.radius_max)));
 }

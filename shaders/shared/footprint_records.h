@@ -15,7 +15,8 @@ struct FootprintScale {
     float32 flatness; // half-axis along the normal over the geometric mean of the other two
     // 1: the principal axes of the ellipse are compressed; 0: the differentials themselves.
     uint principal_axes;
-    uint pad0, pad1, pad2;
+    uint splats; // 1: differentials are not compressed (splat_scale)
+    uint pad0, pad1;
 };
 
 struct FootprintParams {

@@ -53,6 +53,12 @@ struct PathVertex {
 
 CONSTANT uint no_vertex = 0xffffffffu;
 
+// What photons keep of how far they reach: nothing; how those next to them would lie, which they
+// carry on their way as differentials; or the sizes of splats.
+CONSTANT uint extents_none = 0u;
+CONSTANT uint extents_differentials = 1u;
+CONSTANT uint extents_splats = 2u;
+
 // What may be kept of photons: the index of their light, the vertices of their path, and where they
 // start, as a hit.
 CONSTANT uint kept_light = 1u;

@@ -27,8 +27,7 @@ layout(set = 0, binding = 22) buffer PathVertices { uint path_vertices[]; };
 layout(set = 0, binding = 23) writeonly buffer Vertices { PathVertex vertices[]; };
 layout(push_constant) uniform Push { PhotonBatch batch; };
 
-// Whether photons carry differentials.
-layout(constant_id = 0) const bool footprints = false;
+layout(constant_id = 0) const uint extents = extents_none; // extents_*
 layout(constant_id = 1) const uint reemission = REEMIT_COSINE;
 layout(constant_id = 2) const uint numbers = numbers_sobol; // numbers_*
 // Whether paths are followed through some lobe of the scene (shared/follow.h); else there are no

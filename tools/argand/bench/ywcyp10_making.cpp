@@ -1,6 +1,6 @@
+#include "bench.hpp"
 #include "bench_scene.hpp"
 #include "imagespace/cube_centers.hpp"
-#include "bench.hpp"
 #include "world/world.hpp"
 #include "ywcyp10.hpp"
 

@@ -314,7 +314,7 @@ FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability,
     paths[slot].flux_g = flux.y;
     paths[slot].flux_b = flux.z;
     rays[slot].t_max = goes_on_in(medium_of(rays[slot].t_max));
-    if (footprints) {
+    if (extents == extents_differentials) {
         PhotonDifferential d = load_differential(differentials[slot]);
         roulette_differential(d, probability * survival);
         differentials[slot] = differential_record(d);
@@ -339,7 +339,7 @@ FN real disperse_photon(uint slot, INOUT(Arrival) a, MaterialRecord m, uint tria
 FN void store_with_details(uint slot, uint store, Arrival a, bool caustic,
                            IN(PhotonDifferential) d) {
     store_photon(store, a, caustic);
-    if (footprints) {
+    if (extents != extents_none) {
         offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
     }
     if ((keeps & kept_light) != 0u) {
@@ -394,7 +394,7 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
     // Roulette moves flux from one photon to another, so absorption is a difference and may be
     // negative.
     ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
-    if (footprints) {
+    if (extents == extents_differentials) {
         scatter_differential(d, a, out_of, survival);
         differentials[slot] = differential_record(d);
     }
@@ -448,12 +448,14 @@ FN void main() {
     how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     how.estimated = bsdf_lobes(m) & ~how.followed;
     PhotonDifferential d;
-    if (footprints) {
+    if (extents == extents_differentials) {
         d = load_differential(differentials[slot]);
         transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
         if (has(MATERIAL_DISPERSION) && channels > real(1.0)) {
             roulette_differential(d, real(1.0) / channels);
         }
+    } else if (extents == extents_splats) {
+        d = splat_differential(direction, hit.t, a.surface.geometric_normal);
     }
     how.only_followed = (path.state & photon_followed) != 0u;
     bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
