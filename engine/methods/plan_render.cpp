@@ -13,6 +13,7 @@ PlanRequest request_of(const RenderSettings& settings, MethodTable methods) {
             .photon_map = abilities.photon_map,
             .footprints =
                 method.wants_footprints ? method.wants_footprints(settings) : abilities.footprints,
+            .cube_maps = abilities.approximate_hits,
             .final_gather = settings.final_gather,
             .everything = settings.everything};
 }

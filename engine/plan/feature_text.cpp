@@ -123,6 +123,11 @@ FeatureText text_of(Feature feature) {
                             sizeof(DifferentialRecord), 2 * lane)};
     case Feature::caustics:
         return {"caustics", "caustic photons", "every eye path queries them separately"};
+    case Feature::cube_maps:
+        return {"cube_maps", "cube maps",
+                fmt::format("{} bytes per texel, for each of three layers where light passes "
+                            "surfaces",
+                            2 * word)};
     case Feature::final_gather:
         return {"final_gather", "final gather",
                 "a round of tracing and shading before the photon map is queried"};

@@ -209,6 +209,8 @@ bool allows(const PlanRequest& request, Feature feature) {
         return request.photon_map;
     case Feature::differentials:
         return request.photon_map && request.footprints;
+    case Feature::cube_maps:
+        return request.photon_map && request.cube_maps;
     case Feature::final_gather:
         return request.photon_map && request.final_gather;
     default:
@@ -240,6 +242,7 @@ Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& req
     found.add(Feature::differentials, "the method");
     found.add(Feature::caustics, found.by(Feature::followed_paths),
               has(Feature::followed_paths) && estimated);
+    found.add(Feature::cube_maps, "the method");
     found.add(Feature::final_gather, "the request");
     for (const Feature feature : all_features()) {
         found.add(feature, "the request", request.everything);

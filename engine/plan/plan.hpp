@@ -53,6 +53,7 @@ enum class Feature : std::uint8_t {
     photon_map,
     differentials, ///< photon differentials
     caustics,      ///< photons that only followed lobes have scattered
+    cube_maps,     ///< of the surfaces, in which photons find their hits
     final_gather
 };
 
@@ -61,6 +62,7 @@ struct PlanRequest {
     float follow_roughness = 0.25f; ///< glossy lobes of at most this roughness are followed
     bool photon_map = true;
     bool footprints = true; ///< photons have footprints
+    bool cube_maps = false; ///< photons find their hits in cube maps
     bool final_gather = false;
     /// Count what materials require at rest and at their keys, instead of now, so that it is the
     /// same at all times.

@@ -252,6 +252,15 @@ TEST_F(Commands, InspectSaysWhatWouldBeDone) {
     EXPECT_EQ(point.at("features").size(), 4u) << point;
     const Outcome text = argand("inspect '" + asset("cornell_glass.glb") + "'");
     EXPECT_THAT(text.out, HasSubstr("method      footprints (default)\nrequires    "));
+    EXPECT_THAT(text.out, ::testing::Not(HasSubstr("  cube maps: ")));
+    const Outcome maps =
+        argand("inspect '" + asset("cornell_glass.glb") + "' --method image-space");
+    EXPECT_THAT(maps.out, HasSubstr("method      image-space\nrequires    "));
+    EXPECT_THAT(maps.out, HasSubstr("  cube maps: the method; 8 bytes per texel"));
+    const Outcome unknown =
+        argand("inspect '" + asset("cornell_glass.glb") + "' --method imagespace");
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_THAT(unknown.error, HasSubstr("image-space"));
     EXPECT_THAT(text.out, HasSubstr("  refraction: material 'glass sphere'\n"));
     EXPECT_THAT(text.out, HasSubstr("left out    "));
 }

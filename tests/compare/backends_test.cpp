@@ -49,6 +49,19 @@ protected:
     host::HostDevice host_{host::describe()};
 };
 
+/// Expects the same picture, and of each stage the same words where both devices round alike.
+void expect_agreement(const BackendComparison& found, const Device& device,
+                      const std::string& what) {
+    EXPECT_TRUE(passes(found)) << what << ", relMSE " << found.rel_mse;
+    for (const StageComparison& stage : found.isolated) {
+        // lavapipe and the host round alike.
+        const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
+        EXPECT_TRUE(same_bits && passes_isolated(stage))
+            << what << ": " << stage.name << ", " << stage.unequal << " unequal, " << stage.diverged
+            << " diverged of " << stage.items;
+    }
+}
+
 /// dynamic_block.glb, whose block is morphed, and skinned by its node and one that rests.
 Scene skinned_block() {
     Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/dynamic_block.glb");
@@ -77,19 +90,12 @@ TEST_P(Backends, AgreeOnEveryStage) {
                             : load_gltf(ARGAND_SOURCE_DIR "/assets/" + GetParam());
     for (const std::string& method : is_quick(GetParam()) ? method_names() : different_methods) {
         const BackendComparison found = compare_backends(device, host_, scene, small(method));
-        EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
+        expect_agreement(found, device, method);
         EXPECT_GT(found.isolated.size(), 10u);
         const bool refits =
             std::any_of(found.isolated.begin(), found.isolated.end(),
                         [](const StageComparison& stage) { return stage.name == "ray_refit"; });
         EXPECT_EQ(refits, !scene.motion.meshes.empty());
-        for (const StageComparison& stage : found.isolated) {
-            // lavapipe and the host round alike.
-            const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
-            EXPECT_TRUE(same_bits && passes_isolated(stage))
-                << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
-                << stage.diverged << " diverged of " << stage.items;
-        }
     }
 }
 
@@ -101,12 +107,12 @@ INSTANTIATE_TEST_SUITE_P(Assets, Backends, ::testing::ValuesIn(scenes_that(true)
 INSTANTIATE_TEST_SUITE_P(SlowSkinned, Backends, ::testing::Values("skinned_block"), name_of);
 INSTANTIATE_TEST_SUITE_P(SlowAssets, Backends, ::testing::ValuesIn(scenes_that(false)), name_of);
 
-class SimultaneousQueries : public DeviceTest {
+class EstimatesOfBackends : public DeviceTest {
 protected:
     host::HostDevice host_{host::describe()};
 };
 
-TEST_F(SimultaneousQueries, AgreeOnEveryStage) {
+TEST_F(EstimatesOfBackends, AgreeOnSimultaneousQueries) {
     Device& device = open();
     const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_glass.glb");
     for (const std::string method : {"photons", "footprints"}) {
@@ -118,18 +124,25 @@ TEST_F(SimultaneousQueries, AgreeOnEveryStage) {
             settings.frontier.memory = least_frontier_memory;
         }
         const BackendComparison found = compare_backends(device, host_, scene, settings);
-        EXPECT_TRUE(passes(found)) << method << ", relMSE " << found.rel_mse;
-        bool divided = false;
-        for (const StageComparison& stage : found.isolated) {
-            divided = divided || stage.name == "frontier_copy";
-            // lavapipe and the host round alike.
-            const bool same_bits = device.info().kind != DeviceKind::cpu || stage.unequal == 0;
-            EXPECT_TRUE(same_bits && passes_isolated(stage))
-                << method << ": " << stage.name << ", " << stage.unequal << " unequal, "
-                << stage.diverged << " diverged of " << stage.items;
-        }
-        EXPECT_TRUE(divided);
+        expect_agreement(found, device, method);
+        EXPECT_TRUE(std::any_of(
+            found.isolated.begin(), found.isolated.end(),
+            [](const StageComparison& stage) { return stage.name == "frontier_copy"; }));
     }
+}
+
+TEST_F(EstimatesOfBackends, AgreeOnSplats) {
+    Device& device = open();
+    RenderSettings settings = small("image-space");
+    settings.photons = 1500;
+    settings.own = {{"estimate", "splats"}, {"map-size", "32"}};
+    const BackendComparison found = compare_backends(
+        device, host_, load_gltf(ARGAND_SOURCE_DIR "/assets/cornell_glass.glb"), settings);
+    expect_agreement(found, device, "splats");
+    EXPECT_TRUE(
+        std::any_of(found.isolated.begin(), found.isolated.end(), [](const StageComparison& stage) {
+            return stage.name == "photon_footprints";
+        }));
 }
 
 /// A device that writes a wrong word after one kernel.

@@ -23,7 +23,7 @@ std::uint32_t default_of(const std::string& file, const std::string& constant) {
 }
 
 TEST(EveryKind, IsInThePlanForEverything) {
-    const Plan plan = make_plan({}, {.final_gather = true, .everything = true});
+    const Plan plan = make_plan({}, {.cube_maps = true, .final_gather = true, .everything = true});
     EXPECT_EQ(plan.material_features(), MATERIAL_ALL);
     EXPECT_EQ(plan.light_kinds(), all_light_kinds);
 }

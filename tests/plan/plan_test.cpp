@@ -52,6 +52,9 @@ TEST(Plan, DiffuseBoxNeedsOnlyDiffuseFeatures) {
     EXPECT_THAT(features(room_scene(), {.footprints = false, .final_gather = true}),
                 UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
                                      Feature::photon_map, Feature::final_gather));
+    EXPECT_THAT(features(room_scene(), {.footprints = false, .cube_maps = true}),
+                UnorderedElementsAre(Feature::diffuse, Feature::point_light, Feature::direct_light,
+                                     Feature::photon_map, Feature::cube_maps));
 }
 
 TEST(Plan, GlassSphereAddsItsFeatures) {
@@ -200,7 +203,7 @@ TEST(Plan, NamesTheObjectThatRequiresAFeature) {
 }
 
 TEST(Plan, EverythingRequiresAllFeatures) {
-    const Plan plan = make_plan({}, {.final_gather = true, .everything = true});
+    const Plan plan = make_plan({}, {.cube_maps = true, .final_gather = true, .everything = true});
     EXPECT_EQ(plan.required.size(), all_features().size());
     EXPECT_FALSE(
         make_plan({}, {.photon_map = false, .everything = true}).needs(Feature::differentials));

@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include "base/json.hpp"
+#include "method_options.hpp"
 #include "methods/method_info.hpp"
 #include "methods/plan_render.hpp"
 #include "scene/motion.hpp"
@@ -20,13 +21,15 @@ namespace {
 
 struct InspectOptions : SceneOptions {
     MethodTable methods;
+    std::string method; ///< empty: that of a render without options
     bool json = false;
 };
 
-/// The plan of `argand render` without options.
-nlohmann::ordered_json plan_json(const Scene& scene, MethodTable methods) {
+/// The plan of `argand render` with a method, or without options.
+nlohmann::ordered_json plan_json(const Scene& scene, const std::string& method,
+                                 MethodTable methods) {
     RenderSettings settings;
-    settings.method = method_for(scene, settings, methods).name;
+    settings.method = method.empty() ? method_for(scene, settings, methods).name : method;
     const Plan plan = plan_render(scene, settings, methods);
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
     for (const auto& [feature, by] : plan.required) {
@@ -70,10 +73,10 @@ std::string kept_text(const Scene& scene) {
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
-std::string plan_text(const nlohmann::ordered_json& plan) {
+std::string plan_text(const nlohmann::ordered_json& plan, bool is_default) {
     std::string text =
-        fmt::format("{:<12}{} (default)\n{:<12}{}\n", "method", plan["method"].get<std::string>(),
-                    "requires", plan["features"].size());
+        fmt::format("{:<12}{}{}\n{:<12}{}\n", "method", plan["method"].get<std::string>(),
+                    is_default ? " (default)" : "", "requires", plan["features"].size());
     for (const nlohmann::ordered_json& feature : plan["features"]) {
         const auto cost = feature["cost"].get<std::string>();
         fmt::format_to(std::back_inserter(text), "  {}: {}{}{}\n",
@@ -90,9 +93,12 @@ std::string plan_text(const nlohmann::ordered_json& plan) {
 }
 
 void inspect(const InspectOptions& options) {
+    if (!options.method.empty()) {
+        check_methods({options.method}, options.methods);
+    }
     const Scene scene = load_scene(options.scene, options, options.seconds, options.load);
     nlohmann::ordered_json summary = summary_json(scene);
-    const nlohmann::ordered_json plan = plan_json(scene, options.methods);
+    const nlohmann::ordered_json plan = plan_json(scene, options.method, options.methods);
     const std::string kept = kept_text(scene);
     if (options.json) {
         summary["plan"] = plan;
@@ -101,7 +107,7 @@ void inspect(const InspectOptions& options) {
         }
         fmt::print("{}", json_text(summary));
     } else {
-        fmt::print("{}{}", summary_text(scene), plan_text(plan));
+        fmt::print("{}{}", summary_text(scene), plan_text(plan, options.method.empty()));
         if (!kept.empty()) {
             fmt::print("{:<12}by --method photon-queue, of the photons: {}\n", "frames keep", kept);
         }
@@ -114,8 +120,10 @@ void add_inspect_command(CLI::App& app, MethodTable methods) {
     CLI::App* command = app.add_subcommand(
         "inspect",
         "Describe a scene: its contents, what Argand ignores, and what a render would require");
-    auto options = std::make_shared<InspectOptions>(InspectOptions{SceneOptions(), methods});
+    auto options = std::make_shared<InspectOptions>(InspectOptions{SceneOptions(), methods, ""});
     add_scene_options(*command, *options);
+    command->add_option("--method", options->method,
+                        "Say what a render by this method would require (default: the scene's)");
     command->add_flag("--json", options->json, "Print JSON");
     command->footer("Example:\n  argand inspect assets/cornell_glass.glb");
     command->callback([options] { inspect(*options); });
