@@ -50,7 +50,8 @@ CONSTANT uint of_unpack_dual = 95u;
 CONSTANT uint of_dual_read = 96u;
 CONSTANT uint of_light_emit_aimed = 97u;
 CONSTANT uint of_triangle_piece = 98u;
-CONSTANT uint end_of_lights = 99u;
+CONSTANT uint of_splat = 99u;
+CONSTANT uint end_of_lights = 100u;
 
 FN LightRecord light_at(IN(Arguments) a, int k, uint kind, uint double_sided) {
     LightRecord l;
@@ -316,6 +317,13 @@ FN bool evaluate_footprint(uint function, IN(Arguments) a, INOUT(Values) r) {
         // If both axes are clamped, either may come first; the ellipsoid is the same.
         put3(r, 0, footprint_extent(f));
         r.y[3] = footprint_area(f);
+    } else if (function == of_splat) {
+        vec3 normal = vec3_at(a, 3);
+        FootprintScale scale = splat_scale(vec2(number_at(a, 7), number_at(a, 8)), number_at(a, 9),
+                                           vec2(real(0.25), real(16.0)), real(0.5));
+        Footprint f = make_footprint(splat_differential(vec3_at(a, 0), number_at(a, 6), normal),
+                                     normal, small_at(a, 10) != 0u, scale);
+        put3(r, 0, footprint_extent(f));
     } else if (function == of_footprint_area) {
         r.y[0] = footprint_area(footprint_at(a, 0));
     } else if (function == of_footprint_duals) {

@@ -411,6 +411,20 @@ std::vector<Function> footprints() {
              d.put(static_cast<float>(d.bits() % 2));
          },
          11, "31", conditioned, 8000},
+        {"splat_differential, splat_scale (extent)", of_splat,
+         "directions down to 10^-3 over the surface, distances and sizes 2^-20 … 2^20",
+         [](Draw& d) {
+             const glm::vec3 n = d.direction();
+             const glm::dvec3 z(n);
+             d.put(rounded(glm::normalize(d.across(z) - z * double(d.magnitude(-10, 10)))));
+             d.put(n);
+             d.put(d.magnitude(-20, 20));
+             d.put(d.magnitude(-20, 20));
+             d.put(d.magnitude(-20, 20));
+             d.put(d.magnitude(-20, 20));
+             d.put(static_cast<float>(d.bits() % 2));
+         },
+         11, "3", conditioned, 8},
         {"footprint_area", of_footprint_area, "semi-axes 2^-30 … 2^20, skewed to 10^-3",
          [](Draw& d) { put_footprint(d, d.direction()); }, 9, "1", conditioned, 8},
         {"footprint_duals", of_footprint_duals, "semi-axes 2^-30 … 2^20, skewed to 10^-3",
