@@ -53,6 +53,14 @@ Option coverage_option() {
                          OptionKind::number, "0.99", 0, 1);
 }
 
+Option choose_every_option() {
+    return number_option(
+        "choose-every",
+        "Images of a film for which centers of maps are chosen once, unless they "
+        "show less of what is in view; 1: an image does not depend on those before",
+        OptionKind::integer, "1", 1, 1'000'000);
+}
+
 Option steps_option() {
     return number_option("steps", "Iterations in which a photon's hit is found in a map",
                          OptionKind::integer, "5", 0, 64);
@@ -101,6 +109,7 @@ CubeMapOptions cube_map_options_of(const RenderSettings& settings) {
         options.making = making == "raster" ? MapMaking::raster : MapMaking::cast;
     }
     options.size = whole(settings, size_option());
+    options.choose_every = whole(settings, choose_every_option());
     options.search = {.steps = whole(settings, steps_option()),
                       .march = whole(settings, march_option()),
                       .exact = hits_option().get(settings) == "triangles",
@@ -109,8 +118,9 @@ CubeMapOptions cube_map_options_of(const RenderSettings& settings) {
 }
 
 std::vector<Option> cube_map_options() {
-    return {count_option(), size_option(),  coverage_option(), making_option(),
-            steps_option(), march_option(), hits_option(),     error_option()};
+    return {choose_every_option(), count_option(),  size_option(),
+            coverage_option(),     making_option(), steps_option(),
+            march_option(),        hits_option(),   error_option()};
 }
 
 } // namespace argand

@@ -192,67 +192,66 @@ Candidates find_candidates(RenderContext& c, std::span<const glm::vec4> queries,
     return found;
 }
 
+/// Whether photons are emitted at all.
+bool has_photons(const RenderContext& c) {
+    return c.on_device.record.light_count > 0 && c.settings.photons > 0 && c.settings.bounces > 0;
+}
+
+/// The state of the surfaces of which maps are made: when they moved or changed last.
+std::uint64_t surface_revision(const DeviceScene& scene) {
+    std::uint64_t latest = scene.last_material_change;
+    for (const MeshPlace& mesh : scene.meshes) {
+        latest = std::max(latest, mesh.last_moved);
+    }
+    return latest;
+}
+
 class CubeMapTracing : public TracingStrategy {
 public:
     void begin_frame(RenderContext& c, std::span<const glm::vec4> queries) override {
-        const SceneRecord& scene = c.on_device.record;
-        if (scene.triangle_count == 0 || scene.light_count == 0 || c.settings.photons == 0 ||
-            c.settings.bounces == 0) {
-            missing_ = 0;
-            centers_ = {glm::vec3(0)}; // no photon is traced
-            make(c);
+        queries_.assign(queries.begin(), queries.end());
+        ++images_;
+        const CubeMapOptions options = cube_map_options_of(c.settings);
+        if (images_ >= options.choose_every ||
+            (has_photons(c) && !centers_.empty() &&
+             unseen_share(c) > unseen_ + 1 - options.centers.coverage)) {
+            centers_.clear();
+        }
+        follow(c);
+    }
+
+    void follow(RenderContext& c) override {
+        if (!has_photons(c)) {
             return;
         }
-        const CubeMapOptions options = cube_map_options_of(c.settings);
-        Candidates candidates = find_candidates(c, queries, options.centers.most);
-        CubeMaps maps = make_candidates(c, candidates.places);
-        std::vector<glm::vec4> points = some_of(queries, most_points);
-        const std::size_t in_view = points.size();
-        for (const std::vector<glm::vec4>& more : {places_of_photons(c, maps), candidates.starts}) {
-            const std::vector<glm::vec4> some = some_of(more, most_points);
-            points.insert(points.end(), some.begin(), some.end());
+        if (centers_.empty()) {
+            choose(c);
+            images_ = 0;
+            unseen_ = cube_map_options_of(c.settings).choose_every > 1 ? unseen_share(c) : 0;
+            made_for_.reset();
         }
-        const auto choose = [&] {
-            return choose_centers(c.device, c.on_device, maps, candidates.fixed, points,
-                                  options.centers);
-        };
-        ChosenCenters chosen = choose();
-        // Points in view that no candidate sees have candidates of their own, in a second choice.
-        std::erase_if(chosen.unseen, [&](std::size_t point) { return point >= in_view; });
-        if (!chosen.unseen.empty()) {
-            const std::size_t step = step_for(chosen.unseen.size(), most_near_unseen);
-            const std::size_t before = candidates.places.size();
-            for (std::size_t i = step / 2; i < chosen.unseen.size(); i += step) {
-                add_toward(c, points[chosen.unseen[i]], 0.9f, candidates.places);
-            }
-            if (candidates.places.size() > before) {
-                maps = make_candidates(c, candidates.places);
-                chosen = choose();
-            }
+        if (made_for_ != surface_revision(c.on_device)) {
+            make(c);
         }
-        missing_ = chosen.missing;
-        centers_.clear();
-        for (const std::size_t candidate : chosen.candidates) {
-            centers_.push_back(candidates.places[candidate]);
-        }
-        if (centers_.empty()) { // nobody sees anything
-            centers_.push_back(candidates.places.front());
-        }
-        make(c);
     }
 
     void persist(Archive& archive, RenderContext& c) override {
         archive.values(centers_);
         archive.value(missing_);
+        archive.value(images_);
+        archive.value(unseen_);
         if (archive.loads()) {
             const bool finite = std::all_of(centers_.begin(), centers_.end(), [](const auto& p) {
                 return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
             });
-            if (centers_.empty() || centers_.size() > most_centers || !finite) {
+            if (centers_.size() > most_centers || !finite) {
                 fail("loading a saved state: it has no centers of cube maps for '{}'",
                      c.scene.name);
             }
-            make(c);
+            made_for_.reset();
+            if (!centers_.empty()) {
+                make(c);
+            }
         }
     }
 
@@ -271,6 +270,62 @@ public:
     }
 
 private:
+    void choose(RenderContext& c) {
+        if (c.on_device.record.triangle_count == 0) {
+            centers_ = {glm::vec3(0)}; // all photons escape
+            missing_ = 0;
+            return;
+        }
+        const CubeMapOptions options = cube_map_options_of(c.settings);
+        Candidates candidates = find_candidates(c, queries_, options.centers.most);
+        CubeMaps maps = make_candidates(c, candidates.places);
+        std::vector<glm::vec4> points = some_of(queries_, most_points);
+        const std::size_t in_view = points.size();
+        for (const std::vector<glm::vec4>& more : {places_of_photons(c, maps), candidates.starts}) {
+            const std::vector<glm::vec4> some = some_of(more, most_points);
+            points.insert(points.end(), some.begin(), some.end());
+        }
+        const auto choose_among = [&] {
+            return choose_centers(c.device, c.on_device, maps, candidates.fixed, points,
+                                  options.centers);
+        };
+        ChosenCenters chosen = choose_among();
+        // Points in view that no candidate sees have candidates of their own, in a second choice.
+        std::erase_if(chosen.unseen, [&](std::size_t point) { return point >= in_view; });
+        if (!chosen.unseen.empty()) {
+            const std::size_t step = step_for(chosen.unseen.size(), most_near_unseen);
+            const std::size_t before = candidates.places.size();
+            for (std::size_t i = step / 2; i < chosen.unseen.size(); i += step) {
+                add_toward(c, points[chosen.unseen[i]], 0.9f, candidates.places);
+            }
+            if (candidates.places.size() > before) {
+                maps = make_candidates(c, candidates.places);
+                chosen = choose_among();
+            }
+        }
+        missing_ = chosen.missing;
+        centers_.clear();
+        for (const std::size_t candidate : chosen.candidates) {
+            centers_.push_back(candidates.places[candidate]);
+        }
+        if (centers_.empty()) { // nobody sees anything
+            centers_.push_back(candidates.places.front());
+        }
+    }
+
+    /// Share of the points in view that no map around the centers shows.
+    double unseen_share(RenderContext& c) const {
+        const std::vector<glm::vec4> points = some_of(queries_, most_points);
+        if (points.empty()) {
+            return 0;
+        }
+        const auto count = static_cast<std::uint32_t>(centers_.size());
+        const ChosenCenters all =
+            choose_centers(c.device, c.on_device, make_candidates(c, centers_), count, points,
+                           {.least = count, .most = count + 1});
+        return static_cast<double>(all.unseen.size()) / static_cast<double>(points.size());
+    }
+
     /// Makes the maps, as large as the device allows.
     void make(RenderContext& c) {
         std::uint32_t size = cube_map_options_of(c.settings).size;
@@ -284,12 +339,17 @@ private:
         }
         maps_ = make_cube_maps(c.device, c.on_device, centers_, size, layers, making);
         drawn_ = making == MapMaking::raster;
+        made_for_ = surface_revision(c.on_device);
     }
 
-    std::vector<glm::vec3> centers_;
+    std::vector<glm::vec4> queries_; ///< of the image
+    std::vector<glm::vec3> centers_; ///< none as long as no photon is traced
+    std::uint32_t images_ = 0;       ///< since they were chosen
+    double unseen_ = 0; ///< unseen_share() when they were chosen, if later images keep them
     double missing_ = 0;
     CubeMaps maps_;
-    bool drawn_ = false; ///< by the rasteriser
+    std::optional<std::uint64_t> made_for_; ///< their surface_revision()
+    bool drawn_ = false;                    ///< by the rasteriser
 };
 
 } // namespace

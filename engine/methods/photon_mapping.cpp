@@ -258,6 +258,9 @@ void PhotonMapping::begin_workspace() {
 
 std::optional<StoredPhotons> PhotonMapping::trace(PhotonPass emission) {
     make_room(emission.count);
+    if (tracing_) {
+        tracing_->follow(c_);
+    }
     emission.count = c_.on_device.record.light_count > 0 ? emission.count : 0;
     return trace_photons(c_.device, c_.on_device, photons_, emission,
                          static_cast<float>(image_.flux_unit));

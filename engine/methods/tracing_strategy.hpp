@@ -17,6 +17,9 @@ public:
     /// Makes ready for the photons of an image. queries: points in view.
     virtual void begin_frame(RenderContext& context, std::span<const glm::vec4> queries) = 0;
 
+    /// Makes ready for the photons of a pass: the scene may have moved since the last one.
+    virtual void follow(RenderContext& context) = 0;
+
     /// Saves or loads what the image depends on. Loading replaces begin_frame().
     virtual void persist(Archive& archive, RenderContext& context) = 0;
 

@@ -1,5 +1,7 @@
 // Photons that find their hits in cube maps, against those that find them through the tree.
 #include "rendering.hpp"
+#include "session/shutter.hpp"
+#include "world/world.hpp"
 
 #include <gmock/gmock.h>
 
@@ -85,6 +87,59 @@ TEST_F(ImageSpace, RendersWithoutAnythingToTrace) {
     Scene dark = load_asset("cornell_point.glb");
     dark.lights.clear();
     EXPECT_EQ(mean(layer(render(dark, cube_settings(8)), "indirect")), glm::dvec3(0));
+}
+
+// Of a film, or while the shutter is open.
+class MovingImageSpace : public RenderTest {
+protected:
+    /// Indirect light of dynamic_block, a picture for each moment.
+    std::vector<Image> film(const std::string& method, const std::string& choose_every) {
+        RenderSettings settings = settings_of(method, 24, 8);
+        settings.photons = 50'000;
+        if (method == "image-space") {
+            settings.own["choose-every"] = choose_every;
+        }
+        Scene scene = load_asset("dynamic_block.glb");
+        World world(device(), scene);
+        Session session(world, scene, settings);
+        std::vector<Image> pictures;
+        for (int frame = 0; frame < 4; ++frame) {
+            move_to(0.25 * frame * longest_animation(scene), scene);
+            world.update(scene);
+            session.begin_frame(0);
+            while (const std::optional<PassPlan> plan = session.next_pass()) {
+                EXPECT_TRUE(session.step(*plan, [](double) { return true; }));
+            }
+            pictures.push_back(layer(session.result(), "indirect"));
+        }
+        return pictures;
+    }
+};
+
+TEST_F(MovingImageSpace, MapsFollowWhatMovesUnlessCentersAreChosenAnew) {
+    const std::vector<Image> photons = film("photons", "");
+    for (const char* every : {"1", "3"}) {
+        const std::vector<Image> found = film("image-space", every);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            EXPECT_LT(compare(found[i], photons[i]).rel_mse, 0.004) << every << ", image " << i;
+        }
+    }
+    // The block moves.
+    EXPECT_GT(compare(photons[1], photons[0]).rel_mse, 0.02);
+}
+
+TEST_F(MovingImageSpace, MapsFollowWhatMovesWhileTheShutterIsOpen) {
+    Scene scene = load_asset("dynamic_block.glb");
+    const auto blurred = [&](const char* method) {
+        RenderSettings settings = settings_of(method, 24, 8);
+        settings.photons = 100'000;
+        World world(device(), scene);
+        Session session(world, scene, with_pass_per_sample(settings));
+        return layer(render_through(session, world, scene, {0, longest_animation(scene)}, 0,
+                                    [](double) { return true; }),
+                     "indirect");
+    };
+    EXPECT_LT(compare(blurred("image-space"), blurred("photons")).rel_mse, 0.004);
 }
 
 TEST_F(ImageSpace, SplatsOfOneDensityAreDiscs) {
