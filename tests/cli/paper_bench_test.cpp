@@ -62,6 +62,27 @@ TEST_F(PaperBench, EstimatorsAndKernelsAtEqualError) {
     EXPECT_NE(rows[1]["relMSE, uniform"], rows[1]["relMSE, Epanechnikov"]);
 }
 
+TEST_F(PaperBench, HitsInCubeMaps) {
+    const Outcome run = argand("bench --paper ywcyp10 --part hits --photons 300 --runs 1 --json "
+                               "--scene '" +
+                                   asset("cornell_point.glb") + "'",
+                               on_host);
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const nlohmann::json rows = nlohmann::json::parse(run.out);
+    ASSERT_GT(rows.size(), 10u);
+    for (const nlohmann::json& row : rows) {
+        EXPECT_LE(row["equal"], row["right"]);
+        EXPECT_LE(row["right"].get<double>() + row["wrong"].get<double>() +
+                      row["lost"].get<double>(),
+                  1);
+    }
+    // As published, and by triangles with a march of 32.
+    EXPECT_LT(rows[0]["right"], 0.9);
+    EXPECT_GT(rows[5]["right"], 0.98);
+    expect_failure("bench --paper ywcyp10 --part table1", 2,
+                   "no part 'table1'; choose from making, images, hits");
+}
+
 TEST_F(PaperBench, SimultaneousQueriesAgainstATree) {
     const Outcome run = argand("bench --paper kdgs10 --json --most-queries 1000 --most-photons "
                                "10000 --runs 1",

@@ -80,10 +80,9 @@ void run_paper(const BenchOptions& options) {
     const std::unique_ptr<Device> device = open_backend(options.backend, options.device, false);
     const bool by_row = options.paper != "fd09";
     const std::vector<PaperTable> tables =
-        options.paper == "kdgs10" ? std::vector{bench_kdgs10(*device, options.kdgs10)}
-        : options.paper == "ywcyp10"
-            ? std::vector{bench_cube_making(*device), bench_cube_hits(*device, options.ywcyp10)}
-            : bench_fd09(*device, options.fd09);
+        options.paper == "kdgs10"    ? std::vector{bench_kdgs10(*device, options.kdgs10)}
+        : options.paper == "ywcyp10" ? bench_ywcyp10(*device, options.ywcyp10)
+                                     : bench_fd09(*device, options.fd09);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const PaperTable& table : tables) {
         for (nlohmann::ordered_json row : table.rows) {
@@ -140,9 +139,9 @@ void run(const BenchOptions& options) {
 
 /// Throws UsageError if an option is given that the benchmark of the paper does not have.
 void check_paper_options(const CLI::App& command, const std::string& paper) {
-    const std::vector<std::string> of_fd09{"--part", "--size", "--error-size", "--budget",
+    const std::vector<std::string> of_fd09{"--size", "--error-size", "--budget",
                                            "--reference-samples"};
-    const std::vector<std::string> of_both{"--scene", "--photons"};
+    const std::vector<std::string> of_both{"--scene", "--photons", "--part"};
     const std::vector<std::string> of_kdgs10{"--most-queries", "--most-photons"};
     const std::vector<std::string> of_shi12{"--output", "--scenes", "--quick"};
     std::vector<std::string> others;
@@ -164,6 +163,18 @@ void check_paper_options(const CLI::App& command, const std::string& paper) {
         if (command.count(name) > 0) {
             throw UsageError(
                 fmt::format("measuring '{}': this paper has no {}; leave it out", paper, name));
+        }
+    }
+}
+
+/// Throws UsageError if the benchmark of the paper lacks one of these parts.
+void check_parts(const std::vector<std::string>& parts, const std::string& paper) {
+    const std::vector<std::string> known = paper == "fd09" ? fd09_parts() : ywcyp10_parts();
+    for (const std::string& part : parts) {
+        if (std::find(known.begin(), known.end(), part) == known.end()) {
+            throw UsageError(fmt::format("measuring '{}': this paper has no part '{}'; choose from "
+                                         "{}",
+                                         paper, part, fmt::join(known, ", ")));
         }
     }
 }
@@ -200,11 +211,10 @@ void add_bench_command(CLI::App& app) {
         ->needs(paper)
         ->check(CLI::ExistingFile);
     command
-        ->add_option(
-            "--part", fd09.parts,
-            fmt::format("With --paper fd09: {} (default: all)", fmt::join(fd09_parts(), ", ")))
-        ->needs(paper)
-        ->check(CLI::IsMember(fd09_parts()));
+        ->add_option("--part", fd09.parts,
+                     fmt::format("With --paper fd09: {}; with ywcyp10: {} (default: all)",
+                                 fmt::join(fd09_parts(), ", "), fmt::join(ywcyp10_parts(), ", ")))
+        ->needs(paper);
     command
         ->add_option("--size", fd09.size,
                      "With --paper fd09: pixels per side of pictures that measure speed")
@@ -287,10 +297,12 @@ void add_bench_command(CLI::App& app) {
     command->callback([options, command] {
         if (!options->paper.empty()) {
             check_paper_options(*command, options->paper);
+            check_parts(options->fd09.parts, options->paper);
         } else if (!options->is_dynamic) {
             check_film_options(*command);
         }
         options->ywcyp10.scenes = options->fd09.scenes;
+        options->ywcyp10.parts = options->fd09.parts;
         if (options->fd09.photons > 0) {
             options->ywcyp10.photons = options->fd09.photons;
         }
