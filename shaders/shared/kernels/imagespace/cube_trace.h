@@ -195,25 +195,30 @@ FN Start look_at_start(IN(PlaneRay) ray, uint map, IN(Search) search) {
     return start;
 }
 
-// Looks at the ray's points within the scene, in directions that turn evenly, and searches where a
-// surface begins to hide them, or ends to: from behind a wall, the ray comes through it. Where it
-// only passes the edge of something, nothing is met. Returns whether the map shows all of the ray's
-// way to its hit, or that there is none. start_shown: some map around the center shows where the
-// ray starts.
+// Looks at the ray's points within the scene and up to a hit that was found before, in directions
+// that turn evenly, and searches where a surface begins to hide them, or ends to: from behind a
+// wall, the ray comes through it. Where it only passes the edge of something, nothing is met.
+// Returns whether the map shows all of the ray's way to its hit, or that there is none.
+// start_shown: some map around the center shows where the ray starts.
 FN bool march(IN(PlaneRay) ray, uint map, Start start, bool start_shown, INOUT(Search) search) {
     vec2 from = unit_direction(vec2(ray.start + search.enter, ray.height));
-    vec2 to = unit_direction(vec2(ray.start + search.leave, ray.height));
+    real end = min(search.leave, search.hit.t); // nothing behind a hit counts
+    vec2 to = unit_direction(vec2(ray.start + end, ray.height));
     vec2 middle = unit_direction(from + to);
     middle = middle.y > real(0.0) ? middle : vec2(real(0.0), real(1.0));
+    // The sine of half the angle by which the ray turns around the center; 1 for half a circle.
+    // Rays that turn less need fewer looks, but the number of texels that they cross falls faster.
+    real half_turn = sqrt(max(real(0.5) * (real(1.0) - from.x * to.x - from.y * to.y), real(0.0)));
+    uint looks = max(uint(ceil(real(params.march) * sqrt(half_turn))), 1u);
     Look before = start.look;
     bool hidden = start.hidden;
     bool clear = start_shown && !hidden;
     search.is_seen = search.is_seen || (clear && (start.shown || !leaves_triangle(search)));
-    for (uint i = 1u; i <= params.march; ++i) {
-        real turned = real(2u * i) / real(params.march);
+    for (uint i = 1u; i <= looks; ++i) {
+        real turned = real(2u * i) / real(looks);
         vec2 direction =
             turned < real(1.0) ? mix(from, middle, turned) : mix(middle, to, turned - real(1.0));
-        Look next = look(ray, map, i == params.march ? to : direction);
+        Look next = look(ray, map, i == looks ? to : direction);
         bool was_hidden = hidden;
         hidden = is_hidden(ray, next);
         if (hidden != was_hidden) {
