@@ -26,6 +26,11 @@ void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const 
              "smaller picture or another device",
              name, bytes, info.limits.storage_range, info.name);
     }
+    check_memory(info, ledger, name, bytes);
+}
+
+void check_memory(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name,
+                  std::uint64_t bytes) {
     if (ledger.total.current + bytes > info.limits.memory) {
         fail("allocating '{}': {} bytes more than the {} in use exceed the {} bytes of memory of "
              "'{}'; use fewer "

@@ -21,6 +21,10 @@ struct MemoryLedger {
 void check_allocation(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name,
                       std::uint64_t bytes);
 
+/// The same for memory that no kernel addresses.
+void check_memory(const DeviceInfo& info, const MemoryLedger& ledger, const std::string& name,
+                  std::uint64_t bytes);
+
 /// Throws Error: an allocation failed although the device reported enough memory.
 [[noreturn]] void fail_out_of_memory(const MemoryLedger& ledger, const std::string& name,
                                      std::uint64_t bytes);

@@ -18,10 +18,10 @@ struct RasterInfo {
 
 /// Where a draw leaves its values: layer by layer, row by row from y = -1 on.
 struct RasterTarget {
-    Write to;                             ///< width * height * layers values
-    std::uint32_t width = 0;              ///< at least 1, at most Limits::image
-    std::uint32_t height = 0;             ///< likewise
-    std::uint32_t layers = 1;             ///< at least 1, at most Limits::layers
+    Write to;                 ///< width * height * layers values, at a multiple of a value's size
+    std::uint32_t width = 0;  ///< at least 1, at most Limits::image
+    std::uint32_t height = 0; ///< likewise
+    std::uint32_t layers = 1; ///< at least 1, at most Limits::layers
     std::array<std::uint32_t, 4> empty{}; ///< the value where there is no triangle
 };
 

@@ -179,6 +179,17 @@ private:
     std::vector<bool> usable_;
 };
 
+/// The points that no candidate sees.
+std::vector<std::size_t> unseen_of(const std::vector<std::uint32_t>& masks) {
+    std::vector<std::size_t> unseen;
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+        if ((masks[i] & unseen_by_any) != 0) {
+            unseen.push_back(i);
+        }
+    }
+    return unseen;
+}
+
 /// Chooses greedily. Returns the candidates.
 std::vector<std::size_t> choose_greedily(Candidates& all, std::size_t fixed,
                                          const CenterSettings& settings) {
@@ -236,12 +247,13 @@ ChosenCenters choose_centers(Device& device, const DeviceScene& scene, const Cub
     }
     const std::vector<std::uint32_t> masks = all.point_masks();
     result.missing = Candidates::missing_of(masks);
-    for (std::size_t i = 0; i < masks.size(); ++i) {
-        if ((masks[i] & unseen_by_any) != 0) {
-            result.unseen.push_back(i);
-        }
-    }
+    result.unseen = unseen_of(masks);
     return result;
+}
+
+std::vector<std::size_t> unseen_points(Device& device, const DeviceScene& scene,
+                                       const CubeMaps& maps, std::span<const glm::vec4> points) {
+    return unseen_of(Candidates(device, scene, maps, points).point_masks());
 }
 
 std::vector<glm::vec3> random_centers(const Bounds& box, std::uint32_t count, std::uint32_t seed) {

@@ -42,6 +42,11 @@ ChosenCenters choose_centers(Device& device, const DeviceScene& scene, const Cub
                              std::size_t fixed, std::span<const glm::vec4> points,
                              const CenterSettings& settings);
 
+/// The points that no map of a scene shows. maps: of one layer and an even size. Waits for the
+/// device.
+std::vector<std::size_t> unseen_points(Device& device, const DeviceScene& scene,
+                                       const CubeMaps& maps, std::span<const glm::vec4> points);
+
 /// Points in a box, all the same for a seed.
 std::vector<glm::vec3> random_centers(const Bounds& box, std::uint32_t count, std::uint32_t seed);
 

@@ -11,9 +11,11 @@ namespace argand {
 
 namespace {
 
-// What is not drawn because it is too near to a center, in the scene's radius. Depths are floats, so
-// they are as precise for any value.
+// What is not drawn because it is too near to a center, in the scene's radius. Depths are floats,
+// so they are as precise for any value.
 constexpr float nearest_in_radii = 1e-10f;
+// Of maps that are drawn together: their image takes half as much again, for depths.
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 25;
 
 } // namespace
 
@@ -37,8 +39,12 @@ void draw_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& ma
                                 .vertex_colors = scene.texture_constants().vertex_colors}}};
     // The layers of one map lie together, so maps of several are drawn one by one. Each layer
     // leaves out what those before it show.
-    const std::uint32_t together =
-        maps.layers > 1 ? 1 : std::min(maps.count, device.info().limits.layers / cube_faces);
+    std::uint32_t together = 1;
+    if (maps.layers == 1) {
+        const auto fitting =
+            static_cast<std::uint32_t>(std::max<std::uint64_t>(most_bytes / bytes, 1));
+        together = std::min({maps.count, device.info().limits.layers / cube_faces, fitting});
+    }
     for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
         for (std::uint32_t first = 0; first < maps.count; first += together) {
             const std::uint32_t count = std::min(together, maps.count - first);

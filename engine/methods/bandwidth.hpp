@@ -31,6 +31,11 @@ inline bool has_sharp_caustics(const Bandwidth& bandwidth) {
     return bandwidth.radii.caustic < bandwidth.radii.indirect;
 }
 
+/// Whether an estimator with a radius for caustics queries them by themselves.
+inline bool parts_sharp_caustics(const Bandwidth& bandwidth, bool may_part) {
+    return may_part && bandwidth.caustics && has_sharp_caustics(bandwidth);
+}
+
 /// The first pass of a picture, from which its bandwidth is learnt.
 struct FirstPass {
     Device& device;

@@ -7,20 +7,12 @@ namespace argand {
 
 namespace {
 
-Option number_option(const std::string& name, const std::string& help, OptionKind kind,
-                     const std::string& initially, double low, double high) {
-    Option option = own_option(name, help, kind, initially);
-    option.low = low;
-    option.high = high;
-    option.sweep.matters = finds_photons;
-    return option;
-}
-
 Option count_option() {
-    Option option = number_option("maps-count",
-                                  "Maps through which photons are traced, at most; fewer if these "
-                                  "show all (default: as many as --coverage requires)",
-                                  OptionKind::integer, "auto", 1, most_centers);
+    Option option =
+        own_number_option("maps-count",
+                          "Maps through which photons are traced, at most; fewer if these "
+                          "show all (default: as many as --coverage requires)",
+                          OptionKind::integer, "auto", 1, most_centers);
     option.sweep.full = {"4", "16"};
     return option;
 }
@@ -37,24 +29,25 @@ Option making_option() {
 
 Option size_option() {
     Option option =
-        number_option("map-size",
-                      "Texels along the edge of a map's six faces; halved until the maps fit "
-                      "into a buffer of the device",
-                      OptionKind::integer, "128", 1, 2048);
+        own_number_option("map-size",
+                          "Texels along the edge of a map's six faces; halved until the maps fit "
+                          "into a buffer of the device",
+                          OptionKind::integer, "128", 1, 2048);
     option.sweep.full = {"64", "256"};
     return option;
 }
 
 Option coverage_option() {
-    return number_option("coverage",
-                         "Maps are added until they show this share of the points in view and of "
-                         "the places where photons lie, and until the best further one would add "
-                         "less than the rest to the area that they show",
-                         OptionKind::number, "0.99", 0, 1);
+    return own_number_option(
+        "coverage",
+        "Maps are added until they show this share of the points in view and of "
+        "the places where photons lie, and until the best further one would add "
+        "less than the rest to the area that they show",
+        OptionKind::number, "0.99", 0, 1);
 }
 
 Option choose_every_option() {
-    return number_option(
+    return own_number_option(
         "choose-every",
         "Images of a film for which centers of maps are chosen once, unless they "
         "show less of what is in view; 1: an image does not depend on those before",
@@ -62,15 +55,16 @@ Option choose_every_option() {
 }
 
 Option steps_option() {
-    return number_option("steps", "Iterations in which a photon's hit is found in a map",
-                         OptionKind::integer, "5", 0, 64);
+    return own_number_option("steps", "Iterations in which a photon's hit is found in a map",
+                             OptionKind::integer, "5", 0, 64);
 }
 
 Option march_option() {
-    Option option = number_option("march",
-                                  "Directions in which a map is looked at along a photon's way, "
-                                  "before the iterations; 0: they begin as published",
-                                  OptionKind::integer, "32", 0, 4096);
+    Option option =
+        own_number_option("march",
+                          "Directions in which a map is looked at along a photon's way, "
+                          "before the iterations; 0: they begin as published",
+                          OptionKind::integer, "32", 0, 4096);
     option.sweep.full = {"16", "64"};
     return option;
 }
@@ -86,10 +80,11 @@ Option hits_option() {
 }
 
 Option error_option() {
-    return number_option("map-error",
-                         "With --map-hits points: one minus the cosine of the angle by which a hit "
-                         "may lie off the photon's way",
-                         OptionKind::number, "0.001", 0, 2);
+    return own_number_option(
+        "map-error",
+        "With --map-hits points: one minus the cosine of the angle by which a hit "
+        "may lie off the photon's way",
+        OptionKind::number, "0.001", 0, 2);
 }
 
 std::uint32_t whole(const RenderSettings& settings, const Option& option) {

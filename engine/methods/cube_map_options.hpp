@@ -13,7 +13,7 @@ struct CubeMapOptions {
     CenterSettings centers;
     std::uint32_t size = 128;        ///< texels along the edge of a map's face
     std::optional<MapMaking> making; ///< none: the faster one on the device
-    std::uint32_t choose_every = 1; ///< images
+    std::uint32_t choose_every = 1;  ///< images
     CubeSearchSettings search;
 };
 

@@ -147,13 +147,20 @@ MapMaking making_of(RenderContext& c) {
     return wanted ? *wanted : draws ? MapMaking::raster : MapMaking::cast;
 }
 
+/// Whether the device makes so many maps of this size.
+bool fits(Device& device, std::uint64_t maps, std::uint32_t size, MapMaking making) {
+    return cube_texels(size) * maps <= max_cube_texels(device) &&
+           (making == MapMaking::cast || size <= max_drawn_size(device));
+}
+
 /// Maps of one layer around each place, of an even size that fits into a buffer.
 CubeMaps make_candidates(RenderContext& c, const std::vector<glm::vec3>& places) {
+    const MapMaking making = making_of(c);
     std::uint32_t size = candidate_size;
-    while (size > 2 && cube_texels(size) * places.size() > max_cube_texels(c.device)) {
+    while (size > 2 && !fits(c.device, places.size(), size, making)) {
         size /= 2;
     }
-    return make_cube_maps(c.device, c.on_device, places, size, 1, making_of(c));
+    return make_cube_maps(c.device, c.on_device, places, size, 1, making);
 }
 
 /// Adds a place on the way from the camera to a point in view. Nothing is in the way, unless the
@@ -167,10 +174,15 @@ void add_toward(const RenderContext& c, const glm::vec4& query, float share,
     }
 }
 
+/// The lights that are centers in any case, of at most `most` centers.
+std::vector<glm::vec3> lights_for_centers(const RenderContext& c, std::size_t most) {
+    return point_lights(c.scene, c.on_device.box, std::min(most_fixed, most - 1));
+}
+
 Candidates find_candidates(RenderContext& c, std::span<const glm::vec4> queries, std::size_t most) {
     Candidates found;
     const Bounds& box = c.on_device.box;
-    found.places = point_lights(c.scene, box, std::min(most_fixed, most - 1));
+    found.places = lights_for_centers(c, most);
     found.fixed = found.places.size();
     found.starts = starts_of_photons(c);
     for (const glm::vec4& start : some_of(found.starts, most_candidates_at_lights)) {
@@ -212,9 +224,10 @@ public:
         queries_.assign(queries.begin(), queries.end());
         ++images_;
         const CubeMapOptions options = cube_map_options_of(c.settings);
+        // More than a share of what is in view may not have come out of the maps' sight.
+        const double most_unseen = unseen_ + 1 - options.centers.coverage;
         if (images_ >= options.choose_every ||
-            (has_photons(c) && !centers_.empty() &&
-             unseen_share(c) > unseen_ + 1 - options.centers.coverage)) {
+            (has_photons(c) && !centers_.empty() && unseen_share(c) > most_unseen)) {
             centers_.clear();
         }
         follow(c);
@@ -224,7 +237,7 @@ public:
         if (!has_photons(c)) {
             return;
         }
-        if (centers_.empty()) {
+        if (centers_.empty() || !follow_lights(c)) {
             choose(c);
             images_ = 0;
             unseen_ = cube_map_options_of(c.settings).choose_every > 1 ? unseen_share(c) : 0;
@@ -240,11 +253,15 @@ public:
         archive.value(missing_);
         archive.value(images_);
         archive.value(unseen_);
+        archive.value(at_lights_);
+        if (centers_.empty()) { // they may be chosen yet
+            archive.values(queries_);
+        }
         if (archive.loads()) {
             const bool finite = std::all_of(centers_.begin(), centers_.end(), [](const auto& p) {
                 return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
             });
-            if (centers_.size() > most_centers || !finite) {
+            if (centers_.size() > most_centers || at_lights_ > centers_.size() || !finite) {
                 fail("loading a saved state: it has no centers of cube maps for '{}'",
                      c.scene.name);
             }
@@ -265,6 +282,7 @@ public:
         statistics.own["maps"] = static_cast<double>(centers_.size());
         statistics.own["map_size"] = static_cast<double>(maps_.size);
         statistics.own["map_layers"] = static_cast<double>(maps_.layers);
+        statistics.own["images_since_choice"] = images_;
         statistics.own["maps_drawn"] = drawn_ ? 1 : 0;
         statistics.own["points_missed"] = missing_;
     }
@@ -274,6 +292,7 @@ private:
         if (c.on_device.record.triangle_count == 0) {
             centers_ = {glm::vec3(0)}; // all photons escape
             missing_ = 0;
+            at_lights_ = 0;
             return;
         }
         const CubeMapOptions options = cube_map_options_of(c.settings);
@@ -304,6 +323,7 @@ private:
             }
         }
         missing_ = chosen.missing;
+        at_lights_ = candidates.fixed;
         centers_.clear();
         for (const std::size_t candidate : chosen.candidates) {
             centers_.push_back(candidates.places[candidate]);
@@ -313,28 +333,40 @@ private:
         }
     }
 
+    /// Moves the centers at lights to where these are now. Returns false if there are others.
+    bool follow_lights(RenderContext& c) {
+        if (c.on_device.record.triangle_count == 0) {
+            return true;
+        }
+        const std::vector<glm::vec3> lights =
+            lights_for_centers(c, cube_map_options_of(c.settings).centers.most);
+        if (lights.size() != at_lights_) {
+            return false;
+        }
+        if (!std::equal(lights.begin(), lights.end(), centers_.begin())) {
+            std::copy(lights.begin(), lights.end(), centers_.begin());
+            made_for_.reset();
+        }
+        return true;
+    }
+
     /// Share of the points in view that no map around the centers shows.
     double unseen_share(RenderContext& c) const {
         const std::vector<glm::vec4> points = some_of(queries_, most_points);
         if (points.empty()) {
             return 0;
         }
-        const auto count = static_cast<std::uint32_t>(centers_.size());
-        const ChosenCenters all =
-            choose_centers(c.device, c.on_device, make_candidates(c, centers_), count, points,
-                           {.least = count, .most = count + 1});
-        return static_cast<double>(all.unseen.size()) / static_cast<double>(points.size());
+        const std::vector<std::size_t> unseen =
+            unseen_points(c.device, c.on_device, make_candidates(c, centers_), points);
+        return static_cast<double>(unseen.size()) / static_cast<double>(points.size());
     }
 
     /// Makes the maps, as large as the device allows.
     void make(RenderContext& c) {
         std::uint32_t size = cube_map_options_of(c.settings).size;
         const std::uint32_t layers = layers_of(c.on_device);
-        const std::uint64_t most =
-            max_cube_texels(c.device) / (std::uint64_t(layers) * centers_.size());
         const MapMaking making = making_of(c);
-        while (size > 1 && (cube_texels(size) > most ||
-                            (making == MapMaking::raster && size > max_drawn_size(c.device)))) {
+        while (size > 1 && !fits(c.device, layers * centers_.size(), size, making)) {
             size /= 2;
         }
         maps_ = make_cube_maps(c.device, c.on_device, centers_, size, layers, making);
@@ -344,6 +376,7 @@ private:
 
     std::vector<glm::vec4> queries_; ///< of the image
     std::vector<glm::vec3> centers_; ///< none as long as no photon is traced
+    std::size_t at_lights_ = 0;      ///< the first of them
     std::uint32_t images_ = 0;       ///< since they were chosen
     double unseen_ = 0; ///< unseen_share() when they were chosen, if later images keep them
     double missing_ = 0;

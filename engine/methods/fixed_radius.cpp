@@ -15,7 +15,7 @@ public:
     }
 
     bool parts_caustics(const Bandwidth& bandwidth, bool may_part) const override {
-        return may_part && bandwidth.caustics && has_sharp_caustics(bandwidth);
+        return parts_sharp_caustics(bandwidth, may_part);
     }
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,

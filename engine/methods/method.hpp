@@ -41,7 +41,7 @@ public:
 
     /// Does the work that precedes the first pass of an image. The context's scene, settings and
     /// lights are those of the image, and its film is empty. Of earlier images only memory is kept,
-    /// unless the method has the ability keeps_photons. The time of the first pass begins where
+    /// unless the method has the ability keeps_photons, or an option asks for more. The time of the first pass begins where
     /// this calls budget.start_pass(); work that only the first pass has goes into budget.once().
     virtual void begin_frame(Budget& budget) { budget.start_pass(); }
 

@@ -129,6 +129,15 @@ bool finds_photons(const Variation& variation) {
     return looks_up_photons(variation) && variation.base.photons > 0;
 }
 
+Option own_number_option(const std::string& name, const std::string& help, OptionKind kind,
+                         const std::string& initially, double low, double high) {
+    Option option = own_option(name, help, kind, initially);
+    option.low = low;
+    option.high = high;
+    option.sweep.matters = finds_photons;
+    return option;
+}
+
 std::string around_width(double learnt, double factor) {
     return learnt > 0 ? fmt::format("{:.3g}", factor * learnt) : "";
 }

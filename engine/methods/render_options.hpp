@@ -29,6 +29,11 @@ std::vector<Option> all_photon_map_options(const std::vector<Option>& own);
 /// matter.
 bool finds_photons(const Variation& variation);
 
+/// An option of a method's own (own_option()) for numbers in [low, high], which a sweep may vary
+/// where photons are found.
+Option own_number_option(const std::string& name, const std::string& help, OptionKind kind,
+                         const std::string& initially, double low, double high);
+
 /// The value at `factor` times a width that a method learnt, rounded so that it is easy to type;
 /// empty if it learnt none.
 std::string around_width(double learnt, double factor);

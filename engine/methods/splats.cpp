@@ -1,5 +1,6 @@
 #include "methods/splats.hpp"
 
+#include "base/error.hpp"
 #include "methods/render_options.hpp"
 #include "photon/gather.hpp"
 #include "shared/footprint.h"
@@ -10,25 +11,35 @@ namespace argand {
 
 namespace {
 
-Option positive_option(const std::string& name, const std::string& help,
-                       const std::string& initially) {
-    Option option = own_option(name, help, OptionKind::number, initially);
-    option.low = 1e-6;
-    option.high = 1e6;
-    option.sweep.matters = finds_photons;
-    return option;
+constexpr double least = 1e-6;
+constexpr double most = 1e6;
+
+bool matters_to_splats(const Variation& variation) {
+    const auto estimate = variation.changed.own.find("estimate");
+    return finds_photons(variation) && estimate != variation.changed.own.end() &&
+           estimate->second == "splats";
 }
 
 Option size_option() {
-    return positive_option("splat-size",
-                           "Radius of splats of density 1, C0 in the paper: in the square root of "
-                           "the scene's area over the photons of a pass (default: the radius over "
-                           "which discs would estimate)",
-                           "auto");
+    Option option = own_number_option(
+        "splat-size",
+        "Radius of splats of density 1, C0 in the paper: in the square root of the "
+        "surfaces' area over the photons of a pass (default: the radius over "
+        "which discs would estimate)",
+        OptionKind::number, "auto", least, most);
+    option.sweep.matters = matters_to_splats;
+    return option;
+}
+
+Option density_option(const std::string& name, const std::string& help,
+                      const std::string& initially) {
+    Option option = own_number_option(name, help, OptionKind::number, initially, least, most);
+    option.sweep.matters = matters_to_splats;
+    return option;
 }
 
 Option least_option() {
-    Option option = positive_option(
+    Option option = density_option(
         "least-density",
         "Density from which on a splat does not grow: the cosine at which the photon arrives over "
         "the square of the distance from which it comes, in the scene's radii",
@@ -39,7 +50,7 @@ Option least_option() {
 
 Option most_option() {
     Option option =
-        positive_option("most-density", "Density from which on it does not shrink", "4");
+        density_option("most-density", "Density from which on a splat does not shrink", "4");
     option.sweep.full = {"1", "16"};
     return option;
 }
@@ -66,7 +77,7 @@ public:
     }
 
     bool parts_caustics(const Bandwidth& bandwidth, bool may_part) const override {
-        return may_part && bandwidth.caustics && has_sharp_caustics(bandwidth);
+        return parts_sharp_caustics(bandwidth, may_part);
     }
 
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
@@ -82,6 +93,16 @@ private:
 } // namespace
 
 std::unique_ptr<EstimationStrategy> make_splats(const RenderContext& context) {
+    const RenderSettings& settings = context.settings;
+    if (own_number(settings, least_option()) > own_number(settings, most_option())) {
+        throw UsageError(fmt::format("estimating by splats: --least-density {} is above "
+                                     "--most-density {}; exchange them, or give both",
+                                     least_option().get(settings), most_option().get(settings)));
+    }
+    if (settings.disc.ball) {
+        throw UsageError("estimating by splats: --support ball is for --estimate discs; leave it "
+                         "out");
+    }
     return std::make_unique<Splats>(context);
 }
 

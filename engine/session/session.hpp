@@ -35,7 +35,8 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// Begins an image of the scene as it is now, and as World::update() has been told. Its bits do
-    /// not depend on the images before it, unless the method keeps photons. seed: replaces that of
+    /// not depend on the images before it, unless the method keeps photons, or centers of cube maps
+    /// (--choose-every). seed: replaces that of
     /// the settings. Call it before the first pass. Throws Error if the device cannot do it.
     void begin_frame(std::uint32_t seed);
 

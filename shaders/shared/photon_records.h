@@ -53,11 +53,10 @@ struct PathVertex {
 
 CONSTANT uint no_vertex = 0xffffffffu;
 
-// What photons keep of how far they reach: nothing; how those next to them would lie, which they
-// carry on their way as differentials; or the sizes of splats.
+// What photons keep for the sizes of their footprints.
 CONSTANT uint extents_none = 0u;
-CONSTANT uint extents_differentials = 1u;
-CONSTANT uint extents_splats = 2u;
+CONSTANT uint extents_differentials = 1u; // carried from the light on
+CONSTANT uint extents_splats = 2u;        // the length and the slant of the last ray
 
 // What may be kept of photons: the index of their light, the vertices of their path, and where they
 // start, as a hit.

@@ -72,9 +72,8 @@ TEST_F(PaperBench, HitsInCubeMaps) {
     ASSERT_GT(rows.size(), 10u);
     for (const nlohmann::json& row : rows) {
         EXPECT_LE(row["equal"], row["right"]);
-        EXPECT_LE(row["right"].get<double>() + row["wrong"].get<double>() +
-                      row["lost"].get<double>(),
-                  1);
+        EXPECT_LE(
+            row["right"].get<double>() + row["wrong"].get<double>() + row["lost"].get<double>(), 1);
     }
     // As published, and by triangles with a march of 32.
     EXPECT_LT(rows[0]["right"], 0.9);

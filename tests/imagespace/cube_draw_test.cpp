@@ -13,9 +13,10 @@ namespace argand::testing {
 namespace {
 
 struct Difference {
-    double triangles = 0; ///< share of the texels that show another triangle, or none
-    double wrong = 0;     ///< share of those that show it elsewhere
-    double empty = 0;     ///< share of the texels that show nothing if drawn, and something if cast
+    // Shares of all texels.
+    double triangles = 0; ///< that show another triangle, or none
+    double wrong = 0;     ///< that show the same triangle at another distance
+    double empty = 0;     ///< that show nothing if drawn, and something if cast
 };
 
 class DrawnMaps : public DeviceTest {
@@ -49,8 +50,10 @@ protected:
         for (std::size_t i = 0; i < cast.size(); ++i) {
             const float a = std::bit_cast<float>(cast[i].y);
             const float b = std::bit_cast<float>(drawn[i].y);
+            // Behind surfaces that light passes, rays are cast from another place.
+            const float error = layers_of(scene_) > 1 ? 1e-5f * a : 0;
             found.triangles += cast[i].x != drawn[i].x ? 1 : 0;
-            found.wrong += std::abs(a - b) > 1e-4f * std::min(a, b) ? 1 : 0;
+            found.wrong += cast[i].x == drawn[i].x && !(std::abs(a - b) <= error) ? 1 : 0;
             found.empty += cast[i].x != no_triangle && drawn[i].x == no_triangle ? 1 : 0;
         }
         const auto count = static_cast<double>(cast.size());
@@ -66,8 +69,8 @@ TEST_F(DrawnMaps, ShowWhatRaysHit) {
         load(name);
         const Difference found = difference(64);
         // Edges go through the middles of some texels.
-        EXPECT_LT(found.triangles, 0.002) << name;
-        EXPECT_LT(found.wrong, 0.001) << name;
+        EXPECT_LT(found.triangles, 0.001) << name;
+        EXPECT_LT(found.wrong, 0.0001) << name;
         EXPECT_LT(found.empty, 0.001) << name;
     }
 }

@@ -92,8 +92,13 @@ TEST_F(ImageSpace, RendersWithoutAnythingToTrace) {
 // Of a film, or while the shutter is open.
 class MovingImageSpace : public RenderTest {
 protected:
-    /// Indirect light of dynamic_block, a picture for each moment.
-    std::vector<Image> film(const std::string& method, const std::string& choose_every) {
+    struct Film {
+        std::vector<Image> pictures;      ///< indirect light
+        std::vector<double> since_choice; ///< images for which the centers were kept
+    };
+
+    /// Moments of dynamic_block, from the first one on so many of four.
+    Film film(const std::string& method, const std::string& choose_every, double speed = 1) {
         RenderSettings settings = settings_of(method, 24, 8);
         settings.photons = 50'000;
         if (method == "image-space") {
@@ -102,30 +107,72 @@ protected:
         Scene scene = load_asset("dynamic_block.glb");
         World world(device(), scene);
         Session session(world, scene, settings);
-        std::vector<Image> pictures;
+        Film found;
         for (int frame = 0; frame < 4; ++frame) {
-            move_to(0.25 * frame * longest_animation(scene), scene);
+            move_to(0.25 * speed * frame * longest_animation(scene), scene);
             world.update(scene);
             session.begin_frame(0);
             while (const std::optional<PassPlan> plan = session.next_pass()) {
                 EXPECT_TRUE(session.step(*plan, [](double) { return true; }));
             }
-            pictures.push_back(layer(session.result(), "indirect"));
+            const RenderResult result = session.result();
+            found.pictures.push_back(layer(result, "indirect"));
+            if (method == "image-space") {
+                found.since_choice.push_back(result.statistics.own.at("images_since_choice"));
+            }
         }
-        return pictures;
+        return found;
     }
 };
 
-TEST_F(MovingImageSpace, MapsFollowWhatMovesUnlessCentersAreChosenAnew) {
-    const std::vector<Image> photons = film("photons", "");
+TEST_F(MovingImageSpace, MapsFollowWhatMoves) {
+    const std::vector<Image> photons = film("photons", "").pictures;
     for (const char* every : {"1", "3"}) {
-        const std::vector<Image> found = film("image-space", every);
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            EXPECT_LT(compare(found[i], photons[i]).rel_mse, 0.004) << every << ", image " << i;
+        const Film found = film("image-space", every);
+        for (std::size_t i = 0; i < photons.size(); ++i) {
+            EXPECT_LT(compare(found.pictures[i], photons[i]).rel_mse, 0.004)
+                << every << ", image " << i;
+        }
+        if (*every == '1') {
+            EXPECT_EQ(found.since_choice, std::vector<double>(4, 0));
+        } else { // the block uncovers what the first maps do not show
+            EXPECT_EQ(found.since_choice[1], 0);
         }
     }
     // The block moves.
     EXPECT_GT(compare(photons[1], photons[0]).rel_mse, 0.02);
+}
+
+TEST_F(MovingImageSpace, CentersAreKeptWhileTheyShowAsMuch) {
+    EXPECT_EQ(film("image-space", "3", 0.01).since_choice, (std::vector<double>{0, 1, 2, 0}));
+}
+
+TEST_F(MovingImageSpace, CentersFollowLights) {
+    const auto indirect = [&](const char* method) {
+        Scene scene = load_asset("cornell_point.glb");
+        RenderSettings settings = settings_of(method, 16, 4);
+        settings.photons = 20'000;
+        if (settings.method == "image-space") {
+            settings.own = {{"choose-every", "10"}};
+        }
+        World world(device(), scene);
+        Session session(world, scene, settings);
+        RenderResult result;
+        for (const float height : {1.5f, 0.2f}) {
+            scene.lights.at(0).position = {0.8f, height, 0.8f};
+            world.update(scene);
+            session.begin_frame(0);
+            while (const std::optional<PassPlan> plan = session.next_pass()) {
+                EXPECT_TRUE(session.step(*plan, [](double) { return true; }));
+            }
+            result = session.result();
+        }
+        if (settings.method == "image-space") {
+            EXPECT_EQ(result.statistics.own.at("images_since_choice"), 1);
+        }
+        return mean(layer(result, "indirect")).g;
+    };
+    EXPECT_RELATIVE(indirect("image-space"), indirect("photons"), 0.05);
 }
 
 TEST_F(MovingImageSpace, MapsFollowWhatMovesWhileTheShutterIsOpen) {
@@ -151,6 +198,16 @@ TEST_F(ImageSpace, SplatsOfOneDensityAreDiscs) {
     // Splats have no support of their own: discs end at their height in another way.
     EXPECT_LT(compare(layer(splats, "indirect"), layer(discs, "indirect")).rel_mse, 1e-4);
     EXPECT_EQ(splats.statistics.flux.absorbed, discs.statistics.flux.absorbed);
+}
+
+TEST_F(ImageSpace, SplatsRefuseOptionsThatContradict) {
+    const Scene scene = load_asset("cornell_point.glb");
+    RenderSettings settings = cube_settings(4);
+    settings.own = {{"estimate", "splats"}, {"least-density", "8"}};
+    EXPECT_THROW(render(scene, settings), UsageError);
+    settings.own = {{"estimate", "splats"}};
+    settings.disc.ball = true;
+    EXPECT_THROW(render(scene, settings), UsageError);
 }
 
 TEST_F(ImageSpace, SplatsHaveTheLightOfDiscs) {
@@ -204,8 +261,14 @@ TEST_F(ImageSpace, MapsShrinkToWhatTheDeviceAddresses) {
     RenderSettings settings = cube_settings(8);
     settings.photons = 1000;
     settings.own = {{"map-size", "512"}, {"maps-count", "4"}};
-    const RenderResult result = testing::render(small, load_asset("cornell_point.glb"), settings);
-    EXPECT_EQ(result.statistics.own.at("map_size"), 128);
+    const Scene scene = load_asset("cornell_point.glb");
+    EXPECT_EQ(testing::render(small, scene, settings).statistics.own.at("map_size"), 128);
+    Device& tiny = open({"tiny", "", "storage_range=4MiB,image=16"});
+    if (tiny.raster()) {
+        settings.own["maps"] = "raster";
+        EXPECT_EQ(testing::render(small, scene, settings).statistics.own.at("map_size"), 128);
+        EXPECT_EQ(testing::render(tiny, scene, settings).statistics.own.at("map_size"), 16);
+    }
 }
 
 } // namespace

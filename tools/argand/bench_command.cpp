@@ -179,6 +179,17 @@ void check_parts(const std::vector<std::string>& parts, const std::string& paper
     }
 }
 
+/// Throws UsageError if scenes or photons are given, and no part of Yao et al. 2010 uses them.
+void check_loads(const CLI::App& command, const BenchOptions& options) {
+    const std::vector<std::string>& parts = options.fd09.parts;
+    const bool uses = options.paper != "ywcyp10" || parts.empty() ||
+                      std::find(parts.begin(), parts.end(), "hits") != parts.end();
+    if (!uses && (command.count("--scene") > 0 || command.count("--photons") > 0)) {
+        throw UsageError("measuring 'ywcyp10': --scene and --photons are for --part hits; leave "
+                         "them out");
+    }
+}
+
 /// Throws UsageError if an option is given that only benchmarks of films have.
 void check_film_options(const CLI::App& command) {
     for (const char* name : {"--output", "--scenes", "--quick"}) {
@@ -298,6 +309,7 @@ void add_bench_command(CLI::App& app) {
         if (!options->paper.empty()) {
             check_paper_options(*command, options->paper);
             check_parts(options->fd09.parts, options->paper);
+            check_loads(*command, *options);
         } else if (!options->is_dynamic) {
             check_film_options(*command);
         }

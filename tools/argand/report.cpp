@@ -28,8 +28,13 @@ Json memory_json(const Device& device) {
             {"peak_bytes_by_name", by_name}};
 }
 
-/// What footprints are made by.
+/// What footprints are made by. Splats have fewer parameters.
 Json footprints_json(const FootprintSettings& settings, const FootprintScale& scale) {
+    if (scale.splats != 0) {
+        return {{"largest_footprint", scale.radius_max},
+                {"largest_caustic_footprint", scale.caustic_max},
+                {"flatness", scale.flatness}};
+    }
     return {{"kernel", settings.uniform_kernel ? "uniform" : "epanechnikov"},
             {"caustic_smoothing", settings.caustic_smoothing},
             {"largest_footprint", scale.radius_max},

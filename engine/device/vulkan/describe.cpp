@@ -22,13 +22,18 @@ std::vector<std::string> device_extensions(VkPhysicalDevice physical) {
     return names;
 }
 
-std::uint32_t compute_queue_family(VkPhysicalDevice physical) {
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice physical) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    return families;
+}
+
+std::uint32_t compute_queue_family(VkPhysicalDevice physical) {
+    const std::vector<VkQueueFamilyProperties> families = queue_families(physical);
     std::uint32_t found = UINT32_MAX;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
         const bool computes = families[i].queueFlags & VK_QUEUE_COMPUTE_BIT;
         const bool draws = families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT;
         if (computes && (found == UINT32_MAX || draws)) {
@@ -59,12 +64,10 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
 }
 
 /// Whether a device of Vulkan 1.2 draws as VulkanRaster does.
-bool can_draw(VkPhysicalDevice physical) {
+bool can_draw(VkPhysicalDevice physical, const VkPhysicalDeviceLimits& limits) {
+    constexpr std::uint32_t buffers_and_output = 16; // of a fragment shader
+    const std::vector<VkQueueFamilyProperties> families = queue_families(physical);
     const std::uint32_t family = compute_queue_family(physical);
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
     VkPhysicalDeviceVulkan12Features features{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
@@ -72,8 +75,9 @@ bool can_draw(VkPhysicalDevice physical) {
     vkGetPhysicalDeviceFeatures2(physical, &all);
     VkFormatProperties depth;
     vkGetPhysicalDeviceFormatProperties(physical, depth_format, &depth);
-    return family < count && (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 &&
+    return family < families.size() && (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 &&
            features.shaderOutputLayer == VK_TRUE &&
+           limits.maxFragmentCombinedOutputResources >= buffers_and_output &&
            (depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
 }
 
@@ -128,7 +132,8 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index) {
         extensions.end();
     info.features.timestamps = basic.limits.timestampComputeAndGraphics;
     info.features.lane_serial = info.kind == DeviceKind::cpu;
-    info.features.raster = basic.apiVersion >= VK_API_VERSION_1_2 && can_draw(physical);
+    info.features.raster =
+        basic.apiVersion >= VK_API_VERSION_1_2 && can_draw(physical, basic.limits);
 
     info.limits.storage_range = basic.limits.maxStorageBufferRange;
     info.limits.memory = largest_local_heap(physical);

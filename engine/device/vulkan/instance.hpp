@@ -45,6 +45,9 @@ DeviceInfo describe(VkPhysicalDevice physical, std::uint32_t index);
 /// Names of the extensions that a physical device offers.
 std::vector<std::string> device_extensions(VkPhysicalDevice physical);
 
+/// The device's queue families, in the order of their indices.
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice physical);
+
 /// Index of the queue family for compute; UINT32_MAX if there is none. Prefers a family that also
 /// supports graphics, because the queues of others can be slower to start.
 std::uint32_t compute_queue_family(VkPhysicalDevice physical);

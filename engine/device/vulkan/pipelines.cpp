@@ -24,6 +24,23 @@ std::filesystem::path cache_file_of(const VkPhysicalDeviceProperties& properties
            fmt::format("pipelines-{:x}-{:x}-{}.bin", properties.vendorID, properties.deviceID, id);
 }
 
+/// A module that lives while a pipeline is made of it.
+struct Module {
+    VkDevice device;
+    VkShaderModule handle = VK_NULL_HANDLE;
+
+    Module(VkDevice of, std::span<const std::uint32_t> spirv, const std::string& doing)
+        : device(of) {
+        VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+        create.codeSize = spirv.size_bytes();
+        create.pCode = spirv.data();
+        check(vkCreateShaderModule(device, &create, nullptr, &handle), doing);
+    }
+    Module(const Module&) = delete;
+    Module& operator=(const Module&) = delete;
+    ~Module() { vkDestroyShaderModule(device, handle, nullptr); }
+};
+
 /// Values of specialization constants, as pipelines take them.
 struct Specialization {
     std::vector<VkSpecializationMapEntry> entries;
@@ -146,16 +163,6 @@ void Pipelines::add_layouts(Pipeline& pipeline, std::span<const KernelBinding> b
     pipeline.layout = pipeline_layout(slots, push_bytes);
 }
 
-VkShaderModule Pipelines::make_module(std::span<const std::uint32_t> spirv,
-                                      const std::string& doing) {
-    VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    create.codeSize = spirv.size_bytes();
-    create.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device_, &create, nullptr, &module), doing);
-    return module;
-}
-
 const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& arguments) {
     Key key{&kernel,
             {arguments.constants.begin(), arguments.constants.begin() + arguments.constant_count}};
@@ -166,19 +173,17 @@ const Pipeline& Pipelines::get(const KernelInfo& kernel, const KernelArguments& 
     const std::string doing = fmt::format("compiling kernel {}", kernel.name);
 
     const Specialization specialization(kernel.constants, arguments);
-    const VkShaderModule module = make_module(module_for(kernel, key.second), doing);
+    const Module module(device_, module_for(kernel, key.second), doing);
     add_layouts(pipeline, kernel.bindings, kernel.push_bytes, VK_SHADER_STAGE_COMPUTE_BIT);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    create.stage.module = module;
+    create.stage.module = module.handle;
     create.stage.pName = "main";
     create.stage.pSpecializationInfo = &specialization.info;
     create.layout = pipeline.layout;
-    const VkResult result =
-        vkCreateComputePipelines(device_, cache_, 1, &create, nullptr, &pipeline.pipeline);
-    vkDestroyShaderModule(device_, module, nullptr);
-    check(result, doing);
+    check(vkCreateComputePipelines(device_, cache_, 1, &create, nullptr, &pipeline.pipeline),
+          doing);
     return pipeline;
 }
 
@@ -193,21 +198,19 @@ const Pipeline& Pipelines::get(const RasterInfo& program, const KernelArguments&
     const std::string doing = fmt::format("compiling raster program {}", program.name);
     const Specialization specialization(program.constants, arguments);
     add_layouts(pipeline, program.bindings, program.push_bytes, raster_stages);
+    const Module vertex(device_, program.vertex, doing);
+    const Module fragment(device_, program.fragment, doing);
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (const bool is_fragment : {false, true}) {
         VkPipelineShaderStageCreateInfo& stage = stages[is_fragment ? 1 : 0];
         stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         stage.stage = is_fragment ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT;
-        stage.module = make_module(is_fragment ? program.fragment : program.vertex, doing);
+        stage.module = (is_fragment ? fragment : vertex).handle;
         stage.pName = "main";
         stage.pSpecializationInfo = &specialization.info;
     }
-    const VkResult result =
-        create_raster_pipeline(device_, cache_, stages, pipeline.layout, pass, pipeline.pipeline);
-    for (const VkPipelineShaderStageCreateInfo& stage : stages) {
-        vkDestroyShaderModule(device_, stage.module, nullptr);
-    }
-    check(result, doing);
+    check(create_raster_pipeline(device_, cache_, stages, pipeline.layout, pass, pipeline.pipeline),
+          doing);
     return pipeline;
 }
 

@@ -46,7 +46,6 @@ private:
     VkPipelineLayout pipeline_layout(Slots slots, std::uint32_t push_bytes);
     void add_layouts(Pipeline& pipeline, std::span<const KernelBinding> bindings,
                      std::uint32_t push_bytes, VkShaderStageFlags stages);
-    VkShaderModule make_module(std::span<const std::uint32_t> spirv, const std::string& doing);
     void save() const;
 
     VkDevice device_;

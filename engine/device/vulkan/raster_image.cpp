@@ -124,7 +124,7 @@ std::shared_ptr<RasterImage> make_raster_image(VkPhysicalDevice physical,
     const VkDeviceSize depth_at =
         (needs[0].size + needs[1].alignment - 1) / needs[1].alignment * needs[1].alignment;
     image->bytes = depth_at + needs[1].size;
-    check_allocation(info, ledger->ledger(), memory_name, image->bytes);
+    check_memory(info, ledger->ledger(), memory_name, image->bytes);
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = image->bytes;
     allocate.memoryTypeIndex =
@@ -132,7 +132,7 @@ std::shared_ptr<RasterImage> make_raster_image(VkPhysicalDevice physical,
                     VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     if (allocate.memoryTypeIndex == UINT32_MAX ||
         vkAllocateMemory(device->handle, &allocate, nullptr, &image->memory) != VK_SUCCESS) {
-        fail_out_of_memory(ledger->ledger(), memory_name, image->bytes);
+        return nullptr;
     }
     ledger->ledger().allocated(memory_name, image->bytes);
     image->ledger = ledger;

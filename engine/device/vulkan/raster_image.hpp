@@ -6,7 +6,8 @@ namespace argand::vulkan {
 
 /// What a raster image holds.
 struct RasterImageSize {
-    std::uint32_t width = 0, height = 0, layers = 0, words = 0;
+    std::uint32_t width = 0, height = 0, layers = 0; ///< pixels
+    std::uint32_t words = 0;                         ///< of a value
     bool operator==(const RasterImageSize&) const = default;
 };
 
@@ -36,7 +37,7 @@ struct RasterImage {
     ~RasterImage();
 };
 
-/// Throws Error if memory has run out.
+/// Null if memory has run out. Throws Error if the device does not have so much.
 std::shared_ptr<RasterImage> make_raster_image(VkPhysicalDevice physical,
                                                const std::shared_ptr<LogicalDevice>& device,
                                                const std::shared_ptr<DeviceMemory>& ledger,

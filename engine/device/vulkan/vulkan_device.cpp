@@ -69,12 +69,8 @@ VulkanDevice::VulkanDevice(std::shared_ptr<Instance> instance, VkPhysicalDevice 
         work_ |= VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     }
 
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
     timer_.emplace(device_->handle, info_.features.timestamps, properties.limits.timestampPeriod,
-                   families[queue_family_].timestampValidBits);
+                   queue_families(physical_)[queue_family_].timestampValidBits);
 }
 
 VulkanDevice::~VulkanDevice() {

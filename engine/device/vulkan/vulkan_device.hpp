@@ -25,7 +25,7 @@ struct Submission {
     std::vector<std::shared_ptr<const void>> keep_alive;
 };
 
-/// A compute or graphics pipeline whose arguments are bound.
+/// What binding arguments needs to know of a kernel or a raster program.
 struct Bound {
     const char* name;
     std::span<const KernelBinding> bindings;

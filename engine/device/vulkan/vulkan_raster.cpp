@@ -15,14 +15,33 @@ VulkanRaster::~VulkanRaster() {
     }
 }
 
-const std::shared_ptr<RasterImage>& VulkanRaster::image(const RasterImageSize& size,
-                                                        VkRenderPass pass) {
-    if (!image_ || image_->size != size) {
-        image_.reset(); // freed first, for it may be large, if no recorded command needs it
-        image_ = make_raster_image(device_.physical_, device_.device_, device_.memory_,
-                                   device_.info_, pass, size);
+std::shared_ptr<RasterImage> VulkanRaster::image(const RasterImageSize& size, VkRenderPass pass) {
+    const auto found = std::find_if(images_.begin(), images_.end(),
+                                    [&](const auto& image) { return image->size == size; });
+    std::shared_ptr<RasterImage> used;
+    if (found != images_.end()) {
+        used = *found;
+        images_.erase(found);
+    } else {
+        const auto make = [&] {
+            return make_raster_image(device_.physical_, device_.device_, device_.memory_,
+                                     device_.info_, pass, size);
+        };
+        images_.resize(std::min(images_.size(), most_images - 1)); // freed before the new one
+        used = make();
+        if (!used) {
+            images_.clear();
+            device_.wait(); // frees what recorded commands have kept
+            used = make();
+        }
+        if (!used) {
+            fail_out_of_memory(device_.memory_->ledger(), "raster image",
+                               std::uint64_t(size.width) * size.height * size.layers *
+                                   (size.words + 1) * sizeof(std::uint32_t));
+        }
     }
-    return image_;
+    images_.insert(images_.begin(), used);
+    return used;
 }
 
 void VulkanRaster::draw(const RasterInfo& program, const KernelArguments& arguments,
@@ -39,7 +58,9 @@ void VulkanRaster::draw(const RasterInfo& program, const KernelArguments& argume
     if (!pass) {
         pass = make_render_pass(device_.device_->handle, size.words);
     }
-    const std::shared_ptr<RasterImage>& drawn = image(size, pass);
+    const std::shared_ptr<RasterImage> drawn = image(size, pass);
+    // Compiled first: if that fails, no render pass is left open.
+    const Pipeline& pipeline = device_.pipelines_->get(program, arguments, pass);
 
     std::array<VulkanDevice::Use, max_bindings + 1> uses;
     for (std::uint32_t i = 0; i < arguments.buffer_count; ++i) {
@@ -63,7 +84,7 @@ void VulkanRaster::draw(const RasterInfo& program, const KernelArguments& argume
         device_.bind({.name = program.name,
                       .bindings = program.bindings,
                       .push_bytes = program.push_bytes,
-                      .pipeline = device_.pipelines_->get(program, arguments, pass),
+                      .pipeline = pipeline,
                       .point = VK_PIPELINE_BIND_POINT_GRAPHICS,
                       .stages = raster_stages},
                      arguments);

@@ -4,6 +4,7 @@
 #include "device/vulkan/raster_image.hpp"
 
 #include <map>
+#include <vector>
 
 namespace argand::vulkan {
 
@@ -21,12 +22,15 @@ public:
               const RasterTarget& target) override;
 
 private:
-    /// Of the last size: draws of one size mostly follow one another.
-    const std::shared_ptr<RasterImage>& image(const RasterImageSize& size, VkRenderPass pass);
+    // Frames of a film draw the same few sizes in turn.
+    static constexpr std::size_t most_images = 2;
+
+    /// A new one, unless one of the last ones has this size.
+    std::shared_ptr<RasterImage> image(const RasterImageSize& size, VkRenderPass pass);
 
     VulkanDevice& device_;
-    std::map<std::uint32_t, VkRenderPass> passes_; ///< by words of a value
-    std::shared_ptr<RasterImage> image_;
+    std::map<std::uint32_t, VkRenderPass> passes_;     ///< by words of a value
+    std::vector<std::shared_ptr<RasterImage>> images_; ///< the last one first
 };
 
 } // namespace argand::vulkan

@@ -2,6 +2,7 @@
 #include "cube_faces.glsl"
 
 #include "shared/kernels/alpha.h"
+#include "shared/kernels/imagespace/weights_toward.h"
 #include "shared/kernels/material.h"
 #include "shared/kernels/passes_light.h"
 
@@ -10,18 +11,20 @@ layout(location = 1) flat in uint face_of_all;
 layout(location = 0) out uvec2 texel;
 
 // Where the texel's middle shows the triangle. The rasteriser and the exact test disagree on edges:
-// there the triangle's plane is taken.
+// there a point on the triangle's edge is taken.
 HitRecord meet(vec3 center, vec3 direction, uvec4 t) {
-    vec3 a = vec3(positions[t.x]);
-    vec3 b = vec3(positions[t.y]);
-    vec3 c = vec3(positions[t.z]);
+    vec3 a = vec3(positions[t.x]) - center;
+    vec3 b = vec3(positions[t.y]) - center;
+    vec3 c = vec3(positions[t.z]) - center;
     HitRecord hit;
     hit.triangle = triangle;
-    if (!intersect_triangle(ray_shear(direction), center, a, b, c, 0.0, far_away, hit.t, hit.u,
+    if (!intersect_triangle(ray_shear(direction), vec3(0.0), a, b, c, 0.0, far_away, hit.t, hit.u,
                             hit.v)) {
-        vec3 normal = cross3(b - a, c - a);
-        hit.t = dot3(normal, a - center) / dot3(normal, direction);
-        hit.u = hit.v = 1.0 / 3.0;
+        vec2 weights = weights_toward(direction, a, b, c);
+        vec3 depths = vec3(dot3(a, direction), dot3(b, direction), dot3(c, direction));
+        hit.u = weights.x;
+        hit.v = weights.y;
+        hit.t = depths.x * (1.0 - hit.u - hit.v) + depths.y * hit.u + depths.z * hit.v;
     }
     return hit;
 }
@@ -58,8 +61,7 @@ void main() {
     if (params.layers > 1u && !is_in_layer(hit, t, map, place)) {
         discard;
     }
-    // Written, because the depth that is interpolated over a large triangle is off by more than the
-    // distance of two surfaces.
+    // Written, because a depth that is interpolated over a large triangle is less precise.
     gl_FragDepth = min(params.nearest / hit.t, 1.0);
     texel = uvec2(triangle, float_bits(hit.t));
 }

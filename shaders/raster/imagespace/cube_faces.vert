@@ -1,6 +1,6 @@
 #version 460
-// Draws all triangles into the faces of cube maps (Yao et al. 2010, section 3). Instances are faces,
-// six for each center.
+// Draws all triangles into the faces of cube maps (Yao et al. 2010, section 3). Instances are
+// faces, six for each center.
 #include "cube_faces.glsl"
 
 layout(location = 0) flat out uint triangle;

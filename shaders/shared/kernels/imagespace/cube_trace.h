@@ -13,6 +13,7 @@ FN real map_distance(uint map, vec3 direction) { return bits_float(map_texel(map
 
 #include "shared/kernels/imagespace/root_finder.h"
 #include "shared/kernels/imagespace/triangle_plane.h"
+#include "shared/kernels/imagespace/weights_toward.h"
 
 // Share by which the distance of a texel may differ from that of a place in it.
 CONSTANT real depth_error = real(0.002);
@@ -106,25 +107,6 @@ FN bool meet_around(uint map, vec3 direction, INOUT(Search) search) {
     return met;
 }
 
-// The weights of the vertices at the point of a triangle's plane in a direction from the center,
-// moved into the triangle.
-FN vec2 weights_toward(vec3 center, vec3 direction, uint triangle) {
-    uvec4 t = triangles[triangle];
-    vec3 a = vec3(positions[t.x]);
-    vec3 ab = vec3(positions[t.y]) - a;
-    vec3 ac = vec3(positions[t.z]) - a;
-    vec3 normal = cross3(ab, ac);
-    real scale = dot3(normal, a - center) / dot3(normal, direction);
-    vec3 p = center + direction * scale - a;
-    real size = dot3(normal, normal);
-    vec2 weights = vec2(dot3(cross3(p, ac), normal), dot3(cross3(ab, p), normal)) / size;
-    if (!is_finite(weights.x) || !is_finite(weights.y)) {
-        return vec2(real(0.33333333333333333333));
-    }
-    weights = max(weights, vec2(real(0.0)));
-    return weights / max(weights.x + weights.y, real(1.0));
-}
-
 // The hit at a surface point of the map, if it lies as good as on the ray: e of equation 2 is at
 // most the tolerance. Nearer than the width of a texel it is the surface that the ray leaves.
 FN bool meet_point(IN(PlaneRay) ray, uint map, Look at, INOUT(Search) search) {
@@ -138,7 +120,10 @@ FN bool meet_point(IN(PlaneRay) ray, uint map, Look at, INOUT(Search) search) {
     HitRecord found;
     found.triangle = map_texel(map, direction).x;
     found.t = distance;
-    vec2 weights = weights_toward(center_of(map), direction, found.triangle);
+    uvec4 t = triangles[found.triangle];
+    vec3 center = center_of(map);
+    vec2 weights = weights_toward(direction, vec3(positions[t.x]) - center,
+                                  vec3(positions[t.y]) - center, vec3(positions[t.z]) - center);
     found.u = weights.x;
     found.v = weights.y;
     return accept(found, search);
@@ -206,10 +191,12 @@ FN bool march(IN(PlaneRay) ray, uint map, Start start, bool start_shown, INOUT(S
     vec2 to = unit_direction(vec2(ray.start + end, ray.height));
     vec2 middle = unit_direction(from + to);
     middle = middle.y > real(0.0) ? middle : vec2(real(0.0), real(1.0));
-    // The sine of half the angle by which the ray turns around the center; 1 for half a circle.
-    // Rays that turn less need fewer looks, but the number of texels that they cross falls faster.
-    real half_turn = sqrt(max(real(0.5) * (real(1.0) - from.x * to.x - from.y * to.y), real(0.0)));
-    uint looks = max(uint(ceil(real(params.march) * sqrt(half_turn))), 1u);
+    // Of the angle by which the ray turns around the center. Rays that turn less cross fewer texels
+    // and need fewer looks. In proportion to the angle there would be too few: what is seen at a
+    // small angle is far away, and small.
+    real sine_of_half =
+        sqrt(max(real(0.5) * (real(1.0) - from.x * to.x - from.y * to.y), real(0.0)));
+    uint looks = max(uint(ceil(real(params.march) * sqrt(sine_of_half))), 1u);
     Look before = start.look;
     bool hidden = start.hidden;
     bool clear = start_shown && !hidden;
