@@ -41,8 +41,9 @@ public:
 
     /// Does the work that precedes the first pass of an image. The context's scene, settings and
     /// lights are those of the image, and its film is empty. Of earlier images only memory is kept,
-    /// unless the method has the ability keeps_photons, or an option asks for more. The time of the first pass begins where
-    /// this calls budget.start_pass(); work that only the first pass has goes into budget.once().
+    /// unless the method has the ability keeps_photons, or an option asks for more. The time of the
+    /// first pass begins where this calls budget.start_pass(); work that only the first pass has
+    /// goes into budget.once().
     virtual void begin_frame(Budget& budget) { budget.start_pass(); }
 
     /// Passes over which the samples and photons of the settings are spread. Known after

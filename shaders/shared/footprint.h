@@ -79,7 +79,7 @@ FN FootprintScale splat_scale(vec2 sizes, real length, vec2 densities, real flat
 // its ray's hit.
 FN PhotonDifferential splat_differential(vec3 direction, real distance, vec3 normal) {
     real cosine = max(abs(dot3(direction, normal)), real(1e-6));
-    real radius = distance / sqrt(cosine);
+    real radius = max(distance / sqrt(cosine), real(1e-20)); // has a direction
     Frame frame = make_frame(normal);
     PhotonDifferential d = no_differential();
     d.dp_du = frame.x * radius;
@@ -147,7 +147,7 @@ FN Footprint make_footprint(IN(PhotonDifferential) d, vec3 normal, bool caustic,
     vec3 unit_u = unit_and_length(f.u, size_u);
     vec3 unit_v = unit_and_length(f.v, size_v);
     unit_and_length(cross3(unit_u, unit_v), sine);
-    real least = real(s.radius_min);
+    real least = real(min(s.radius_min, s.caustic_min));
     real longer = max(size_u, size_v);
     if (!(longer > real(0.0))) {
         Frame frame = make_frame(normal);

@@ -79,15 +79,15 @@ inline std::vector<Include> includes(const Sources& sources) {
 }
 
 /// The part of the tree to which a file belongs: "base" ... "plot", "tools/X", "shared", "comp"
-/// (kernel.glsl), "comp/X", "kernels" (generated), or its first one or two folders.
+/// (kernel.glsl), "comp/X", "raster/X", "kernels" (generated), or its first one or two folders.
 inline std::string part_of(const std::string& file) {
     std::vector<std::string> folders;
     for (const auto& folder : std::filesystem::path(file).parent_path())
         folders.push_back(folder);
     if (folders.size() > 1 && (folders[0] == "engine" || folders[0] == "shaders"))
         folders.erase(folders.begin());
-    const bool one_folder = folders.size() < 2 ||
-                            (folders[0] != "tools" && folders[0] != "comp" && folders[0] != "cuda");
+    const bool one_folder = folders.size() < 2 || (folders[0] != "tools" && folders[0] != "comp" &&
+                                                   folders[0] != "raster" && folders[0] != "cuda");
     return folders.empty() ? "" : one_folder ? folders[0] : folders[0] + "/" + folders[1];
 }
 
@@ -114,7 +114,7 @@ inline std::string objection(const std::string& from, const std::string& to) {
         return to == "shared" || to == "cuda" || to == "kernels" || to == "device"
                    ? ""
                    : "twins see only shaders/shared, shaders/cuda, device and generated kernels";
-    if (kind == "comp")
+    if (kind == "comp" || kind == "raster")
         return to == "shared" || to == "comp"
                    ? ""
                    : "kernels see only shaders/shared and their own folder";

@@ -92,6 +92,9 @@ TEST(Layering, KeepsTheSharedMathsAndTheKernelsApart) {
     EXPECT_THAT(faults_with("shaders/comp/photon/emit.comp", "\"base/error.hpp\""),
                 ElementsAre(HasSubstr("their own folder")));
     EXPECT_THAT(faults_with("shaders/comp/photon/emit.comp", "\"shared/records.h\""), IsEmpty());
+    EXPECT_THAT(faults_with("shaders/raster/photon/show.vert", "\"kernel.glsl\""), IsEmpty());
+    EXPECT_THAT(faults_with("shaders/raster/photon/show.vert", "\"accel/stack.glsl\""),
+                ElementsAre(HasSubstr("kernels see only")));
     EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"methods/path.hpp\""),
                 ElementsAre(HasSubstr("twins see only")));
     EXPECT_THAT(faults_with("shaders/cuda/photon/emit.cu", "\"comp/kernel.glsl\""),

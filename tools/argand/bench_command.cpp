@@ -172,8 +172,7 @@ void check_parts(const std::vector<std::string>& parts, const std::string& paper
     const std::vector<std::string> known = paper == "fd09" ? fd09_parts() : ywcyp10_parts();
     for (const std::string& part : parts) {
         if (std::find(known.begin(), known.end(), part) == known.end()) {
-            throw UsageError(fmt::format("measuring '{}': this paper has no part '{}'; choose from "
-                                         "{}",
+            throw UsageError(fmt::format("reading --part: '{}' has no part '{}'; choose from {}",
                                          paper, part, fmt::join(known, ", ")));
         }
     }

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 8) buffer Occluded { uint occluded[]; };
 #define ALPHA_BINDING 9
-#include "accel/alpha_bindings.glsl"
+#include "alpha_bindings.glsl"
 layout(constant_id = 0) const bool resume = false; // resumes suspended rays
 layout(push_constant) uniform Push { TraceParams params; };
 

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 //@ holds(hits, HitRecord)
 layout(set = 0, binding = 8) buffer Hits { uvec4 hits[]; };
 #define ALPHA_BINDING 9
-#include "accel/alpha_bindings.glsl"
+#include "alpha_bindings.glsl"
 layout(constant_id = 0) const bool resume = false; // resumes suspended rays
 layout(push_constant) uniform Push { TraceParams params; };
 

@@ -2,6 +2,6 @@
 
 layout(set = 0, binding = 7) buffer Occluded { uint occluded[]; };
 #define ALPHA_BINDING 8
-#include "accel/alpha_bindings.glsl"
+#include "alpha_bindings.glsl"
 
 #include "shared/kernels/accel/trace_any_alpha.h"

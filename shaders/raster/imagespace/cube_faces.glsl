@@ -10,5 +10,5 @@ layout(set = 0, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 1) readonly buffer Centers { vec4 centers[]; };
 layout(set = 0, binding = 2) readonly buffer Shown { uvec2 shown[]; }; // the layers before this one
 #define ALPHA_BINDING 3
-#include "accel/alpha_bindings.glsl"
+#include "alpha_bindings.glsl"
 layout(push_constant) uniform Push { CubeDraw params; };
