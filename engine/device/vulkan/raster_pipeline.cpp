@@ -1,6 +1,7 @@
 #include "device/vulkan/raster_pipeline.hpp"
 
 #include <array>
+#include <cstdint>
 
 namespace argand::vulkan {
 
