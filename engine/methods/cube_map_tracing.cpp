@@ -224,7 +224,7 @@ public:
         queries_.assign(queries.begin(), queries.end());
         ++images_;
         const CubeMapOptions options = cube_map_options_of(c.settings);
-        // More than a share of what is in view may not have come out of the maps' sight.
+        // Centers are kept until the maps miss more of what is in view than the coverage allows.
         const double most_unseen = unseen_ + 1 - options.centers.coverage;
         if (images_ >= options.choose_every ||
             (has_photons(c) && !centers_.empty() && unseen_share(c) > most_unseen)) {
