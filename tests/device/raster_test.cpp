@@ -58,6 +58,15 @@ protected:
     Device* device_ = nullptr;
 };
 
+// Where it does not, the tests of drawing would skip themselves unnoticed.
+TEST_F(DeviceTest, LavapipeDraws) {
+    const DeviceInfo& info = open().info();
+    if (info.name.find("llvmpipe") != std::string::npos) {
+        EXPECT_TRUE(info.features.raster) << info.driver;
+        EXPECT_NE(open().raster(), nullptr);
+    }
+}
+
 TEST_F(Rasterising, CoversEachPixelOfEachLayer) {
     for (const Size& size : {Size{1, 1, 1}, Size{1, 1, 6}, Size{7, 5, 3}, Size{300, 200, 6}}) {
         SCOPED_TRACE(size.width);

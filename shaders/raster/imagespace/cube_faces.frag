@@ -32,8 +32,11 @@ HitRecord meet(vec3 center, vec3 direction, uvec4 t) {
 // Whether the surface belongs to this layer of the map (shared/image_space_records.h).
 bool is_in_layer(HitRecord hit, uvec4 t, uint map, uint place) {
     bool passes = passes_light(load_material(t.w));
-    if (params.layer == layer_opaque || !passes) {
-        return passes == (params.layer != layer_opaque);
+    if (params.layer == layer_opaque) {
+        return !passes;
+    }
+    if (!passes) {
+        return false;
     }
     uint first = map * params.layers * cube_texels(params.size) + place;
     if (hit.t >= bits_float(shown[first].y)) {
