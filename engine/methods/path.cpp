@@ -57,7 +57,8 @@ MethodInfo path_method() {
             .options = {with_sweep(samples_option(), {.quick = {"2", "32", "128"},
                                                       .full = {"1", "4", "16", "64", "256"}}),
                         bounces_option(), with_sweep(follow_roughness_option(), {}),
-                        aperture_option(), focus_option(), filter_option(), deterministic_option()},
+                        cull_back_faces_option(), aperture_option(), focus_option(),
+                        filter_option(), deterministic_option()},
             .make = [](RenderContext& context) -> std::unique_ptr<Method> {
                 return std::make_unique<PathTracing>(context);
             }};

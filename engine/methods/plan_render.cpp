@@ -10,6 +10,7 @@ PlanRequest request_of(const RenderSettings& settings, MethodTable methods) {
     const MethodInfo& method = methods.at(settings.method);
     const Abilities& abilities = method.abilities;
     return {.follow_roughness = settings.follow_roughness,
+            .cull_back_faces = settings.cull_back_faces,
             .photon_map = abilities.photon_map,
             .footprints =
                 method.wants_footprints ? method.wants_footprints(settings) : abilities.footprints,

@@ -189,6 +189,13 @@ Option deterministic_option() {
         [](RenderSettings & s) -> auto& { return s.deterministic; });
 }
 
+Option cull_back_faces_option() {
+    return member_option(
+        "cull-back-faces",
+        "Do not show one-sided surfaces from behind, as rasterisers do; they still block light",
+        [](RenderSettings & s) -> auto& { return s.cull_back_faces; });
+}
+
 Option aperture_option() {
     // Its product with 1 / focus, and the square of that, are finite.
     return member_option(
@@ -255,9 +262,9 @@ std::vector<Option> progressive_options() {
 }
 
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {
-    std::vector<Option> options{samples_option(),      bounces_option(), follow_roughness_option(),
-                                aperture_option(),     focus_option(),   filter_option(),
-                                deterministic_option()};
+    std::vector<Option> options{
+        samples_option(),  bounces_option(), follow_roughness_option(), cull_back_faces_option(),
+        aperture_option(), focus_option(),   filter_option(),           deterministic_option()};
     for (const std::vector<Option>& more : {photon_map_options(), progressive_options(), own}) {
         options.insert(options.end(), more.begin(), more.end());
     }

@@ -10,6 +10,7 @@ namespace argand {
 Option samples_option();
 Option bounces_option();
 Option follow_roughness_option();
+Option cull_back_faces_option();
 Option aperture_option();
 Option focus_option();
 Option filter_option();

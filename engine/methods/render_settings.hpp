@@ -92,6 +92,8 @@ struct RenderSettings {
     /// what is in the image's middle.
     std::optional<double> focus;
     float follow_roughness = 0.25f; ///< glossy lobes up to this roughness are followed from the eye
+    /// The eye, also in mirrors and through glass, does not see one-sided surfaces from behind.
+    bool cull_back_faces = false;
     /// Edge of the cells that share one density estimate, in radii of estimation; 0: no sharing.
     double query_cell = 0.25;
     /// Least share of an estimate's disc that lies on surfaces; with less the estimate is not

@@ -39,6 +39,8 @@ FeatureText text_of(Feature feature) {
         return {"coat", "coats", ""};
     case Feature::rough_coat:
         return {"rough_coat", "rough coats", ""};
+    case Feature::coat_normal:
+        return {"coat_normal", "coats with normals of their own", ""};
     case Feature::sheen:
         return {"sheen", "sheen", ""};
     case Feature::anisotropy:

@@ -32,6 +32,7 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::absorption, MATERIAL_ABSORPTION},
                                  {Feature::coat, MATERIAL_COAT},
                                  {Feature::rough_coat, LOBE_COAT | MATERIAL_COAT},
+                                 {Feature::coat_normal, MATERIAL_COAT_NORMAL},
                                  {Feature::sheen, MATERIAL_SHEEN},
                                  {Feature::anisotropy, MATERIAL_ANISOTROPY},
                                  {Feature::iridescence, MATERIAL_FILM},
@@ -71,10 +72,10 @@ private:
 
 /// Adds the features that a material requires. Returns whether it has estimated lobes.
 bool add_material(Requirements& requirements, const Material& material, const std::string& by,
-                  float follow_roughness) {
+                  const PlanRequest& request) {
     const MaterialRecord record = material_record(material);
     const std::uint32_t lobes = bsdf_lobes(record);
-    const std::uint32_t estimated = estimated_lobes(record, follow_roughness);
+    const std::uint32_t estimated = estimated_lobes(record, request.follow_roughness);
     requirements.add(Feature::diffuse, by, (lobes & LOBE_DIFFUSE) != 0);
     requirements.add(Feature::ggx, by, (lobes & LOBE_GLOSSY) != 0 && !is_phong(record));
     requirements.add(Feature::phong, by, is_phong(record));
@@ -86,6 +87,9 @@ bool add_material(Requirements& requirements, const Material& material, const st
                      is_solid(record) && material.absorption != glm::vec3(0));
     requirements.add(Feature::coat, by, record.coat > 0 && lobes != 0);
     requirements.add(Feature::rough_coat, by, (lobes & LOBE_COAT) != 0);
+    requirements.add(Feature::coat_normal, by,
+                     (lobes & LOBE_COAT) != 0 &&
+                         has_coat_normal(record.absent, coat_normal(record)));
     requirements.add(Feature::sheen, by, has_sheen(record));
     requirements.add(Feature::anisotropy, by,
                      (lobes & LOBE_GLOSSY) != 0 &&
@@ -94,9 +98,11 @@ bool add_material(Requirements& requirements, const Material& material, const st
                      record.film > 0 && (lobes & (LOBE_GLOSSY | LOBE_MIRROR | LOBE_CLEAR)) != 0);
     requirements.add(Feature::dispersion, by, record.dispersion > 0 && is_solid(record));
     requirements.add(Feature::unlit, by, material.unlit);
-    requirements.add(Feature::alpha, by, record.coverage < 1);
+    requirements.add(Feature::alpha, by,
+                     record.coverage < 1 || (request.cull_back_faces && !material.double_sided));
     requirements.add(Feature::emissive_triangles, by, emits(material));
-    requirements.add(Feature::followed_paths, by, followed_lobes(record, follow_roughness) != 0);
+    requirements.add(Feature::followed_paths, by,
+                     followed_lobes(record, request.follow_roughness) != 0);
     requirements.add(Feature::glossy_estimates, by, estimated != 0 && !is_lambertian(record));
     return estimated != 0;
 }
@@ -125,8 +131,7 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
                              emits(at_a_time) &&
                                  (material.texture_bits & material_emissive_texture) != 0);
             for (const Material& variant : at_extreme_texels(scene, at_a_time)) {
-                const bool has_estimated =
-                    add_material(requirements, variant, by, request.follow_roughness);
+                const bool has_estimated = add_material(requirements, variant, by, request);
                 estimated = estimated || has_estimated;
             }
         };

@@ -23,6 +23,7 @@ enum class Feature : std::uint8_t {
     absorption,  ///< inside a solid
     coat,        ///< of varnish
     rough_coat,
+    coat_normal, ///< coats with normals of their own
     sheen,
     anisotropy,     ///< of glossy reflection
     iridescence,    ///< thin films
@@ -60,6 +61,7 @@ enum class Feature : std::uint8_t {
 /// The parts of a request on which features depend.
 struct PlanRequest {
     float follow_roughness = 0.25f; ///< glossy lobes of at most this roughness are followed
+    bool cull_back_faces = false;   ///< eye paths go through those of one-sided surfaces
     bool photon_map = true;
     bool footprints = true; ///< photons have footprints
     bool cube_maps = false; ///< photons find their hits in cube maps

@@ -58,22 +58,16 @@ void list_textures(const json& value, std::set<std::string>& keys) {
 
 /// Textures that are read, or that rendering does not need.
 bool is_read(const std::string& texture) {
-    constexpr std::array<std::string_view, 16> known{"baseColorTexture",
-                                                     "metallicRoughnessTexture",
-                                                     "emissiveTexture",
-                                                     "normalTexture",
-                                                     "occlusionTexture",
-                                                     "specularTexture",
-                                                     "specularColorTexture",
-                                                     "transmissionTexture",
-                                                     "thicknessTexture",
-                                                     "clearcoatTexture",
-                                                     "clearcoatRoughnessTexture",
-                                                     "iridescenceTexture",
-                                                     "iridescenceThicknessTexture",
-                                                     "sheenColorTexture",
-                                                     "sheenRoughnessTexture",
-                                                     "anisotropyTexture"};
+    constexpr std::array<std::string_view, 17> known{
+        "baseColorTexture",          "metallicRoughnessTexture",
+        "emissiveTexture",           "normalTexture",
+        "occlusionTexture",          "specularTexture",
+        "specularColorTexture",      "transmissionTexture",
+        "thicknessTexture",          "clearcoatTexture",
+        "clearcoatRoughnessTexture", "clearcoatNormalTexture",
+        "iridescenceTexture",        "iridescenceThicknessTexture",
+        "sheenColorTexture",         "sheenRoughnessTexture",
+        "anisotropyTexture"};
     return std::find(known.begin(), known.end(), texture) != known.end();
 }
 
@@ -231,6 +225,23 @@ void read_texture(TextureReader& textures, const json* owner, const char* key, T
     }
 }
 
+float normal_scale(const FactorReader& read, const json* owner, const char* key) {
+    const double scale = number_of(read.source, find_member(owner, key), "scale", 1, read.what);
+    return read.in_range(scale, -unlimited, unlimited, "normal scale");
+}
+
+/// A coat's normals follow its own texture; without one they stay as they are where a texture turns
+/// those of the surface.
+void add_coat_normal(TextureReader& textures, const FactorReader& read, const json* coat,
+                     bool needed, Material& material) {
+    const float scale = normal_scale(read, coat, "clearcoatNormalTexture");
+    const std::uint32_t before = material.texture_count;
+    read_texture(textures, coat, "clearcoatNormalTexture", TextureUse::coat_normal,
+                 needed && scale != 0, material_other_textures, read.what, material, scale);
+    material.coat_has_normal = needed && (material.texture_count > before ||
+                                          (material.texture_bits & material_normal_texture) != 0);
+}
+
 /// Adds the textures of a material.
 void read_textures(TextureReader& textures, const FactorReader& read, const json* object,
                    const TextureNeeds& needs, Material& material) {
@@ -245,10 +256,8 @@ void read_textures(TextureReader& textures, const FactorReader& read, const json
     add(pbr, "metallicRoughnessTexture", TextureUse::metallic_roughness, has_metal,
         material_metal_texture);
     add(object, "emissiveTexture", TextureUse::emissive, needs.emission, material_emissive_texture);
-    const double scale =
-        number_of(read.source, find_member(object, "normalTexture"), "scale", 1, read.what);
-    add(object, "normalTexture", TextureUse::normal, scale != 0, material_normal_texture,
-        read.in_range(scale, -unlimited, unlimited, "normal scale"));
+    const float scale = normal_scale(read, object, "normalTexture");
+    add(object, "normalTexture", TextureUse::normal, scale != 0, material_normal_texture, scale);
     const json* specular = find_extension(object, "KHR_materials_specular");
     add(specular, "specularTexture", TextureUse::specular, has_metal && needs.specular,
         material_other_textures);
@@ -264,6 +273,7 @@ void read_textures(TextureReader& textures, const FactorReader& read, const json
         material_other_textures);
     add(coat, "clearcoatRoughnessTexture", TextureUse::coat_roughness, has_metal && needs.coat,
         material_other_textures);
+    add_coat_normal(textures, read, coat, has_metal && needs.coat, material);
     const json* film = find_extension(object, "KHR_materials_iridescence");
     add(film, "iridescenceTexture", TextureUse::film, has_metal && needs.film,
         material_other_textures);

@@ -249,7 +249,8 @@ void TextureReader::decode_images() {
     std::vector<std::uint8_t> missing(images_.size(), 0);
     const auto is_of_normals = [&](std::size_t image) {
         return std::any_of(scene_.textures.begin(), scene_.textures.end(), [&](const Texture& t) {
-            return t.image == image && t.use == TextureUse::normal;
+            return t.image == image &&
+                   (t.use == TextureUse::normal || t.use == TextureUse::coat_normal);
         });
     };
     std::atomic<std::uint64_t> texels = 0;

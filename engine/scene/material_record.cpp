@@ -40,7 +40,11 @@ MaterialRecord material_record(const Material& m) {
                           m.sheen_color.r,
                           m.sheen_color.g,
                           m.sheen_color.b,
-                          m.anisotropy.y};
+                          m.anisotropy.y,
+                          0,
+                          0,
+                          m.coat_has_normal ? 1.0f : 0.0f,
+                          0};
     if (m.alpha_varies && m.alpha_mode == AlphaMode::blend) {
         record.textures |= material_alpha_blend;
     } else if (m.alpha_varies && m.alpha_mode == AlphaMode::mask && m.coverage > 0) {
@@ -53,6 +57,7 @@ MaterialRecord material_record(const Material& m) {
         record.transmission = 0;
         record.thickness = 0;
         record.coat = 0;
+        record.coat_normal_z = 0;
         record.film = 0;
         record.anisotropy_x = record.anisotropy_y = 0;
         record.sheen_r = record.sheen_g = record.sheen_b = 0;

@@ -40,8 +40,9 @@ struct Material {
     glm::vec3 absorption{0}; ///< KHR_materials_volume: inside a solid [1/length]
     float coat = 0;          ///< KHR_materials_clearcoat: share of the surface
     float coat_roughness = 0;
-    float dispersion = 0; ///< KHR_materials_dispersion: of a solid, 20 over Abbe's number
-    float film = 0;       ///< KHR_materials_iridescence: share of the surface with a thin film
+    bool coat_has_normal = false; ///< of its own, as a texture turns the surface's or the coat's
+    float dispersion = 0;         ///< KHR_materials_dispersion: of a solid, 20 over Abbe's number
+    float film = 0; ///< KHR_materials_iridescence: share of the surface with a thin film
     float film_ior = 1.3f;
     float film_thickness = 0.4f; ///< [micrometres]
     glm::vec3 sheen_color{0};    ///< KHR_materials_sheen

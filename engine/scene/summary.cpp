@@ -38,6 +38,7 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"absorption", numbers(material.absorption)},
             {"coat", material.coat},
             {"coat_roughness", material.coat_roughness},
+            {"coat_has_normal", material.coat_has_normal},
             {"dispersion", material.dispersion},
             {"sheen_color", numbers(material.sheen_color)},
             {"sheen_roughness", material.sheen_roughness},
@@ -75,6 +76,8 @@ const char* name_of(TextureUse use) {
         return "coat";
     case TextureUse::coat_roughness:
         return "coat_roughness";
+    case TextureUse::coat_normal:
+        return "coat_normal";
     case TextureUse::sheen_color:
         return "sheen_color";
     case TextureUse::sheen_roughness:
@@ -144,17 +147,22 @@ json light_json(const Light& light) {
 }
 
 json emissive_json(const Scene& scene) {
-    std::size_t triangles = 0;
+    std::size_t triangles = 0, textured = 0;
     double lit_area = 0;
     glm::dvec3 power(0);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        if (emits(scene.materials[scene.triangle_material[i]])) {
+        const Material& material = scene.materials[scene.triangle_material[i]];
+        if (emits(material)) {
             ++triangles;
+            textured += (material.texture_bits & material_emissive_texture) != 0 ? 1 : 0;
             lit_area += area(scene, i);
             power += emitted_power(scene, i);
         }
     }
-    return {{"triangles", triangles}, {"area", lit_area}, {"power", numbers(power)}};
+    return {{"triangles", triangles},
+            {"textured", textured},
+            {"area", lit_area},
+            {"power", numbers(power)}};
 }
 
 json camera_json(const Camera& camera) {
@@ -211,8 +219,9 @@ std::string layers_text(const json& material) {
                             value("sheen_roughness"));
     }
     if (value("coat") > 0) {
-        text += fmt::format(", coat {:.4g} of roughness {:.4g}", value("coat"),
-                            value("coat_roughness"));
+        text += fmt::format(", coat {:.4g} of roughness {:.4g}{}", value("coat"),
+                            value("coat_roughness"),
+                            material["coat_has_normal"].get<bool>() ? " with its own normal" : "");
     }
     return text;
 }
@@ -411,9 +420,12 @@ std::string summary_text(const Scene& scene) {
     append_list(text, "materials", summary["materials"], material_line);
     append_list(text, "lights", summary["lights"], light_line);
     const json& emissive = summary["emissive"];
-    line("emissive", fmt::format("{} triangles, area {:.4g}, power {}",
-                                 emissive["triangles"].get<std::size_t>(),
-                                 emissive["area"].get<double>(), short_text(emissive["power"])));
+    const auto textured = emissive["textured"].get<std::size_t>();
+    line("emissive",
+         fmt::format(
+             "{} triangles, area {:.4g}, power {}{}", emissive["triangles"].get<std::size_t>(),
+             emissive["area"].get<double>(), short_text(emissive["power"]),
+             textured > 0 ? fmt::format(", of which texels leave a part on {}", textured) : ""));
     line("sky", summary["sky"].is_null()
                     ? environment_text(scene)
                     : fmt::format("uniform, radiance {}", short_text(summary["sky"])));

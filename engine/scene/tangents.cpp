@@ -100,8 +100,8 @@ std::uint32_t packed_at(const Scene& scene, const Textured& t, std::size_t k, co
 bool needs_tangents(const Scene& scene, std::uint32_t material) {
     const Material& of = scene.materials[material];
     const MovingMaterial* moving = moving_material(scene.motion, material);
-    return (of.texture_bits & material_normal_texture) != 0 || of.anisotropy != glm::vec2(0) ||
-           (moving && moving->keys.anisotropy);
+    return (of.texture_bits & material_normal_texture) != 0 || of.coat_has_normal ||
+           of.anisotropy != glm::vec2(0) || (moving && moving->keys.anisotropy);
 }
 
 const Texture* tangent_texture(const Scene& scene, std::uint32_t material) {
@@ -112,7 +112,8 @@ const Texture* tangent_texture(const Scene& scene, std::uint32_t material) {
         if (texture.use == TextureUse::normal) {
             return &texture;
         }
-        if (texture.use == TextureUse::anisotropy) {
+        if (texture.use == TextureUse::coat_normal ||
+            (texture.use == TextureUse::anisotropy && !found)) {
             found = &texture;
         }
     }

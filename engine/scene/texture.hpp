@@ -31,6 +31,7 @@ enum class TextureUse : std::uint8_t {
     thickness,
     coat,
     coat_roughness,
+    coat_normal,
     film,
     film_thickness,
     anisotropy,
@@ -48,7 +49,8 @@ struct Texture {
     bool srgb = false;           ///< colours are encoded; alpha never is
     glm::mat3x2 transform{1.0f}; ///< of texture coordinates (u, v, 1)
     TextureUse use = TextureUse::base_color;
-    /// Of the slopes of a normal texture; of a film's thickness: its least over its greatest.
+    /// Of the slopes of a normal texture, also the coat's; of a film's thickness: its least over
+    /// its greatest.
     float scale = 1;
 };
 

@@ -90,6 +90,7 @@ void prepare_scene(Device& device, const Scene& scene, const Bounds& box,
     result.record.sky_columns =
         result.sky_table ? static_cast<std::uint32_t>(result.sky_table->width) : 0;
     result.record.follow_roughness = result.plan.request.follow_roughness;
+    result.record.cull_back_faces = result.plan.request.cull_back_faces ? 1 : 0;
     result.aim_nodes = unneeded(device);
     const std::vector<double> shares = plain_shares(result.light_table);
     set_light_choices(device, result, shares, shares);

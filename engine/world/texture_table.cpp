@@ -54,6 +54,8 @@ std::uint32_t use_flag(TextureUse use) {
         return texture_of_coat << texture_use_shift;
     case TextureUse::coat_roughness:
         return texture_of_coat_roughness << texture_use_shift;
+    case TextureUse::coat_normal:
+        return texture_of_coat_normal << texture_use_shift;
     case TextureUse::sheen_color:
         return texture_of_sheen_color << texture_use_shift;
     case TextureUse::sheen_roughness:

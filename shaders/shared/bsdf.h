@@ -14,11 +14,13 @@
 //   solid dielectric.
 // - transmit: straight through a thin wall, or refracted at the interface of a solid dielectric;
 //   tinted by the base colour.
-// - coat: GGX reflection by a rough coat; a smooth one belongs to the mirror lobe.
+// - coat: GGX reflection by a rough coat, or by one with a normal of its own; a smooth one belongs
+//   to the mirror lobe.
 // - clear: what mirror and transmit do at the clear part of a dielectric, where that is rough
 //   (rough_glass.h).
 //
-// The BSDF is reciprocal except for refraction's factor eta_scale.
+// The BSDF is reciprocal except for refraction's factor eta_scale, and for coats with a normal of
+// their own (coat_cosines).
 #ifndef ARGAND_SHARED_BSDF_H
 #define ARGAND_SHARED_BSDF_H
 
@@ -34,26 +36,30 @@ struct DeltaLobes {
     real cosine_refracted;
 };
 
+// Where a delta lobe sends light that comes from wo.
+FN vec3 mirror_direction(vec3 wo) { return vec3(-wo.x, -wo.y, wo.z); }
+FN vec3 transmit_direction(IN(DeltaLobes) delta, vec3 wo) {
+    return vec3(-wo.x / delta.eta, -wo.y / delta.eta, -delta.cosine_refracted);
+}
+
 // Delta lobes below coat and sheen, with the coat's reflection if it is smooth.
-FN DeltaLobes with_cover(IN(MaterialRecord) m, IN(ReflectionParameters) r, real cosine,
+FN DeltaLobes with_cover(IN(MaterialRecord) m, IN(ReflectionParameters) r, vec3 wo,
                          IN(DeltaLobes) bare) {
     DeltaLobes delta = bare;
     if (!is_covered(r)) {
         return delta;
     }
-    real passed = passes_cover_at(r, cosine);
-    delta.reflected = delta.reflected * passed;
-    delta.transmitted =
-        delta.transmitted *
-        (is_solid(m) ? min(passed, passes_cover_at(r, delta.cosine_refracted)) : passed);
+    delta.reflected = delta.reflected * under_cover(r, wo, mirror_direction(wo));
+    delta.transmitted = delta.transmitted * under_cover(r, wo, transmit_direction(delta, wo));
     if (has_coat(r) && !coat_is_rough(r)) {
-        delta.reflected += vec3(coat_albedo(r, cosine) * coverage(m));
+        delta.reflected += vec3(coat_albedo(r, wo) * coverage(m));
     }
     return delta;
 }
 
-FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
+FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, vec3 wo, bool front) {
     DeltaLobes delta;
+    real cosine = wo.z;
     delta.eta = real(1.0);
     delta.cosine_refracted = cosine;
     ReflectionParameters reflection = reflection_parameters(m);
@@ -61,14 +67,14 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
         roughness_is_delta(m) ? filmed_layer_reflectance(reflection, cosine) : vec3(real(0.0));
     delta.transmitted = vec3(real(0.0));
     if (!may_have(m, LOBE_TRANSMIT | MATERIAL_SOLID) || clear_is_rough(m)) {
-        return with_cover(m, reflection, cosine, delta);
+        return with_cover(m, reflection, wo, delta);
     }
     if (!is_solid(m)) {
         real passed = has_film(reflection)
                           ? passes_smooth_layer_at(reflection, cosine)
                           : real(1.0) - max_component(dielectric_fresnel(reflection, cosine));
         delta.transmitted = base_color(m) * (clear_share(m) * passed);
-        return with_cover(m, reflection, cosine, delta);
+        return with_cover(m, reflection, wo, delta);
     }
     vec3 reflectance = vec3(real(1.0));
     if (m.ior > float32(0.0)) {
@@ -77,7 +83,7 @@ FN DeltaLobes bsdf_delta_lobes(IN(MaterialRecord) m, real cosine, bool front) {
     }
     delta.reflected = delta.reflected + reflectance * clear_share(m);
     delta.transmitted = base_color(m) * (clear_share(m) * (real(1.0) - max_component(reflectance)));
-    return with_cover(m, reflection, cosine, delta);
+    return with_cover(m, reflection, wo, delta);
 }
 
 // LOBE_* bits of the lobes that the material has.
@@ -133,15 +139,15 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
         albedo += layer_albedo(reflection, wo.z);
     }
     if (is_covered(reflection)) {
-        albedo = albedo * passes_coat_at(reflection, wo.z);
+        albedo = albedo * passes_coat_at(reflection, wo);
         albedo += wants_lobe(m, lobes, LOBE_DIFFUSE) ? rough_sheen_albedo(reflection, wo.z)
                                                      : vec3(real(0.0));
         albedo += wants_lobe(m, lobes, LOBE_COAT) && coat_is_rough(reflection)
-                      ? vec3(coat_albedo(reflection, wo.z) * coverage(m))
+                      ? vec3(coat_albedo(reflection, wo) * coverage(m))
                       : vec3(real(0.0));
     }
     if (wants_lobe(m, lobes, LOBES_DELTA)) {
-        DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
+        DeltaLobes delta = bsdf_delta_lobes(m, wo, front);
         albedo += wants_lobe(m, lobes, LOBE_MIRROR) ? delta.reflected : vec3(real(0.0));
         albedo += wants_lobe(m, lobes, LOBE_TRANSMIT) ? delta.transmitted : vec3(real(0.0));
     }
@@ -155,7 +161,8 @@ FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
 // or any of clear and coat; all 0 if the material has none of the masked lobes. They must not
 // depend on the side of wo, which bsdf_pdf does not know, so a solid's interface counts with its
 // whole share.
-FN vec4 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
+FN vec4 lobe_probabilities(IN(MaterialRecord) m, vec3 wo, uint lobes) {
+    real cosine = wo.z;
     uint present = lobes & bsdf_lobes(m);
     vec4 p = vec4(real(0.0));
     ReflectionParameters reflection = reflection_parameters(m);
@@ -177,8 +184,8 @@ FN vec4 lobe_probabilities(IN(MaterialRecord) m, real cosine, uint lobes) {
         p.w = clear_share(m) * max(mean_component(base_color(m)), real(0.04));
     }
     if (is_covered(reflection)) {
-        real passed = passes_coat_at(reflection, cosine);
-        real coat = coat_albedo(reflection, cosine) * coverage(m);
+        real passed = passes_coat_at(reflection, wo);
+        real coat = coat_albedo(reflection, wo) * coverage(m);
         bool rough = has_coat(reflection) && coat_is_rough(reflection);
         p = p * passed;
         p.x += wants_lobe(m, present, LOBE_DIFFUSE)
@@ -279,7 +286,7 @@ FN vec3 bsdf_eval(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
 // lobe.
 FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
     real pdf;
-    bsdf_eval_and_pdf(reflection_parameters(m), wo, wi, lobes, lobe_probabilities(m, wo.z, lobes),
+    bsdf_eval_and_pdf(reflection_parameters(m), wo, wi, lobes, lobe_probabilities(m, wo, lobes),
                       pdf);
     return pdf;
 }
@@ -288,7 +295,7 @@ FN real bsdf_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, uint lobes) {
 FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real u,
                           INOUT(BsdfSample) s) {
     real probability = s.probability;
-    DeltaLobes delta = bsdf_delta_lobes(m, wo.z, front);
+    DeltaLobes delta = bsdf_delta_lobes(m, wo, front);
     real reflected =
         wants_lobe(m, lobes, LOBE_MIRROR) ? mean_component(delta.reflected) : real(0.0);
     real transmitted =
@@ -299,7 +306,7 @@ FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes,
     }
     if (may_have(m, LOBE_MIRROR) && u * sum < reflected) {
         s.lobe = LOBE_MIRROR;
-        s.wi = vec3(-wo.x, -wo.y, wo.z);
+        s.wi = mirror_direction(wo);
         s.probability = reflected * probability / sum;
         s.weight = delta.reflected * (sum / (reflected * probability));
         return true;
@@ -308,7 +315,7 @@ FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes,
         return false;
     }
     s.lobe = LOBE_TRANSMIT;
-    s.wi = vec3(-wo.x / delta.eta, -wo.y / delta.eta, -delta.cosine_refracted);
+    s.wi = transmit_direction(delta, wo);
     s.probability = transmitted * probability / sum;
     s.weight = delta.transmitted * (sum / (transmitted * probability));
     s.eta_scale = real(1.0) / (delta.eta * delta.eta);
@@ -316,16 +323,16 @@ FN bool sample_delta_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes,
 }
 
 // Probability with which coat, not clear, is sampled where one of them is.
-FN real coat_choice(IN(MaterialRecord) m, real cosine, uint lobes) {
+FN real coat_choice(IN(MaterialRecord) m, vec3 wo, uint lobes) {
     uint present = lobes & bsdf_lobes(m);
     if (!wants_lobe(m, present, LOBE_COAT)) {
         return real(0.0);
     }
     ReflectionParameters r = reflection_parameters(m);
-    real coat = coat_albedo(r, cosine) * coverage(m);
+    real coat = coat_albedo(r, wo) * coverage(m);
     real clear = wants_lobe(m, present, LOBE_CLEAR)
                      ? clear_share(m) * max(mean_component(base_color(m)), real(0.04)) *
-                           passes_coat_at(r, cosine)
+                           passes_coat_at(r, wo)
                      : real(0.0);
     return coat / max(coat + clear, real(1e-30));
 }
@@ -336,10 +343,28 @@ FN real coat_repeated_share(real lost, real repeated) {
     return more / (more + (real(1.0) - lost) * real(0.04 + 0.96 / 21.0));
 }
 
+// A direction in the coat's frame, given in the shading frame.
+FN vec3 to_coat(IN(ReflectionParameters) r, vec3 w) {
+    return has_coat_normal(r.absent, r.coat_normal) ? to_local(make_frame(r.coat_normal), w) : w;
+}
+
+// Cosine of a direction to the coat's normal over that to the surface's. The value of a coat with
+// a normal of its own contains it, for wi, so that the cosine that belongs to the value is that
+// with the coat's normal. For light that comes from wo, as photons do, it has to be that of wo.
+FN real coat_cosines(IN(MaterialRecord) m, vec3 w) {
+    ReflectionParameters r = reflection_parameters(m);
+    return has_coat_normal(r.absent, r.coat_normal) ? coat_cosine(r, w) / abs(w.z) : real(1.0);
+}
+
 // Value of a rough coat without the cosine [1/sr], and density of wi if this lobe is sampled.
-FN vec3 coat_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, OUT(real) pdf) {
+FN vec3 coat_eval_and_pdf(IN(MaterialRecord) m, vec3 surface_wo, vec3 surface_wi, OUT(real) pdf) {
     pdf = real(0.0);
     ReflectionParameters r = reflection_parameters(m);
+    if (!(surface_wo.z > real(0.0)) || !(surface_wi.z > real(0.0))) {
+        return vec3(real(0.0));
+    }
+    vec3 wo = to_coat(r, surface_wo);
+    vec3 wi = to_coat(r, surface_wi);
     vec3 h = wo + wi;
     real h2 = dot3(h, h);
     if (!has_coat(r) || !coat_is_rough(r) || !(wo.z > real(0.0)) || !(wi.z > real(0.0)) ||
@@ -357,15 +382,15 @@ FN vec3 coat_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, OUT(real) pdf)
     real once = (real(1.0) - real(0.96) * schlick_less(cosine)) * distribution *
                 ggx_visibility(r.coat_alpha, wo.z, wi.z);
     real more = repeated * (INV_PI * lost * (ggx_lost(r.coat_alpha, wi.z) / average));
-    return vec3(r.coat * coverage(m) * (once + more));
+    return vec3(r.coat * coverage(m) * (once + more) * coat_cosines(m, surface_wi));
 }
 
 // Value of one of the lobes that are followed though not smooth, clear or coat, without the cosine,
 // and the density with which bsdf_sample, given this mask, returns wi from it.
 FN vec3 spread_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool front, uint lobes,
                             uint lobe, OUT(real) pdf) {
-    real chosen = lobe_probabilities(m, wo.z, lobes).w;
-    real coat = coat_choice(m, wo.z, lobes);
+    real chosen = lobe_probabilities(m, wo, lobes).w;
+    real coat = coat_choice(m, wo, lobes);
     vec3 f;
     if (lobe == LOBE_COAT) {
         f = coat_eval_and_pdf(m, wo, wi, pdf);
@@ -380,7 +405,7 @@ FN vec3 spread_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool front, 
 // Samples coat or clear. probability: that any of them is chosen. u: in [0, 1).
 FN bool sample_spread_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, real probability,
                            vec3 u, INOUT(BsdfSample) s) {
-    real coat = coat_choice(m, wo.z, lobes);
+    real coat = coat_choice(m, wo, lobes);
     if (!(u.x < coat)) {
         s.lobe = LOBE_CLEAR;
         s.probability = probability * (real(1.0) - coat);
@@ -389,14 +414,22 @@ FN bool sample_spread_lobe(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes
     }
     s.lobe = LOBE_COAT;
     s.probability = probability * coat;
-    real alpha = reflection_parameters(m).coat_alpha;
-    real lost = ggx_lost(alpha, wo.z);
+    ReflectionParameters r = reflection_parameters(m);
+    real alpha = r.coat_alpha;
+    vec3 coat_wo = to_coat(r, wo);
+    if (!(coat_wo.z > real(0.0))) {
+        return false; // the coat faces away
+    }
+    real lost = ggx_lost(alpha, coat_wo.z);
     real repeated = ggx_repeated_color(vec3(real(0.04)), real(1.0), ggx_lost_average(alpha)).x;
     if (u.x / coat < coat_repeated_share(lost, repeated)) {
         s.wi = ggx_sample_repeated(alpha, vec2(u.y, u.z));
     } else {
-        vec3 n = ggx_sample_normal(alpha, wo, vec2(u.y, u.z));
-        s.wi = n * (real(2.0) * dot3(wo, n)) - wo;
+        vec3 n = ggx_sample_normal(alpha, coat_wo, vec2(u.y, u.z));
+        s.wi = n * (real(2.0) * dot3(coat_wo, n)) - coat_wo;
+    }
+    if (has_coat_normal(r.absent, r.coat_normal)) {
+        s.wi = to_world(make_frame(r.coat_normal), s.wi);
     }
     real pdf;
     vec3 f = coat_eval_and_pdf(m, wo, s.wi, pdf);
@@ -418,7 +451,7 @@ FN bool bsdf_sample(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes, vec4 
     s.lobe = 0u;
     s.probability = real(1.0);
     s.eta_scale = real(1.0);
-    vec4 p = lobe_probabilities(m, wo.z, lobes);
+    vec4 p = lobe_probabilities(m, wo, lobes);
     if (!(wo.z > real(0.0)) || !(p.x + p.y + p.z + p.w > real(0.0))) {
         return false;
     }

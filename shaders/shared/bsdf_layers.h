@@ -25,7 +25,7 @@ CONSTANT uint LOBES_ALL = 63u;
 
 // Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract,
 // those that absorb, unlit surfaces, coats, thin films, solids that refract colours differently,
-// sheen, anisotropic GGX lobes.
+// sheen, anisotropic GGX lobes, coats with a normal of their own.
 CONSTANT uint MATERIAL_ALPHA = 64u;
 CONSTANT uint MATERIAL_GGX = 128u;
 CONSTANT uint MATERIAL_PHONG = 256u;
@@ -37,7 +37,8 @@ CONSTANT uint MATERIAL_FILM = 8192u;
 CONSTANT uint MATERIAL_DISPERSION = 16384u;
 CONSTANT uint MATERIAL_SHEEN = 32768u;
 CONSTANT uint MATERIAL_ANISOTROPY = 65536u;
-CONSTANT uint MATERIAL_ALL = 131071u;
+CONSTANT uint MATERIAL_COAT_NORMAL = 131072u;
+CONSTANT uint MATERIAL_ALL = 262143u;
 // All but rough glass, coats, films, dispersion, sheen and anisotropy. Few scenes have these, and
 // they double the size of kernels. A kernel for scenes without them is compiled apart, with
 // ARGAND_LEAN.
@@ -80,6 +81,14 @@ FN real transmission(IN(MaterialRecord) m) {
 FN bool alpha_is_delta(uint absent, real alpha) {
     return may_have(absent, LOBE_MIRROR) &&
            (!may_have(absent, LOBE_GLOSSY) || alpha < SMALLEST_ALPHA);
+}
+
+FN vec3 coat_normal(IN(MaterialRecord) m) {
+    return vec3(m.coat_normal_x, m.coat_normal_y, m.coat_normal_z);
+}
+// Whether a coat has a normal of its own.
+FN bool has_coat_normal(uint absent, vec3 normal) {
+    return may_have(absent, MATERIAL_COAT_NORMAL) && normal.z > real(0.0);
 }
 
 // Anisotropic metal and layer (KHR_materials_anisotropy): alpha along the direction in which facets
@@ -154,6 +163,7 @@ struct ReflectionParameters {
     vec2 anisotropy;       // as in MaterialRecord, in the shading frame
     real exponent;         // of modified Phong, or negative
     real coat, coat_alpha; // share of what is present, GGX
+    vec3 coat_normal;      // in the shading frame; (0,0,0): that of the surface
     real film, film_ior, film_thickness; // as in MaterialRecord
     vec3 sheen;                          // colour, scaled by alpha
     real sheen_most, sheen_alpha;        // largest component of the colour
@@ -182,7 +192,12 @@ FN ReflectionParameters reflection_parameters(IN(MaterialRecord) m) {
     r.alpha = layer_alpha(m);
     r.exponent = real(m.exponent);
     r.coat = real(m.coat);
+    r.coat_normal = coat_normal(m);
     r.coat_alpha = real(m.coat_roughness) * real(m.coat_roughness);
+    if (has_coat_normal(m.absent, r.coat_normal)) {
+        // Not smooth: the mirror lobe reflects about the surface's normal.
+        r.coat_alpha = max(r.coat_alpha, SMALLEST_ALPHA);
+    }
     r.film = real(m.film);
     r.film_ior = real(m.film_ior);
     r.film_thickness = real(m.film_thickness);
@@ -359,16 +374,21 @@ FN bool coat_is_rough(IN(ReflectionParameters) r) {
     return may_have(r.absent, LOBE_COAT) && r.coat_alpha >= SMALLEST_ALPHA;
 }
 
-// Part of the light that passes the coat at a cosine to the normal: what Fresnel's factor leaves,
-// for rough coats too, as the extension has it.
-FN real passes_coat_at(IN(ReflectionParameters) r, real cosine) {
+// Cosine of a direction on either side to the coat's normal.
+FN real coat_cosine(IN(ReflectionParameters) r, vec3 w) {
+    return abs(has_coat_normal(r.absent, r.coat_normal) ? dot3(w, r.coat_normal) : w.z);
+}
+
+// Part of the light along a direction that passes the coat: what Fresnel's factor leaves, for rough
+// coats too, as the extension has it.
+FN real passes_coat_at(IN(ReflectionParameters) r, vec3 w) {
     if (!has_coat(r)) {
         return real(1.0);
     }
-    return (real(1.0) - r.coat) + r.coat * (real(0.96) * schlick_less(cosine));
+    return (real(1.0) - r.coat) + r.coat * (real(0.96) * schlick_less(coat_cosine(r, w)));
 }
-FN real coat_albedo(IN(ReflectionParameters) r, real cosine) {
-    return real(1.0) - passes_coat_at(r, cosine);
+FN real coat_albedo(IN(ReflectionParameters) r, vec3 wo) {
+    return real(1.0) - passes_coat_at(r, wo);
 }
 // Sheen lies between the coat and all else, and dims what is below in the same way.
 FN bool has_sheen(IN(ReflectionParameters) r) {
@@ -387,24 +407,24 @@ FN vec3 rough_sheen_albedo(IN(ReflectionParameters) r, real cosine) {
 
 // Whether coat or sheen cover the rest, and what passes both.
 FN bool is_covered(IN(ReflectionParameters) r) { return has_coat(r) || has_sheen(r); }
-FN real passes_cover_at(IN(ReflectionParameters) r, real cosine) {
-    real passed = passes_coat_at(r, cosine);
+FN real passes_cover_at(IN(ReflectionParameters) r, vec3 w) {
+    real passed = passes_coat_at(r, w);
     if (has_sheen(r)) {
-        passed *= real(1.0) - r.sheen_most * min(sheen_albedo(r.sheen_alpha, cosine), real(1.0));
+        passed *= real(1.0) - r.sheen_most * min(sheen_albedo(r.sheen_alpha, abs(w.z)), real(1.0));
     }
     return passed;
 }
-FN real under_cover(IN(ReflectionParameters) r, real cosine_o, real cosine_i) {
+FN real under_cover(IN(ReflectionParameters) r, vec3 wo, vec3 wi) {
     if (!is_covered(r)) {
         return real(1.0);
     }
-    return min(passes_cover_at(r, cosine_o), passes_cover_at(r, cosine_i));
+    return min(passes_cover_at(r, wo), passes_cover_at(r, wi));
 }
 
 // The value of lobes below coat and sheen and of the sheen: `below` without them [1/sr].
 FN vec3 with_sheen(IN(ReflectionParameters) r, vec3 wo, vec3 wi, vec3 below, bool with_diffuse) {
-    real coat_o = passes_coat_at(r, wo.z);
-    real coat_i = passes_coat_at(r, wi.z);
+    real coat_o = passes_coat_at(r, wo);
+    real coat_i = passes_coat_at(r, wi);
     if (!has_sheen(r)) {
         return below * min(coat_o, coat_i);
     }

@@ -34,6 +34,11 @@ struct MaterialRecord {
     float32 anisotropy_x;
     float32 sheen_r, sheen_g, sheen_b;
     float32 anisotropy_y;
+    // Normal of a coat that has one of its own, as the surface's or the coat's is turned by a
+    // texture; else (0,0,0). In the frame of the tangents, with z > 0; kernels turn it into the
+    // shading frame (kernels/coat.h).
+    float32 coat_normal_x, coat_normal_y, coat_normal_z;
+    float32 pad0;
 };
 
 ARGAND_SHARED_END

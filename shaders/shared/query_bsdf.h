@@ -25,6 +25,9 @@ FN QueryBsdfRecord query_bsdf(IN(ReflectionParameters) r, uint direction, uint s
     q.exponent = float32(r.exponent);
     q.coat = float32(r.coat);
     q.coat_alpha = float32(r.coat_alpha);
+    q.coat_normal_x = float32(r.coat_normal.x);
+    q.coat_normal_y = float32(r.coat_normal.y);
+    q.coat_normal_z = float32(r.coat_normal.z);
     q.film = float32(r.film);
     q.film_ior = float32(r.film_ior);
     q.film_thickness = float32(r.film_thickness);
@@ -53,6 +56,7 @@ FN ReflectionParameters reflection_parameters(IN(QueryBsdfRecord) q) {
     r.exponent = real(q.exponent);
     r.coat = real(q.coat);
     r.coat_alpha = real(q.coat_alpha);
+    r.coat_normal = vec3(q.coat_normal_x, q.coat_normal_y, q.coat_normal_z);
     r.film = real(q.film);
     r.film_ior = real(q.film_ior);
     r.film_thickness = real(q.film_thickness);

@@ -24,6 +24,7 @@ struct QueryBsdfRecord {
     float32 metal_share, layer_share, alpha_across, exponent;
     float32 anisotropy_x, anisotropy_y;
     float32 coat, coat_alpha, film, film_ior, film_thickness;
+    float32 coat_normal_x, coat_normal_y, coat_normal_z;
     float32 sheen_r, sheen_g, sheen_b, sheen_most, sheen_alpha;
     uint direction;      // towards the eye, packed
     uint shading_normal; // packed

@@ -75,11 +75,11 @@ FN vec3 filmed_interface_reflectance(IN(MaterialRecord) m, real cosine, real eta
 }
 
 // What passes coat and sheen on the way of light between wo and wi, on either side.
-FN real clear_under_cover(IN(MaterialRecord) m, real cosine_o, real z_i) {
+FN real clear_under_cover(IN(MaterialRecord) m, vec3 wo, vec3 wi) {
     if (!may_have(m, MATERIAL_COAT | MATERIAL_SHEEN)) {
         return real(1.0);
     }
-    return under_cover(reflection_parameters(m), cosine_o, abs(z_i));
+    return under_cover(reflection_parameters(m), wo, wi);
 }
 
 // What a facet of a solid's interface reflects and lets through.
@@ -163,7 +163,7 @@ FN vec3 rough_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool fr
     if (!is_solid(m)) {
         return reflects ? vec3(real(0.0))
                         : thin_clear_eval_and_pdf(m, wo, vec3(wi.x, wi.y, -wi.z), pdf) *
-                              clear_under_cover(m, wo.z, wi.z);
+                              clear_under_cover(m, wo, wi);
     }
     real eta = interface_eta(m, front);
     real alpha = ggx_alpha(m);
@@ -182,7 +182,7 @@ FN vec3 rough_clear_eval_and_pdf(IN(MaterialRecord) m, vec3 wo, vec3 wi, bool fr
     real distribution = ggx_distribution(alpha, h, h2);
     real density = ggx_reflection_pdf(alpha, distribution, wo.z);
     real value =
-        distribution * ggx_visibility(alpha, wo.z, abs(wi.z)) * clear_under_cover(m, wo.z, wi.z);
+        distribution * ggx_visibility(alpha, wo.z, abs(wi.z)) * clear_under_cover(m, wo, wi);
     if (reflects) {
         pdf = r.reflects * density;
         return r.reflected * value;
@@ -223,7 +223,7 @@ FN bool sample_rough_clear(IN(MaterialRecord) m, vec3 wo, bool front, vec3 u, IN
         real pdf;
         vec3 f = thin_clear_eval_and_pdf(m, wo, mirrored, pdf);
         s.pdf = s.probability * pdf;
-        s.weight = f * (clear_under_cover(m, wo.z, s.wi.z) * mirrored.z / s.pdf);
+        s.weight = f * (clear_under_cover(m, wo, s.wi) * mirrored.z / s.pdf);
         return s.pdf > real(0.0);
     }
     real eta = interface_eta(m, front);
@@ -247,8 +247,8 @@ FN bool sample_rough_clear(IN(MaterialRecord) m, vec3 wo, bool front, vec3 u, IN
         !is_finite(s.pdf)) {
         return false;
     }
-    real masking = ggx_masking_weight(alpha, wo.z, abs(s.wi.z)) *
-                   clear_under_cover(m, wo.z, s.wi.z) / s.probability;
+    real masking = ggx_masking_weight(alpha, wo.z, abs(s.wi.z)) * clear_under_cover(m, wo, s.wi) /
+                   s.probability;
     s.weight =
         reflects ? r.reflected * (masking / r.reflects) : r.transmitted * (masking / r.passes);
     return true;

@@ -27,10 +27,11 @@ struct SceneRecord {
     lane4 target_0, target_1, target_2, target_3;
     uint target_count;
     float32 target_share;
-    float32 view_share; // of the photons emitted or scattered outside `view` that are aimed at it
-    uint sky_columns;   // of texels in the sky's picture; 0: there is none
-    uint first_tangent; // among the vertices' attributes: the first triangle's tangents
-    uint pad0, pad1, pad2;
+    float32 view_share;   // of the photons emitted or scattered outside `view` that are aimed at it
+    uint sky_columns;     // of texels in the sky's picture; 0: there is none
+    uint first_tangent;   // among the vertices' attributes: the first triangle's tangents
+    uint cull_back_faces; // 1: eye paths go straight on through those of one-sided surfaces
+    uint pad0, pad1;
     lane4 view; // sphere (center, radius) around most of what is in view
 };
 

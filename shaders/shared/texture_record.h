@@ -44,8 +44,9 @@ CONSTANT uint texture_of_sheen_color = 8u;     // by red, green and blue
 CONSTANT uint texture_of_sheen_roughness = 9u; // by alpha
 // The direction by red and green (codes 0 to 255 are -1 to 1), the strength by blue.
 CONSTANT uint texture_of_anisotropy = 10u;
+CONSTANT uint texture_of_coat_normal = 11u; // a normal texture of the coat alone
 CONSTANT uint texture_last = 4096u;
-CONSTANT uint most_other_textures = 11u;
+CONSTANT uint most_other_textures = 12u;
 
 // Words before the first texel: the linear values of the 256 codes of sRGB, as bits of floats.
 CONSTANT uint srgb_codes = 256u;

@@ -167,6 +167,24 @@ TEST_P(Alpha, SlowLayersAgreeWithThePathTracer) {
     EXPECT_GT(mean(layer(expected, "caustic")).g, 0.2 * mean(layer(expected, "direct")).g);
 }
 
+// As a rasteriser shows a closed room from outside; its walls still keep the light in and out.
+TEST_P(Alpha, CulledBackFacesAreNotSeen) {
+    for (const bool two_sided : {false, true}) {
+        Scene scene = room_scene();
+        for (Material& material : scene.materials) {
+            material.double_sided = two_sided;
+        }
+        scene.lights.push_back(directional_light({0, 0, -1}, glm::vec3(100)));
+        RenderSettings shown = settings(32, 16, 50'000);
+        const glm::vec3 to(-0.1f, -0.2f, -1), outside(0.4f, 0.2f, 3);
+        const glm::vec3 inside = glm::mix(outside, to, 0.51f);
+        const glm::dvec3 expected = radiance(scene, shown, two_sided ? outside : inside, to);
+        shown.cull_back_faces = true;
+        const glm::dvec3 found = radiance(scene, shown, outside, to);
+        EXPECT_RELATIVE(found.g, expected.g, 0.02) << two_sided;
+    }
+}
+
 INSTANTIATE_ESTIMATES(Alpha);
 
 } // namespace

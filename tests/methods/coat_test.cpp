@@ -4,8 +4,6 @@
 namespace argand::testing {
 namespace {
 
-double schlick(double cosine) { return 0.04 + 0.96 * std::pow(1 - cosine, 5); }
-
 class Coats : public EveryMethod {};
 
 // Paint under varnish, lit by a sun: what passes the coat, and a rough coat's own reflection.
@@ -24,7 +22,7 @@ TEST_P(Coats, ReflectASunAsTheFormulaSays) {
             const glm::dvec3 i = glm::normalize(glm::dvec3(1, 1, 0));
             const glm::dvec3 found =
                 radiance(scene, settings, 3.0f * glm::vec3(o), {0, 0, 0}, "direct");
-            const double passed = 1 - 0.75 * std::max(schlick(o.y), schlick(i.y));
+            const double passed = 1 - 0.75 * std::max(varnish_fresnel(o.y), varnish_fresnel(i.y));
             double coat = 0;
             if (roughness > 0) {
                 const glm::dvec3 h = glm::normalize(o + i);
@@ -32,7 +30,7 @@ TEST_P(Coats, ReflectASunAsTheFormulaSays) {
                 const double f = h.y * h.y * (a2 - 1) + 1;
                 const double v = 0.5 / (i.y * std::sqrt(a2 + (1 - a2) * o.y * o.y) +
                                         o.y * std::sqrt(a2 + (1 - a2) * i.y * i.y));
-                coat = 0.75 * schlick(glm::dot(o, h)) * a2 / (double(pi) * f * f) * v;
+                coat = 0.75 * varnish_fresnel(glm::dot(o, h)) * a2 / (double(pi) * f * f) * v;
             }
             const glm::dvec3 base(0.25, 0.5, 0);
             for (int channel = 0; channel < 3; ++channel) {

@@ -96,6 +96,41 @@ TEST_P(EmissiveTexture, FindsOneBrightTexel) {
     EXPECT_RELATIVE(l.b, 50 * expected, 0.02);
 }
 
+/// A lamp of 4 x 4 squares under the ceiling of a box: every other one of texels with or without
+/// alpha, or of those squares only that are there.
+Scene lamp_with_holes(bool cut) {
+    Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
+    Material lamp = emitter({6, 4, 5});
+    lamp.alpha_mode = AlphaMode::mask;
+    lamp.alpha_threshold = 0.5f;
+    const std::uint32_t material = add_material(scene, lamp);
+    std::vector<std::uint32_t> texels;
+    for (int i = 0; i < 16; ++i) {
+        const bool there = (i + i / 4) % 2 == 0;
+        texels.push_back(texel(255, 255, 255, there ? 200 : 100));
+        if (cut && there) {
+            add_quad(scene, {-0.5f + 0.25f * float(i % 4), 0.9f, -0.5f + 0.25f * float(i / 4)},
+                     {0.25f, 0, 0}, {0, 0, 0.25f}, material);
+        }
+    }
+    if (!cut) {
+        add_quad(scene, {-0.5f, 0.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, material);
+        add_texture(scene, material, material_base_color_texture, 4, texels, true);
+    }
+    for (const glm::vec3& p : scene.positions) {
+        scene.uvs.emplace_back(p.x + 0.5f, p.z + 0.5f);
+    }
+    scene.cameras = {look_at({0.3f, 0.3f, 0.95f}, {0, -0.2f, -1}, 80)};
+    return scene;
+}
+
+TEST_P(EmissiveTexture, MaskedTexelsDoNotShine) {
+    RenderSettings settings = settings_of(GetParam(), 16, has_map(GetParam()) ? 32 : 256);
+    settings.photons = 100'000;
+    const RenderResult cut = render(lamp_with_holes(true), settings);
+    expect_same_layers(render(lamp_with_holes(false), settings), cut, 0.03);
+}
+
 INSTANTIATE_ESTIMATES(EmissiveTexture);
 
 } // namespace

@@ -8,7 +8,11 @@
 namespace argand::testing {
 namespace {
 
-RenderSettings cube_settings(int size = 48) { return settings_of("image-space", size, 8); }
+RenderSettings cube_settings(int size = 48) {
+    RenderSettings settings = settings_of("image-space", size, 8);
+    settings.own.clear();
+    return settings;
+}
 
 class ImageSpace : public RenderTest {
 protected:
@@ -102,7 +106,7 @@ protected:
         RenderSettings settings = settings_of(method, 24, 8);
         settings.photons = 50'000;
         if (method == "image-space") {
-            settings.own["choose-every"] = choose_every;
+            settings.own = {{"choose-every", choose_every}};
         }
         Scene scene = load_asset("dynamic_block.glb");
         World world(device(), scene);

@@ -68,6 +68,7 @@ TEST_P(Lens, SmallLampBecomesADisc) {
 TEST_P(Lens, EveryMethodSeesTheSame) {
     const Scene scene = load_asset("cornell_area.glb");
     RenderSettings settings = settings_of(GetParam(), 16, 64);
+    settings.own.clear();
     settings.photons = 200'000;
     settings.aperture = 0.3;
     settings.focus = 1.5;

@@ -185,6 +185,9 @@ inline Scene box_scene(const Material& walls) {
     return scene;
 }
 
+/// Fresnel's factor of an index of 1.5, by Schlick's approximation.
+inline double varnish_fresnel(double cosine) { return 0.04 + 0.96 * std::pow(1 - cosine, 5); }
+
 /// A room of different Lambertian walls with a point light and an unlit block: much indirect light
 /// for little work.
 inline Scene room_scene() {

@@ -43,6 +43,9 @@ CONSTANT uint of_brushed = 59u;
 CONSTANT uint end_of_scatter = 60u;
 
 // A material from the sixteen numbers from k on.
+// A direction of this cosine; the functions that take it depend on nothing else of it.
+FN vec3 above(real cosine) { return vec3(real(0.0), real(0.0), cosine); }
+
 FN MaterialRecord material_at(IN(Arguments) a, int k) {
     MaterialRecord m;
     m.base_r = a.x[k];
@@ -69,6 +72,7 @@ FN MaterialRecord material_at(IN(Arguments) a, int k) {
     m.sheen_r = m.sheen_g = m.sheen_b = m.sheen_roughness = float32(0.0);
     m.emission_r = m.emission_g = m.emission_b = float32(0.0);
     m.double_sided = 0u;
+    m.coat_normal_x = m.coat_normal_y = m.coat_normal_z = float32(0.0);
     m.absent = m.textures = 0u;
     return m;
 }
@@ -128,7 +132,8 @@ FN bool evaluate_lobes(uint function, IN(Arguments) a, INOUT(Values) r) {
         r.y[1] = phong_pdf(number_at(a, 0), number_at(a, 1));
         r.y[2] = phong_albedo(number_at(a, 0), number_at(a, 1));
     } else if (function == of_bsdf_delta_lobes) {
-        DeltaLobes b = bsdf_delta_lobes(material_at(a, 1), number_at(a, 0), small_at(a, 15) != 0u);
+        DeltaLobes b =
+            bsdf_delta_lobes(material_at(a, 1), above(number_at(a, 0)), small_at(a, 15) != 0u);
         r.y[0] = b.cosine_refracted > real(0.0) ? real(1.0) : real(0.0);
         put3(r, 1, b.reflected);
         put3(r, 4, b.transmitted);
@@ -149,7 +154,7 @@ FN bool evaluate_lobes(uint function, IN(Arguments) a, INOUT(Values) r) {
 // Evaluates whole BSDFs and states of paths. Returns false for any other.
 FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
     if (function == of_lobe_probabilities) {
-        vec4 p = lobe_probabilities(material_at(a, 1), number_at(a, 0), LOBES_ALL);
+        vec4 p = lobe_probabilities(material_at(a, 1), above(number_at(a, 0)), LOBES_ALL);
         put3(r, 0, vec3(p.x, p.y, p.z));
         r.y[3] = p.w;
     } else if (function == of_bsdf_albedo) {
@@ -159,7 +164,7 @@ FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
         real pdf;
         put3(r, 0,
              bsdf_eval_and_pdf(reflection_parameters(m), vec3_at(a, 0), vec3_at(a, 3), LOBES_ALL,
-                               lobe_probabilities(m, number_at(a, 2), LOBES_ALL), pdf));
+                               lobe_probabilities(m, above(number_at(a, 2)), LOBES_ALL), pdf));
         r.y[3] = pdf;
     } else if (function == of_bsdf_eval || function == of_bsdf_pdf) {
         MaterialRecord m = material_at(a, 6);
@@ -168,7 +173,7 @@ FN bool evaluate_bsdf(uint function, IN(Arguments) a, INOUT(Values) r) {
         uint lobes = small_at(a, 20);
         real pdf;
         vec3 f = bsdf_eval_and_pdf(reflection_parameters(m), wo, wi, lobes,
-                                   lobe_probabilities(m, wo.z, lobes), pdf);
+                                   lobe_probabilities(m, wo, lobes), pdf);
         // The glossy lobe alone may scale powers that are subnormal, which devices may flush to 0.
         const real negligible = real(1e-30);
         if (function == of_bsdf_eval) {

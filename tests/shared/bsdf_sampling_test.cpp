@@ -86,7 +86,7 @@ void expect_sampling_to_match(const MaterialRecord& m, vec3 wo, uint lobes, int 
 
     std::vector<double> counts(cells.count());
     Mean weight;
-    double delta_probability = lobe_probabilities(m, wo.z, lobes).z;
+    double delta_probability = lobe_probabilities(m, wo, lobes).z;
     for (int i = 0; i < samples; ++i) {
         BsdfSample s;
         const bool scattered = bsdf_sample(m, wo, true, lobes, random4(11, uint(i), 0, 0), s);

@@ -65,9 +65,9 @@ TEST(Coat, ASmoothCoatIsAMirrorOverWhatIsBelow) {
         // Light leaves a solid at a smaller cosine than it arrives with.
         const MaterialRecord solid = coated(glass(1.5f, 1), 0.7f, 0);
         EXPECT_NEAR(bsdf_albedo(solid, wo, true, LOBES_DELTA).y, 1, 1e-5);
-        const DeltaLobes inside = bsdf_delta_lobes(solid, wo.z, false);
+        const DeltaLobes inside = bsdf_delta_lobes(solid, wo, false);
         const double out = double(inside.cosine_refracted);
-        const double bare = bsdf_delta_lobes(glass(1.5f, 1), wo.z, false).transmitted.y;
+        const double bare = bsdf_delta_lobes(glass(1.5f, 1), wo, false).transmitted.y;
         EXPECT_NEAR(inside.transmitted.y, bare * (1 - 0.7 * schlick(out)), 1e-5);
     }
 }
@@ -183,6 +183,110 @@ TEST(Coat, SamplesFollowTheirDensity) {
             EXPECT_NEAR(weights.value(), weight, 5 * weights.deviation() + 2e-3 * weight);
             EXPECT_NEAR(cosines.value(), cosine, 5 * cosines.deviation() + 2e-3 * cosine);
             EXPECT_NEAR(kept.value(), probability, 5 * kept.deviation() + 2e-3 * probability);
+        }
+    }
+}
+
+// Coats with a normal of their own, tilted by this angle towards 40 degrees of azimuth.
+MaterialRecord tilted(MaterialRecord m, double degrees) {
+    const vec3 normal = at_angle(degrees, 40);
+    m.coat_normal_x = normal.x;
+    m.coat_normal_y = normal.y;
+    m.coat_normal_z = normal.z;
+    return m;
+}
+
+vec3 in_coat(const MaterialRecord& m, vec3 w) { return to_local(make_frame(coat_normal(m)), w); }
+
+TEST(TiltedCoat, OfNoTiltIsTheCoat) {
+    std::mt19937 bits(96);
+    for (int i = 0; i < 10'000; ++i) {
+        const MaterialRecord m = any_coated(bits);
+        if (!(m.coat > 0) || m.coat_roughness < 0.04f) {
+            continue; // a smooth one becomes a narrow lobe
+        }
+        const vec3 wo = any_upper(bits), wi = any_upper(bits);
+        EXPECT_NEAR(coat_value(tilted(m, 0), wo, wi).y, coat_value(m, wo, wi).y,
+                    1e-5 * double(coat_value(m, wo, wi).y));
+        EXPECT_NEAR(bsdf_eval(tilted(m, 0), wo, wi, LOBES_ALL).y, bsdf_eval(m, wo, wi, LOBES_ALL).y,
+                    1e-5 * double(bsdf_eval(m, wo, wi, LOBES_ALL).y));
+    }
+}
+
+// With the coat's normal as the surface's, light from wi would be weighted by the cosine with it.
+TEST(TiltedCoat, IsACoatAboutItsNormal) {
+    for (const double tilt : {10.0, 40.0}) {
+        const MaterialRecord straight = coated(metal(vec3(0), 1), 0.5f, 0.4f);
+        const MaterialRecord m = tilted(straight, tilt);
+        for (const double angle : {0.0, 35.0}) {
+            const vec3 wo = at_angle(angle, 130), wi = at_angle(50, 20);
+            const vec3 coat_wo = in_coat(m, wo), coat_wi = in_coat(m, wi);
+            const double expected = double(coat_value(straight, coat_wo, coat_wi).y * coat_wi.z);
+            EXPECT_NEAR(double(coat_value(m, wo, wi).y * wi.z), expected, 1e-4 * expected);
+            const double passed =
+                1 - 0.5 * std::max(schlick(double(coat_wo.z)), schlick(double(coat_wi.z)));
+            const MaterialRecord paint = tilted(coated(lambertian(vec3(0.5f)), 0.5f, 0.4f), tilt);
+            EXPECT_NEAR(bsdf_eval(paint, wo, wi, LOBES_ALL).y, 0.5 * passed * double(INV_PI), 1e-6);
+        }
+    }
+}
+
+// Photons come from where eye paths go to: the cosines change places, all else is reciprocal.
+TEST(TiltedCoat, IsReciprocalButForTheCosines) {
+    std::mt19937 bits(97);
+    for (int i = 0; i < 50'000; ++i) {
+        const MaterialRecord m = tilted(any_coated(bits), double(bits() % 60));
+        const vec3 a = any_upper(bits), b = any_upper(bits);
+        const vec3 there = bsdf_eval(m, a, b, LOBES_ALL), back = bsdf_eval(m, b, a, LOBES_ALL);
+        const double coat = double(coat_value(m, a, b).y / coat_cosines(m, b));
+        const double coat_back = double(coat_value(m, b, a).y / coat_cosines(m, a));
+        ASSERT_NEAR(coat, coat_back, 1e-4 * coat + 1e-12) << "case " << i;
+        ASSERT_NEAR(there.y, back.y, 1e-5 * double(there.y)) << "case " << i;
+    }
+}
+
+// Furnace: what is not lost behind the surface's horizon is what the coat reflects.
+TEST(TiltedCoat, ReflectsWhatACoatReflects) {
+    for (const float roughness : {0.0f, 0.3f, 0.6f}) {
+        for (const double tilt : {5.0, 20.0}) {
+            const MaterialRecord straight = coated(metal(vec3(0), 1), 1, roughness);
+            const MaterialRecord m = tilted(straight, tilt);
+            const vec3 wo = at_angle(30, 200);
+            Mean found, expected;
+            for (int i = 0; i < 40'000; ++i) {
+                const vec4 u = random4(98, uint(i), 0, 0);
+                BsdfSample s;
+                const bool counts = bsdf_sample(m, wo, true, LOBE_COAT, u, s);
+                found.add(counts ? double(s.weight.y) : 0);
+                if (counts) {
+                    float pdf = 0;
+                    spread_eval_and_pdf(m, wo, s.wi, true, LOBE_COAT, LOBE_COAT, pdf);
+                    ASSERT_NEAR(s.pdf, pdf, (roughness > 0 ? 1e-3 : 0.2) * double(pdf));
+                }
+                // About its own normal, without what goes below the surface.
+                MaterialRecord rough = straight;
+                rough.coat_roughness = std::max(roughness, 0.032f);
+                const bool own = bsdf_sample(rough, in_coat(m, wo), true, LOBE_COAT, u, s);
+                const bool above = own && to_world(make_frame(coat_normal(m)), s.wi).z > 0;
+                expected.add(above ? double(s.weight.y) : 0);
+            }
+            EXPECT_NEAR(found.value(), expected.value(),
+                        5 * (found.deviation() + expected.deviation()) + 1e-3)
+                << roughness << ", " << tilt;
+        }
+    }
+}
+
+TEST(TiltedCoat, SmoothOneReflectsAboutItsNormal) {
+    const MaterialRecord m = tilted(coated(lambertian(vec3(0.5f)), 1, 0), 20);
+    EXPECT_EQ(bsdf_lobes(m), LOBE_DIFFUSE | LOBE_COAT);
+    const vec3 wo = at_angle(10, 250), n = coat_normal(m);
+    const vec3 ideal = n * (2 * dot3(wo, n)) - wo;
+    for (int i = 0; i < 1000; ++i) {
+        BsdfSample s;
+        if (bsdf_sample(m, wo, true, LOBE_COAT, random4(99, uint(i), 0, 0), s)) {
+            EXPECT_GT(dot3(s.wi, ideal), 0.98);
+            EXPECT_EQ(s.lobe, LOBE_COAT);
         }
     }
 }

@@ -29,7 +29,7 @@ Found find(uint lobe) {
         }
         ++found.materials;
         found.albedo += max_component(bsdf_albedo(m, wo, true, lobe)) > 0 ? 1 : 0;
-        const vec4 p = lobe_probabilities(m, wo.z, lobe);
+        const vec4 p = lobe_probabilities(m, wo, lobe);
         found.probability += p.x + p.y + p.z + p.w > 0 ? 1 : 0;
         BsdfSample s;
         const vec4 u(to_unit_float(bits), to_unit_float(bits), to_unit_float(bits), 0);
@@ -65,7 +65,8 @@ TEST(EveryLobe, IsAmongTheRandomMaterialsAndInEveryFunction) {
 TEST(EveryLobe, HasABitOfItsOwnInTheFeatures) {
     const uint features = MATERIAL_ALPHA | MATERIAL_GGX | MATERIAL_PHONG | MATERIAL_SOLID |
                           MATERIAL_ABSORPTION | MATERIAL_UNLIT | MATERIAL_COAT | MATERIAL_FILM |
-                          MATERIAL_DISPERSION | MATERIAL_SHEEN | MATERIAL_ANISOTROPY;
+                          MATERIAL_DISPERSION | MATERIAL_SHEEN | MATERIAL_ANISOTROPY |
+                          MATERIAL_COAT_NORMAL;
     EXPECT_EQ(LOBES_ALL & features, 0u);
     EXPECT_EQ(LOBES_ALL | features, MATERIAL_ALL);
     EXPECT_EQ(LOBES_ALL & (LOBE_GLOSSY | MATERIAL_LAYER), LOBE_GLOSSY | LOBE_MIRROR);

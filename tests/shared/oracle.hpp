@@ -12,7 +12,7 @@ namespace argand::truth {
 /// The bytes of a LightRecord or CameraRecord.
 using Record = std::array<std::byte, 64>;
 /// The bytes of a MaterialRecord.
-using MaterialBytes = std::array<std::byte, 144>;
+using MaterialBytes = std::array<std::byte, 160>;
 
 glm::dvec3 bsdf_eval(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);
 double bsdf_pdf(const MaterialBytes& material, glm::dvec3 wo, glm::dvec3 wi, unsigned lobes);

@@ -136,7 +136,7 @@ TEST(Phong, SamplingFollowsTheDensity) {
                 SCOPED_TRACE(::testing::Message()
                              << "n " << n << ", " << angle << " degrees, diffuse " << diffuse);
                 const MaterialRecord m = phong(vec3(diffuse), vec3(0.6f), n);
-                const double glossy = double(lobe_probabilities(m, wo.z, LOBES_ALL).y);
+                const double glossy = double(lobe_probabilities(m, wo, LOBES_ALL).y);
                 const auto density = over_lobe(glm::dvec3(wo), n, cells, 16, [&](glm::dvec3 wi) {
                     return glossy *
                            truth::bsdf_pdf(record_bytes(m), glm::dvec3(wo), wi, LOBE_GLOSSY);

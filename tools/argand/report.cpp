@@ -84,6 +84,7 @@ Json parameters_json(const RenderReport& render) {
         {"least_coverage", settings.least_coverage},
         {"wide_codes", settings.wide_codes},
         {"follow_roughness", settings.follow_roughness},
+        {"cull_back_faces", settings.cull_back_faces},
         {"photon_sampling", settings.photon_sampling == Sampling::sobol ? "sobol" : "random"},
         {"final_gather", settings.final_gather},
         {"everything", settings.everything},

@@ -1,4 +1,5 @@
-// Lights that are triangles with an emissive texture. Include texels.h before.
+// Lights that are triangles with textures. Include texels.h before.
+#include "shared/kernels/coverage.h"
 
 FN uint emissive_texture_of(uint material_textures) {
     return (material_textures & material_texture_mask) +
@@ -41,4 +42,14 @@ FN real density_by_texels(IN(LightRecord) light, real b1, real b2) {
         at = (texels[at] >> 1u) + (upper ? words_of_texel_node : 0u);
     }
     return n.density;
+}
+
+// Whether a mask leaves out the point that these numbers choose on a light.
+FN bool is_masked_out(IN(LightRecord) light, vec2 u) {
+    if (!(textured || vertex_colors) || !is_light(light, light_kinds, light_triangle)) {
+        return false;
+    }
+    uvec4 triangle = triangles[triangle_of_light(light)];
+    return (materials[triangle.w].textures & material_alpha_mask) != 0u &&
+           !(coverage_at(triangle, sample_triangle(u)) > real(0.0));
 }

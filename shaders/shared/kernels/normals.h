@@ -22,6 +22,18 @@ FN vec3 along_tangents(HitRecord hit, vec3 normal, vec3 slope) {
     return from_tangents(normal, edge, tangents, vec2(hit.u, hit.v), slope);
 }
 
+// The normal between those of the vertices, on the side of the geometric normal `front`.
+FN vec3 normal_on_front(HitRecord hit, vec3 front) {
+    if (!smooth_normals) {
+        return front;
+    }
+    uvec4 triangle = triangles[hit.triangle];
+    vec3 n = vec3(normals[triangle.x]) * (real(1.0) - hit.u - hit.v) +
+             vec3(normals[triangle.y]) * hit.u + vec3(normals[triangle.z]) * hit.v;
+    vec3 normal = normalize_or(n, front);
+    return dot3(normal, front) < real(0.0) ? -normal : normal;
+}
+
 // Turns a surface's shading normal by the texel at its hit. Unlike an interpolated normal it may
 // face away from where the ray came from: what follows from that is the same for photons and eye
 // paths, see docs/materials.md.
@@ -32,13 +44,7 @@ FN void turn_normal(uint material_textures, HitRecord hit, vec3 ray_direction, I
     uvec4 triangle = triangles[hit.triangle];
     vec2 b = vec2(hit.u, hit.v);
     vec3 front = s.front ? s.geometric_normal : -s.geometric_normal;
-    vec3 normal = front;
-    if (smooth_normals) {
-        vec3 n = vec3(normals[triangle.x]) * (real(1.0) - b.x - b.y) +
-                 vec3(normals[triangle.y]) * b.x + vec3(normals[triangle.z]) * b.y;
-        normal = normalize_or(n, front);
-        normal = dot3(normal, front) < real(0.0) ? -normal : normal;
-    }
+    vec3 normal = normal_on_front(hit, front);
     uint index = normal_texture_of(material_textures);
     vec3 slope = slope_of_texel(sample_texture(index, triangle, b), real(textures[index].scale));
     normal = normal_above(along_tangents(hit, normal, slope), front);

@@ -46,6 +46,11 @@ FN void multiply_others(INOUT(MaterialRecord) m, uint next, uvec4 triangle, vec2
             m.coat *= texel.x;
         } else if (use == texture_of_coat_roughness) {
             m.coat_roughness *= texel.y;
+        } else if (use == texture_of_coat_normal) {
+            vec3 slope = slope_of_texel(texel, real(textures[next + i].scale));
+            m.coat_normal_x = float32(slope.x);
+            m.coat_normal_y = float32(slope.y);
+            m.coat_normal_z = float32(max(slope.z, real(1.0 / 127.0)));
         } else if (use == texture_of_film) {
             m.film *= texel.x;
         } else if (use == texture_of_sheen_color) {

@@ -11,6 +11,7 @@
 #include "shared/kernels/normals.h"
 
 #include "shared/kernels/anisotropy.h"
+#include "shared/kernels/coat.h"
 
 // A vertex on a surface. Its path's state counts the scatterings between the first estimated vertex
 // and this one.
@@ -76,6 +77,14 @@ FN real scale_by_refraction(INOUT(PathRecord) path, IN(MaterialRecord) m, real s
     real all = bits_float(path.vertices & ~path_vertices_mask) * scale;
     path.vertices = vertices_of(path) | (float_bits(all) & ~path_vertices_mask);
     return all;
+}
+
+// Whether the eye looks through a surface as rasterisers do, which show only the front of one-sided
+// surfaces. The back of a solid is its inside.
+FN bool is_culled(IN(Vertex) v) {
+    return may_have(v.material, MATERIAL_ALPHA) && scene[0].cull_back_faces != 0u &&
+           !v.surface.front && v.material.double_sided == 0u && !is_solid(v.material) &&
+           (v.path.state & path_estimated) == 0u;
 }
 
 FN bool behind_estimated(IN(PathRecord) path) { return (path.state & path_estimated) != 0u; }
@@ -187,6 +196,7 @@ FN real seek_probability(IN(Vertex) v) {
 FN void split_lobes(HitRecord hit, INOUT(Vertex) v) {
     v.frame = make_frame(v.surface.shading_normal);
     turn_anisotropy(hit, v.surface, v.frame, v.material);
+    turn_coat(hit, v.surface, v.frame, v.material);
     v.wo = to_local(v.frame, v.toward);
     v.followed = followed_paths ? followed_lobes(v.material, scene[0].follow_roughness) : 0u;
     v.estimated = bsdf_lobes(v.material) & ~v.followed;
@@ -261,7 +271,7 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
                                  surface.geometric_normal);
     vec2 where = vec2(u.y, u.z);
     real density = shines_by_texels(light) ? choose_texel(light, where) : real(1.0);
-    if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
+    if (is_masked_out(light, where) || !light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
     }
     bool above = dot(l.s.wi, surface.geometric_normal) > real(0.0);
@@ -392,7 +402,11 @@ FN uint material_key(IN(Vertex) v) {
     key = mixed(key, vec3(m.sheen_r, m.sheen_g, m.sheen_b));
     // In eighths: it is turned into the shading frame, which differs from place to place.
     vec2 eighths = floor(real(8.0) * anisotropy(m) + real(0.5));
-    return mixed(key, vec3(m.sheen_roughness, eighths.x, eighths.y));
+    key = mixed(key, vec3(m.sheen_roughness, eighths.x, eighths.y));
+    if (!may_have(m, MATERIAL_COAT_NORMAL)) {
+        return key;
+    }
+    return mixed(key, floor(real(8.0) * coat_normal(m) + vec3(real(0.5))));
 }
 
 // Writes a query of the photon map for the estimated lobes.
@@ -576,6 +590,9 @@ FN void main() {
                              v.surface.front);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
         v.throughput *= transmittance(v.medium, hit.t);
+    }
+    if (is_culled(v)) {
+        v.material.coverage = float32(0.0);
     }
     turn_normal(v.material.textures, hit, v.direction, v.surface);
     v.toward = toward_above(v.surface, -v.direction);

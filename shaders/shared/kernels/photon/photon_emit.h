@@ -65,6 +65,7 @@ FN void main() {
         u.z = where.x;
         u.w = where.y;
     }
+    bool shines = !is_masked_out(light, vec2(u.z, u.w));
     Sphere bounds;
     bounds.center = scene_center();
     bounds.radius = scene[0].radius;
@@ -85,6 +86,7 @@ FN void main() {
     } else {
         emitted = light_emit_aimed(light, light_kinds, bounds, scene_targets(), u, rest, w.y, p);
     }
+    emitted = emitted && shines;
     vec3 flux = emitted ? p.flux * (batch.inverse_total / chosen.probability) : vec3(real(0.0));
     if (footprints) {
         real photons = real(1.0) / batch.inverse_spread;

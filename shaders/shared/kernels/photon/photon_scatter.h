@@ -6,6 +6,7 @@
 #include "shared/kernels/normals.h"
 
 #include "shared/kernels/anisotropy.h"
+#include "shared/kernels/coat.h"
 
 // Whether any material of the scene has one of these lobes.
 FN bool has(uint lobes) { return may_have(~material_features, lobes); }
@@ -72,7 +73,7 @@ FN bool aim_at_view(Arrival a, MaterialRecord m, uint lobes, Cone view, vec2 u, 
                     INOUT(Departure) d) {
     real share = real(scene[0].view_share);
     vec3 wo = a.wo;
-    vec4 probabilities = lobe_probabilities(m, wo.z, lobes);
+    vec4 probabilities = lobe_probabilities(m, wo, lobes);
     bool aims = choice < share;
     if (aims) {
         d.sampled.wi = to_local(a.frame, sample_cone(view, u));
@@ -153,6 +154,9 @@ FN Departure depart(Arrival a, MaterialRecord m, uint followed, uint estimated, 
     d.direction = a.direction;
     vec3 wo = a.wo;
     bool scatters = bsdf_sample(m, wo, a.surface.front, lobes, u, d.sampled);
+    if (has(MATERIAL_COAT_NORMAL) && scatters && d.sampled.lobe == LOBE_COAT) {
+        d.sampled.weight = d.sampled.weight * (coat_cosines(m, wo) / coat_cosines(m, d.sampled.wi));
+    }
     if (aims_at_view && view.height > real(0.0) && !has_normal_texture(m.textures) &&
         (lobes & LOBE_GLOSSY & followed) == 0u &&
         (d.sampled.lobe & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0u) {
@@ -184,8 +188,8 @@ FN real survival_probability(Arrival a, Departure d, uint aimed) {
 }
 
 // Updates the photon's differential, transferred to the hit, for the scattering.
-FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure out_of,
-                             real survival) {
+FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, IN(MaterialRecord) m,
+                             Departure out_of, real survival) {
     BsdfSample s = out_of.sampled;
     roulette_differential(d, s.probability * survival * out_of.concentration);
     real emitted = out_of.concentration / batch.inverse_spread;
@@ -193,7 +197,9 @@ FN void scatter_differential(INOUT(PhotonDifferential) d, Arrival a, Departure o
         d = reemitted_differential(d, a.frame, out_of.direction, emitted, reemission);
     } else if (has(LOBE_GLOSSY | LOBES_SPREAD | LOBE_MIRROR | LOBE_TRANSMIT)) {
         NormalDifferential normal;
-        normal.n = a.surface.shading_normal;
+        normal.n = s.lobe == LOBE_COAT && has_coat_normal(m.absent, coat_normal(m))
+                       ? to_world(a.frame, coat_normal(m))
+                       : a.surface.shading_normal;
         normal.dn_du = normal_change(a.hit, a.surface, d.dp_du);
         normal.dn_dv = normal_change(a.hit, a.surface, d.dp_dv);
         if (has(LOBE_GLOSSY | LOBE_COAT) && (s.lobe == LOBE_GLOSSY || s.lobe == LOBE_COAT)) {
@@ -395,7 +401,7 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
     // negative.
     ledgers[slot].absorbed += units_of(a.flux) - units_of(flux);
     if (extents == extents_differentials) {
-        scatter_differential(d, a, out_of, survival);
+        scatter_differential(d, a, m, out_of, survival);
         differentials[slot] = differential_record(d);
     }
     uint next_for_view = is_elsewhere ? aimed_by(out_of.concentration) : for_view;
@@ -443,6 +449,7 @@ FN void main() {
     MaterialRecord m = material_at(triangles[hit.triangle], hit, how.cone, direction);
     Arrival a = arrive(hit, direction, m, path);
     turn_anisotropy(hit, a.surface, a.frame, m);
+    turn_coat(hit, a.surface, a.frame, m);
     absorb(slot, a, m);
     real channels = disperse_photon(slot, a, m, hit.triangle);
     how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
