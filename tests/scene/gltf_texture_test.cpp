@@ -301,6 +301,33 @@ TEST(GltfTexture, ReadsEveryTextureOfAMaterialInTheOrderOfItsUses) {
     expect_problem(file.with_coordinates(), "occlusionTexture is texture 7, which does not exist");
 }
 
+// A coat keeps its normals where a texture turns those of the surface.
+TEST(GltfTexture, CoatsHaveNormalsOfTheirOwn) {
+    TexturedFile file(embedded(two_by_one()));
+    json& material = file.builder.root["materials"][0];
+    json& coat = material["extensions"]["KHR_materials_clearcoat"];
+    const auto load = [&] { return TexturedFile(file).with_coordinates().finished().load(); };
+    coat = {{"clearcoatFactor", 1}};
+    EXPECT_FALSE(load().materials[0].coat_has_normal);
+    material["normalTexture"] = {{"index", 0}};
+    EXPECT_TRUE(load().materials[0].coat_has_normal);
+    material.erase("normalTexture");
+    coat["clearcoatNormalTexture"] = {{"index", 0}, {"scale", 0.5}};
+    const Scene scene = load();
+    EXPECT_TRUE(scene.materials[0].coat_has_normal);
+    EXPECT_EQ(scene.textures.back().use, TextureUse::coat_normal);
+    EXPECT_EQ(scene.textures.back().scale, 0.5f);
+    EXPECT_FALSE(scene.textures.back().srgb);
+    EXPECT_EQ(scene.tangents.size(), 1u);
+    coat["clearcoatNormalTexture"]["scale"] = 0;
+    EXPECT_FALSE(load().materials[0].coat_has_normal);
+    coat["clearcoatNormalTexture"]["scale"] = 1;
+    coat["clearcoatFactor"] = 0;
+    EXPECT_FALSE(load().materials[0].coat_has_normal);
+    coat["clearcoatNormalTexture"]["index"] = 7;
+    expect_problem(file.with_coordinates(), "clearcoatNormalTexture is texture 7");
+}
+
 // Tangents of a surface that is anisotropic but has no textures follow the first coordinates.
 TEST(GltfTexture, AnisotropyNeedsCoordinatesOrTangents) {
     TexturedFile file(embedded(two_by_one()));
