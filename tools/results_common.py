@@ -84,7 +84,7 @@ PAGES = [
 
 def revisions(text):
     """The revisions that a page says it measured, or those before and after a change."""
-    return list(dict.fromkeys(re.findall(r"revisions?\s+([0-9a-f]{7})\b", text))) or ["not recorded"]
+    return list(dict.fromkeys(re.findall(r"revisions?\s+([0-9a-f]{7,12})\b", text))) or ["not recorded"]
 
 
 def write_index():
