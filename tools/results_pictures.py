@@ -1,7 +1,10 @@
-"""Reads the pictures that argand writes, and measures the error of each layer against a pair of references."""
+"""Renders pictures, reads them, and measures the error of each layer against a pair of references."""
 
+import hashlib
 import itertools
+import json
 import struct
+import subprocess
 import zlib
 
 DARK_SHARE = 0.01  # as in engine/image/metrics.cpp
@@ -47,6 +50,26 @@ def unpredicted(data):
     result = bytearray(len(sums))
     result[::2], result[1::2] = sums[:half], sums[half:]
     return bytes(result)
+
+
+def render(argand, scene, picture, *options):
+    """Renders a picture. Returns the report."""
+    report = picture.with_suffix(".json")
+    command = [argand, "render", scene, "-q", "-o", picture, "--json", report, *options]
+    subprocess.run([*map(str, command)], check=True)
+    return json.loads(report.read_text())
+
+
+def references(argand, scene, folder, size, samples, seeds):
+    """The layers of a picture by path tracing for each seed, which are kept in a folder until the scene changes."""
+    digest = hashlib.sha256(scene.read_bytes()).hexdigest()[:12]
+    found = []
+    for seed in seeds:
+        picture = folder / f"{scene.stem}_{size}_{digest}_{samples}_{seed}.exr"
+        if not picture.exists():
+            render(argand, scene, picture, "--method", "path", "--size", size, "--spp", samples, "--seed", seed)
+        found.append(read_exr(picture))
+    return found
 
 
 def mean(values):

@@ -231,10 +231,14 @@ FN void absorb(uint slot, INOUT(Arrival) a, IN(MaterialRecord) m) {
     ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
 }
 
+// Whether photons of this depth are stored.
+FN bool stores_at(uint depth) {
+    return depth >= batch.least_scatterings && depth <= batch.bounces;
+}
+
 // Whether a photon of this depth has a slot in this round, stored there or not.
 FN bool has_slot_at(uint depth) {
-    return has(MATERIAL_ALPHA) ? batch.has_slots != 0u
-                               : depth >= batch.least_scatterings && depth <= batch.bounces;
+    return has(MATERIAL_ALPHA) ? batch.has_slots != 0u : stores_at(depth);
 }
 
 // Adds the hit to the photon's path. Returns the index of the vertex.
@@ -251,7 +255,6 @@ FN uint add_vertex(uint slot, uint store, Arrival a) {
 // Reserves the slot `store` for the photon of an invocation, in an order that does not depend on
 // scheduling. Returns whether the photon may be stored.
 FN bool reserve(uint store, uint depth) {
-    bool stores = depth >= batch.least_scatterings && depth <= batch.bounces;
     bool has_slot = has_slot_at(depth);
     if (has_slot && store >= batch.capacity) {
         atomicAdd(counters[counter_overflow], 1u);
@@ -260,7 +263,7 @@ FN bool reserve(uint store, uint depth) {
     if (has_slot) {
         photons[store].normal = no_photon;
     }
-    return stores && has_slot;
+    return has_slot && stores_at(depth);
 }
 
 FN void store_photon(uint store, Arrival a, bool caustic) {
