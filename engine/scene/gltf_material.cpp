@@ -226,8 +226,9 @@ void read_texture(TextureReader& textures, const json* owner, const char* key, T
 }
 
 float normal_scale(const FactorReader& read, const json* owner, const char* key) {
-    const double scale = number_of(read.source, find_member(owner, key), "scale", 1, read.what);
-    return read.in_range(scale, -unlimited, unlimited, "normal scale");
+    const std::string what = fmt::format("{}, {}", read.what, key);
+    const double scale = number_of(read.source, find_member(owner, key), "scale", 1, what);
+    return read.in_range(scale, -unlimited, unlimited, (std::string(key) + "'s scale").c_str());
 }
 
 /// A coat's normals follow its own texture; without one they stay as they are where a texture turns

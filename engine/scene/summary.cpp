@@ -154,7 +154,9 @@ json emissive_json(const Scene& scene) {
         const Material& material = scene.materials[scene.triangle_material[i]];
         if (emits(material)) {
             ++triangles;
-            textured += (material.texture_bits & material_emissive_texture) != 0 ? 1 : 0;
+            const bool by_texels = (material.texture_bits & material_emissive_texture) != 0;
+            const bool has_holes = material.alpha_varies && material.alpha_mode == AlphaMode::mask;
+            textured += by_texels || has_holes ? 1 : 0;
             lit_area += area(scene, i);
             power += emitted_power(scene, i);
         }
@@ -422,10 +424,10 @@ std::string summary_text(const Scene& scene) {
     const json& emissive = summary["emissive"];
     const auto textured = emissive["textured"].get<std::size_t>();
     line("emissive",
-         fmt::format(
-             "{} triangles, area {:.4g}, power {}{}", emissive["triangles"].get<std::size_t>(),
-             emissive["area"].get<double>(), short_text(emissive["power"]),
-             textured > 0 ? fmt::format(", of which texels leave a part on {}", textured) : ""));
+         fmt::format("{} triangles, area {:.4g}, power {}{}",
+                     emissive["triangles"].get<std::size_t>(), emissive["area"].get<double>(),
+                     short_text(emissive["power"]),
+                     textured > 0 ? fmt::format(" before the textures of {}", textured) : ""));
     line("sky", summary["sky"].is_null()
                     ? environment_text(scene)
                     : fmt::format("uniform, radiance {}", short_text(summary["sky"])));

@@ -382,7 +382,12 @@ FN vec3 coat_eval_and_pdf(IN(MaterialRecord) m, vec3 surface_wo, vec3 surface_wi
     real once = (real(1.0) - real(0.96) * schlick_less(cosine)) * distribution *
                 ggx_visibility(r.coat_alpha, wo.z, wi.z);
     real more = repeated * (INV_PI * lost * (ggx_lost(r.coat_alpha, wi.z) / average));
-    return vec3(r.coat * coverage(m) * (once + more) * coat_cosines(m, surface_wi));
+    real value = r.coat * coverage(m) * (once + more);
+    if (has_coat_normal(r.absent, r.coat_normal)) {
+        real faded = coat_share(r, surface_wo) * coat_share(r, surface_wi) / (r.coat * r.coat);
+        value = value * (faded * coat_cosines(m, surface_wi));
+    }
+    return vec3(value);
 }
 
 // Value of one of the lobes that are followed though not smooth, clear or coat, without the cosine,

@@ -379,13 +379,25 @@ FN real coat_cosine(IN(ReflectionParameters) r, vec3 w) {
     return abs(has_coat_normal(r.absent, r.coat_normal) ? dot3(w, r.coat_normal) : w.z);
 }
 
+// Share of the surface on which the coat is, seen along a direction. A coat with a normal of its
+// own fades where it would mirror the direction below the surface: what it reflected there would be
+// lost, and the surface below it black.
+FN real coat_share(IN(ReflectionParameters) r, vec3 w) {
+    if (!has_coat_normal(r.absent, r.coat_normal)) {
+        return r.coat;
+    }
+    real mirrored = real(2.0) * dot3(w, r.coat_normal) * r.coat_normal.z - w.z;
+    return r.coat * clamp(real(8.0) * mirrored / max(w.z, real(1e-30)), real(0.0), real(1.0));
+}
+
 // Part of the light along a direction that passes the coat: what Fresnel's factor leaves, for rough
 // coats too, as the extension has it.
 FN real passes_coat_at(IN(ReflectionParameters) r, vec3 w) {
     if (!has_coat(r)) {
         return real(1.0);
     }
-    return (real(1.0) - r.coat) + r.coat * (real(0.96) * schlick_less(coat_cosine(r, w)));
+    real share = coat_share(r, vec3(w.x, w.y, abs(w.z)));
+    return (real(1.0) - share) + share * (real(0.96) * schlick_less(coat_cosine(r, w)));
 }
 FN real coat_albedo(IN(ReflectionParameters) r, vec3 wo) {
     return real(1.0) - passes_coat_at(r, wo);

@@ -282,11 +282,31 @@ TEST(TiltedCoat, SmoothOneReflectsAboutItsNormal) {
     EXPECT_EQ(bsdf_lobes(m), LOBE_DIFFUSE | LOBE_COAT);
     const vec3 wo = at_angle(10, 250), n = coat_normal(m);
     const vec3 ideal = n * (2 * dot3(wo, n)) - wo;
+    int sampled = 0;
     for (int i = 0; i < 1000; ++i) {
         BsdfSample s;
         if (bsdf_sample(m, wo, true, LOBE_COAT, random4(99, uint(i), 0, 0), s)) {
             EXPECT_GT(dot3(s.wi, ideal), 0.98);
             EXPECT_EQ(s.lobe, LOBE_COAT);
+            ++sampled;
+        }
+    }
+    EXPECT_GT(sampled, 990);
+}
+
+// Where a coat mirrors the eye below the surface it is gone, and what is below it is seen.
+TEST(TiltedCoat, MakesNoBlackEdges) {
+    for (const float roughness : {0.0f, 0.3f}) {
+        for (const double tilt : {10.0, 30.0, 60.0}) {
+            for (double angle = 0; angle < 88; angle += 11) {
+                for (const double turn : {40.0, 130.0, 220.0}) {
+                    const MaterialRecord m =
+                        tilted(coated(lambertian(vec3(1)), 1, roughness), tilt);
+                    const Mean sum = scattered(m, at_angle(angle, turn), true, 4000);
+                    EXPECT_GT(sum.value(), 0.5) << roughness << ", " << tilt << ", " << angle;
+                    EXPECT_LT(sum.value(), 1.01 + 5 * sum.deviation());
+                }
+            }
         }
     }
 }

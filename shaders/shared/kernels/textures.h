@@ -113,7 +113,7 @@ FN MaterialRecord material_at(uvec4 triangle, HitRecord hit, uint cone, vec3 dir
     if ((m.textures & material_alpha_blend) != 0u) {
         m.coverage *= alpha;
     } else if ((m.textures & material_alpha_mask) != 0u) {
-        m.coverage = real(1.0); // rays pass it elsewhere (kernels/alpha.h)
+        m.coverage = real(1.0); // rays pass it elsewhere (kernels/coverage.h)
     }
     return m;
 }

@@ -393,6 +393,9 @@ FN uint material_key(IN(Vertex) v) {
     uvec3 color = float_bits(vec3(m.base_r, m.base_g, m.base_b));
     uvec3 others = float_bits(vec3(m.metallic, m.roughness, m.coverage));
     uint key = pcg4d(uvec4(color, index) ^ pcg4d(uvec4(others, 0u))).x;
+    if (may_have(m, MATERIAL_COAT_NORMAL)) {
+        key = mixed(key, floor(real(8.0) * coat_normal(m) + vec3(real(0.5))));
+    }
     if (!other_textures || (m.textures & material_other_textures) == 0u) {
         return key;
     }
@@ -402,11 +405,7 @@ FN uint material_key(IN(Vertex) v) {
     key = mixed(key, vec3(m.sheen_r, m.sheen_g, m.sheen_b));
     // In eighths: it is turned into the shading frame, which differs from place to place.
     vec2 eighths = floor(real(8.0) * anisotropy(m) + real(0.5));
-    key = mixed(key, vec3(m.sheen_roughness, eighths.x, eighths.y));
-    if (!may_have(m, MATERIAL_COAT_NORMAL)) {
-        return key;
-    }
-    return mixed(key, floor(real(8.0) * coat_normal(m) + vec3(real(0.5))));
+    return mixed(key, vec3(m.sheen_roughness, eighths.x, eighths.y));
 }
 
 // Writes a query of the photon map for the estimated lobes.
@@ -482,6 +481,9 @@ CONSTANT real least_passing = real(0.125);
 FN void pass_surface(IN(Vertex) v, real u) {
     PathRecord path = v.path;
     path.vertices += 1u;
+    if (is_culled(v)) {
+        path.pdf = real(0.0); // shadow rays do not find what is behind it
+    }
     // Solids absorb on the whole way, once its end is known.
     vec3 arrived = vec3(path.throughput_r, path.throughput_g, path.throughput_b);
     vec3 throughput = arrived * (pass_share(v.material) / v.pass_probability);
