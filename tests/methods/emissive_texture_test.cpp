@@ -104,19 +104,7 @@ Scene lamp_with_holes(bool cut) {
     lamp.alpha_mode = AlphaMode::mask;
     lamp.alpha_threshold = 0.5f;
     const std::uint32_t material = add_material(scene, lamp);
-    std::vector<std::uint32_t> texels;
-    for (int i = 0; i < 16; ++i) {
-        const bool there = (i + i / 4) % 2 == 0;
-        texels.push_back(texel(255, 255, 255, there ? 200 : 100));
-        if (cut && there) {
-            add_quad(scene, {-0.5f + 0.25f * float(i % 4), 0.9f, -0.5f + 0.25f * float(i / 4)},
-                     {0.25f, 0, 0}, {0, 0, 0.25f}, material);
-        }
-    }
-    if (!cut) {
-        add_quad(scene, {-0.5f, 0.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, material);
-        add_texture(scene, material, material_base_color_texture, 4, texels, true);
-    }
+    add_checker(scene, material, {-0.5f, 0.9f, -0.5f}, {0.25f, 0, 0}, {0, 0, 0.25f}, !cut);
     for (const glm::vec3& p : scene.positions) {
         scene.uvs.emplace_back(p.x + 0.5f, p.z + 0.5f);
     }

@@ -95,19 +95,7 @@ Scene checkered_plate(bool cut) {
     plate.alpha_mode = AlphaMode::mask;
     plate.alpha_threshold = 0.5f;
     const std::uint32_t material = add_material(scene, plate);
-    std::vector<std::uint32_t> texels;
-    for (int i = 0; i < 16; ++i) {
-        const bool there = (i + i / 4) % 2 == 0;
-        texels.push_back(texel(255, 255, 255, there ? 200 : 100));
-        const glm::vec3 corner(0.25f * float(i % 4), 0.4f, 0.25f * float(i / 4 + 1));
-        if (cut && there) {
-            add_quad(scene, corner, {0.25f, 0, 0}, {0, 0, -0.25f}, material);
-        }
-    }
-    if (!cut) {
-        add_quad(scene, {0, 0.4f, 1}, {1, 0, 0}, {0, 0, -1}, material);
-        add_texture(scene, material, material_base_color_texture, 4, texels, true);
-    }
+    add_checker(scene, material, {0, 0.4f, 0}, {0, 0, 0.25f}, {0.25f, 0, 0}, !cut);
     project(scene, 1);
     scene.lights = {directional_light({0.3f, -1, 0.2f}, glm::vec3(pi))};
     scene.cameras = {look_at({1.4f, 1, 1.6f}, {0.5f, 0.2f, 0.5f}, 40)};

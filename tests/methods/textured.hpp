@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
+#include "scenes.hpp"
 #include "shared/texture_record.h"
 
 #include <bit>
@@ -42,6 +43,24 @@ inline void add_texture(Scene& scene, std::uint32_t material, std::uint32_t bit,
     of.alpha_varies = of.alpha_varies || (of.alpha_mode != AlphaMode::opaque && image.low.a < 255);
     scene.images.push_back(std::make_shared<const TextureImage>(std::move(image)));
     scene.uv_sets = 1;
+}
+
+/// Adds 4 x 4 squares of edges a and b, of which every other one is there: each a quad, or one quad
+/// with a texture whose alpha cuts them out.
+inline void add_checker(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 a,
+                        glm::vec3 b, bool by_alpha) {
+    std::vector<std::uint32_t> texels;
+    for (int i = 0; i < 16; ++i) {
+        const bool there = (i + i / 4) % 2 == 0;
+        texels.push_back(texel(255, 255, 255, there ? 200 : 100));
+        if (!by_alpha && there) {
+            add_quad(scene, corner + float(i % 4) * a + float(i / 4) * b, a, b, material);
+        }
+    }
+    if (by_alpha) {
+        add_quad(scene, corner, 4.0f * a, 4.0f * b, material);
+        add_texture(scene, material, material_base_color_texture, 4, std::move(texels), true);
+    }
 }
 
 /// Gives all vertices as texture coordinates their place in the plane y = 0, so that the image lies

@@ -15,7 +15,7 @@ constexpr bool is_plain = std::is_trivially_copyable_v<T>&& std::is_standard_lay
 
 TEST(Records, MaterialLiesInLanesOf16Bytes) {
     EXPECT_TRUE(is_plain<MaterialRecord>);
-    EXPECT_EQ(sizeof(MaterialRecord), 144u);
+    EXPECT_EQ(sizeof(MaterialRecord), 160u);
     EXPECT_EQ(offsetof(MaterialRecord, coat), 96u);
     EXPECT_EQ(offsetof(MaterialRecord, absorption_r), 80u);
     EXPECT_EQ(offsetof(MaterialRecord, specular_r), 16u);
