@@ -232,9 +232,7 @@ FN void absorb(uint slot, INOUT(Arrival) a, IN(MaterialRecord) m) {
 }
 
 // Whether photons of this depth are stored.
-FN bool stores_at(uint depth) {
-    return depth >= batch.least_scatterings && depth <= batch.bounces;
-}
+FN bool stores_at(uint depth) { return depth >= batch.least_scatterings && depth <= batch.bounces; }
 
 // Whether a photon of this depth has a slot in this round, stored there or not.
 FN bool has_slot_at(uint depth) {
