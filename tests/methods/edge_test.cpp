@@ -142,10 +142,11 @@ TEST_P(Edge, ScaleOfTheSceneDoesNotMatter) {
 }
 
 TEST_P(Edge, CoincidentTrianglesWithoutEnd) {
-    // More nodes than a ray may visit in one dispatch.
+    // More nodes than a ray may visit in one dispatch, but for maps, which take 100,000 rays.
+    const int copies = GetParam() == "image-space" ? 2'500 : 50'000;
     Scene scene;
     const std::uint32_t material = add_material(scene, lambertian(glm::vec3(0.5f)));
-    for (int i = 0; i < 50'000; ++i) {
+    for (int i = 0; i < copies; ++i) {
         add_floor(scene, 10, 0, material);
     }
     scene.lights = {point_light({0, 1, 0}, glm::vec3(2))};
