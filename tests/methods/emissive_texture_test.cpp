@@ -100,11 +100,8 @@ TEST_P(EmissiveTexture, FindsOneBrightTexel) {
 /// alpha, or of those squares only that are there.
 Scene lamp_with_holes(bool cut) {
     Scene scene = box_scene(lambertian({0.6f, 0.5f, 0.4f}));
-    Material lamp = emitter({6, 4, 5});
-    lamp.alpha_mode = AlphaMode::mask;
-    lamp.alpha_threshold = 0.5f;
-    const std::uint32_t material = add_material(scene, lamp);
-    add_checker(scene, material, {-0.5f, 0.9f, -0.5f}, {0.25f, 0, 0}, {0, 0, 0.25f}, !cut);
+    add_checker(scene, emitter({6, 4, 5}), {-0.5f, 0.9f, -0.5f}, {0.25f, 0, 0}, {0, 0, 0.25f},
+                !cut);
     for (const glm::vec3& p : scene.positions) {
         scene.uvs.emplace_back(p.x + 0.5f, p.z + 0.5f);
     }

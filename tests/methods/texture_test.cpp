@@ -91,11 +91,8 @@ TEST_P(Textured, SlowLayersAgreeWithThePathTracer) {
 /// alpha, or of those squares only that are there.
 Scene checkered_plate(bool cut) {
     Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 2);
-    Material plate = lambertian({0.7f, 0.4f, 0.2f});
-    plate.alpha_mode = AlphaMode::mask;
-    plate.alpha_threshold = 0.5f;
-    const std::uint32_t material = add_material(scene, plate);
-    add_checker(scene, material, {0, 0.4f, 0}, {0, 0, 0.25f}, {0.25f, 0, 0}, !cut);
+    add_checker(scene, lambertian({0.7f, 0.4f, 0.2f}), {0, 0.4f, 0}, {0, 0, 0.25f}, {0.25f, 0, 0},
+                !cut);
     project(scene, 1);
     scene.lights = {directional_light({0.3f, -1, 0.2f}, glm::vec3(pi))};
     scene.cameras = {look_at({1.4f, 1, 1.6f}, {0.5f, 0.2f, 0.5f}, 40)};

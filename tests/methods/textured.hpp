@@ -47,8 +47,11 @@ inline void add_texture(Scene& scene, std::uint32_t material, std::uint32_t bit,
 
 /// Adds 4 x 4 squares of edges a and b, of which every other one is there: each a quad, or one quad
 /// with a texture whose alpha cuts them out.
-inline void add_checker(Scene& scene, std::uint32_t material, glm::vec3 corner, glm::vec3 a,
-                        glm::vec3 b, bool by_alpha) {
+inline void add_checker(Scene& scene, Material of, glm::vec3 corner, glm::vec3 a, glm::vec3 b,
+                        bool by_alpha) {
+    of.alpha_mode = AlphaMode::mask;
+    of.alpha_threshold = 0.5f;
+    const std::uint32_t material = add_material(scene, of);
     std::vector<std::uint32_t> texels;
     for (int i = 0; i < 16; ++i) {
         const bool there = (i + i / 4) % 2 == 0;

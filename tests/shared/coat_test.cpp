@@ -213,7 +213,7 @@ TEST(TiltedCoat, OfNoTiltIsTheCoat) {
     }
 }
 
-// With the coat's normal as the surface's, light from wi would be weighted by the cosine with it.
+// The lobe of a coat about its own normal, weighted by the cosine with that normal.
 TEST(TiltedCoat, IsACoatAboutItsNormal) {
     for (const double tilt : {10.0, 40.0}) {
         const MaterialRecord straight = coated(metal(vec3(0), 1), 0.5f, 0.4f);
