@@ -48,7 +48,8 @@ class Mesh:
         assert self.normals is None and other.normals is None
         n = len(self.positions)
         moved = [tuple(i + n for i in t) for t in other.triangles]
-        return Mesh(self.positions + other.positions, self.triangles + moved)
+        uvs = None if self.uvs is None or other.uvs is None else self.uvs + other.uvs
+        return Mesh(self.positions + other.positions, self.triangles + moved, uvs=uvs)
 
     def flat(self):
         return Mesh(self.positions, self.triangles)
@@ -145,6 +146,15 @@ def revolved(profile, segments):
     return Mesh(positions, triangles, normals)
 
 
+def crossing_quads(width, height, count):
+    """Upright quads that cross in the y axis; each shows a whole image."""
+    mesh = Mesh(uvs=[])
+    for i in range(count):
+        x, z = (width / 2 * turn(math.pi * i / count) for turn in (math.cos, math.sin))
+        mesh += textured_quad((-x, 0, -z), (x, 0, z), (x, height, z), (-x, height, -z))
+    return mesh
+
+
 def lambertian(color):
     """A Lambertian material: a rough dielectric whose specular lobe is switched off."""
     return {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 0, "roughnessFactor": 1},
@@ -169,6 +179,18 @@ def frosted_pane(color, roughness):
             "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
 
 
+def tinted(material, color, distance):
+    """The same glass, in which white light has this color after this distance."""
+    volume = {**material["extensions"]["KHR_materials_volume"],
+              "attenuationColor": list(color), "attenuationDistance": distance}
+    return {**material, "extensions": {**material["extensions"], "KHR_materials_volume": volume}}
+
+
+def layered(material, extension, **values):
+    """The same material with one extension more, say `clearcoat`."""
+    return {**material, "extensions": {**material.get("extensions", {}), "KHR_materials_" + extension: values}}
+
+
 def phong(diffuse, specular, exponent):
     """Modified Phong (Lafortune and Willems 1994; docs/materials.md)."""
     return {**lambertian(diffuse), "extras": {"phong": {"specular": [*specular], "exponent": exponent}}}
@@ -181,6 +203,12 @@ def blended(material, alpha):
             "pbrMetallicRoughness": {**material["pbrMetallicRoughness"], "baseColorFactor": color}}
 
 
+def cut_out(material, texture):
+    """The same material on both sides, where the texture's alpha is at least a half."""
+    return {**material, "alphaMode": "MASK", "doubleSided": True,
+            "pbrMetallicRoughness": {**material["pbrMetallicRoughness"], "baseColorTexture": texture}}
+
+
 def emitter(radiance, albedo=(0, 0, 0)):
     """Emits `radiance` from its front. glTF's emissive factor is at most 1; the strength supplies the rest."""
     strength = max(radiance)
@@ -191,13 +219,13 @@ def emitter(radiance, albedo=(0, 0, 0)):
 
 
 def png(rows):
-    """The bytes of a PNG of rows of (red, green, blue), 0 to 255. They are stored, so that no version of zlib changes
-    them."""
+    """The bytes of a PNG of rows of (red, green, blue), or with alpha too, 0 to 255. They are stored, so that no version
+    of zlib changes them."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     lines = b"".join(b"\0" + bytes(sample for texel in row for sample in texel) for row in rows)
-    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, {3: 2, 4: 6}[len(rows[0][0])], 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 0)) +
             chunk(b"IEND", b""))
 

@@ -10,8 +10,9 @@ import math
 import pathlib
 import sys
 
-from gltf_writer import (Mesh, Scene, add, blended, box, cross, emitter, frosted_pane, glass, lambertian, metal, phong, quad,
-                         revolved, rotation_towards, scaled, sphere, textured_quad, unit)
+from gltf_writer import (Mesh, Scene, add, blended, box, cross, crossing_quads, cut_out, emitter, frosted_pane, glass,
+                         lambertian, layered, metal, phong, quad, revolved, rotation_towards, scaled, sphere,
+                         textured_quad, tinted, unit)
 
 WHITE, RED, GREEN, WOOD = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091), (0.63, 0.3, 0.1)
 ROOM, SHELL = ((-2, 0, -2), (2, 2.5, 2)), ((-2.2, -0.04, -2.2), (2.2, 2.7, 2.2))
@@ -202,6 +203,69 @@ def textures():
         [[(0, 30 if (x + y) % 2 else 140, 255) for x in range(8)] for y in range(4)], nearest=True)
     scene.add("ball", ball.moved((0.25, 0.4 + SUNK, 0.2)), polished)
     scene.camera((0, 1, 3.72), (0, 1, 0))
+    return scene
+
+
+def leaf_texel(x, y):
+    """A texel of three leaves on a stalk, cut out by alpha. x, y: -1 to 1, y upwards."""
+    stalk = abs(x) < 0.04 and y < 0.4
+    leaves = any(((x - cx) * c + (y - cy) * s) ** 2 / 0.36 + ((y - cy) * c - (x - cx) * s) ** 2 / 0.03 < 1
+                 for cx, cy, c, s in ((0, 0.38, 0, 1), (-0.48, -0.1, 0.8, -0.6), (0.48, -0.1, 0.8, 0.6)))
+    green = round(140 + 60 * y)
+    return (60, green, 50, 255 if stalk or leaves else 0)
+
+
+def cutouts():
+    """A lantern throws the pattern of its holes on the walls. Alpha cuts out these and the leaves of a plant, and lets
+    light through a pane whose alpha comes from a texture."""
+    scene = cornell()
+    scene.light("point", 2.4, (-0.3, 1.2, -0.1))
+    holes = scene.texture([[(150, 90, 50, 0 if (x - 3.5) ** 2 + (y - 3.5) ** 2 < 7 else 255) for x in range(8)]
+                           for y in range(8)], nearest=True)
+    low, high = (-0.5, 1, -0.3), (-0.1, 1.4, 0.1)
+    lantern = Mesh(uvs=[])
+    for x, z, u, v in ((0, 1, 1, 1), (1, 1, 1, 0), (1, 0, 0, 0), (0, 0, 0, 1)):  # from this corner to that
+        (a, b), (c, d) = (((low, high)[i][0], (low, high)[j][2]) for i, j in ((x, z), (u, v)))
+        lantern += textured_quad((a, low[1], b), (c, low[1], d), (c, high[1], d), (a, high[1], b), 3, 3)
+    scene.add("lantern", lantern, cut_out(lambertian((1, 1, 1)), holes))
+    leaves = scene.texture([[leaf_texel((x - 31.5) / 32, (31.5 - y) / 32) for x in range(64)] for y in range(64)])
+    scene.add("plant", crossing_quads(0.9, 0.9, 3).moved((0.35, 0, 0.2)), cut_out(lambertian((1, 1, 1)), leaves))
+    fading = scene.texture([[(90, 160, 220, 16 * x) for x in range(16)]])
+    pane = blended(lambertian((1, 1, 1)), 0.9)
+    pane["pbrMetallicRoughness"]["baseColorTexture"] = fading
+    scene.add("pane", textured_quad((-0.95, 0.02, 0.6), (-0.2, 0.02, 0.75), (-0.2, 0.8, 0.75), (-0.95, 0.8, 0.6)), pane)
+    return scene
+
+
+def tinted_glass():
+    """Three bodies of glass that absorb light on the way through them: the same amber, thick and thin, and blue."""
+    scene = cornell(light=True)
+    amber = tinted(glass(0.5), (0.95, 0.55, 0.12), 0.25)
+    scene.add("thick amber", resting_sphere(0.36, 0.42, 0.3), amber)
+    scene.add("thin amber", resting_sphere(0.12, -0.05, 0.7), amber)
+    scene.add("blue block", box((-0.3, SUNK, -0.3), (0.3, 1.1, 0.3)).turned(25).moved((-0.4, 0, -0.3)),
+              tinted(glass(0.6), (0.25, 0.5, 0.95), 0.4))
+    return scene
+
+
+def varnish():
+    """What glTF adds to a surface: a clear coat on hammered metal, sheen on cloth, brushed metal, and an iridescent
+    film. Images are projected onto the spheres along z."""
+    scene = cornell(light=True)
+    dents = scene.texture([[slope_texel(0.35 * math.sin(2 * math.pi * x / 16), 0.35 * math.sin(2 * math.pi * y / 16))
+                            for x in range(16)] for y in range(16)])
+    hammered = layered(metal((0.9, 0.35, 0.25), 0.4), "clearcoat", clearcoatFactor=1, clearcoatRoughnessFactor=0.1)
+    hammered["normalTexture"] = dents
+    cloth = layered(lambertian((0.12, 0.04, 0.2)), "sheen", sheenColorFactor=[0.8, 0.7, 0.9], sheenRoughnessFactor=0.4)
+    brushed = layered(metal((0.85, 0.8, 0.7), 0.5), "anisotropy", anisotropyStrength=0.9, anisotropyRotation=0.5)
+    film = layered(metal((0.6, 0.6, 0.6), 0.3), "iridescence", iridescenceFactor=1, iridescenceIor=1.6,
+                   iridescenceThicknessMinimum=400, iridescenceThicknessMaximum=400)
+    scene.add("shelf", box((-0.95, -SUNK, -0.95), (0.95, 0.75, -0.1)), lambertian(WHITE))
+    for name, material, x, y, z in (("hammered, coated", hammered, -0.45, 0.75, -0.5), ("cloth", cloth, 0.45, 0.75, -0.5),
+                                    ("brushed", brushed, -0.42, 0, 0.55), ("film", film, 0.42, 0, 0.55)):
+        ball = sphere(0.36, 10)
+        ball.uvs = [(2 + 2 * n[0], 2 - 2 * n[1]) for n in ball.normals]
+        scene.add(name, ball.moved((x, y + 0.36 + SUNK, z)), material)
     return scene
 
 
@@ -530,10 +594,10 @@ def dynamic_camera():
     return scene
 
 
-BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, cornell_mirror, ring, furnace, glossy, smooth_sphere,
-          inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
+BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, cornell_mirror, ring, furnace, glossy,
+          varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
           glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls,
-          textures, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,
+          textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,
           dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)
 

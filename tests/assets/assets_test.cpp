@@ -31,6 +31,8 @@ const std::vector<Expected> scenes = {
     {"cornell_mirror.glb", 42, 11, 1, 0},    {"ring.glb", 3842, 2, 0, 1},
     {"glossy.glb", 2910, 11, 1, 0},          {"veil.glb", 44, 12, 1, 0},
     {"textures.glb", 1292, 7, 1, 0},         {"spot.glb", 34, 7, 0, 1},
+    {"cutouts.glb", 26, 8, 0, 1},            {"tinted_glass.glb", 5790, 12, 1, 0},
+    {"varnish.glb", 8030, 14, 1, 0},
     {"sky_room.glb", 34, 7, 0, 0},           {"courtyard.glb", 92, 6, 0, 1},
     {"smooth_sphere.glb", 98, 10, 1, 0},     {"inside_glass.glb", 2922, 12, 1, 0},
     {"plane_point.gltf", 2, 1, 0, 1},        {"closed_box.gltf", 12, 1, 1, 0},

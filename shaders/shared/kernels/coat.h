@@ -7,13 +7,7 @@ FN void turn_coat(HitRecord hit, IN(Surface) s, IN(Frame) frame, INOUT(MaterialR
     if (!has_coat_normal(m.absent, slope)) {
         return;
     }
-    vec3 front = s.front ? s.geometric_normal : -s.geometric_normal;
-    vec3 normal = normal_on_front(hit, front);
-    if (slope.x != real(0.0) || slope.y != real(0.0)) {
-        normal = along_tangents(hit, normal, slope);
-    }
-    normal = normal_above(normal, front);
-    vec3 local = to_local(frame, s.front ? normal : -normal);
+    vec3 local = to_local(frame, normal_of_slope(hit, s, slope));
     local = normal_above(local, vec3(real(0.0), real(0.0), real(1.0)));
     m.coat_normal_x = float32(local.x);
     m.coat_normal_y = float32(local.y);

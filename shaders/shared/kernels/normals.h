@@ -12,8 +12,11 @@ FN bool has_normal_texture(uint material_textures) {
 }
 
 // The direction along `slope` in the frame of tangent, bitangent and normal at a hit. normal: unit,
-// on the triangle's front.
+// on the triangle's front. A flat slope keeps it and needs no tangents.
 FN vec3 along_tangents(HitRecord hit, vec3 normal, vec3 slope) {
+    if (slope.x == real(0.0) && slope.y == real(0.0)) {
+        return normal;
+    }
     uint at = scene[0].first_tangent + 2u * hit.triangle;
     uvec2 first = attributes[at];
     uvec3 tangents = uvec3(first.x, first.y, attributes[at + 1u].x);
@@ -34,6 +37,14 @@ FN vec3 normal_on_front(HitRecord hit, vec3 front) {
     return dot3(normal, front) < real(0.0) ? -normal : normal;
 }
 
+// The normal along a texel's `slope`, on the side of the surface that the ray sees.
+FN vec3 normal_of_slope(HitRecord hit, IN(Surface) s, vec3 slope) {
+    vec3 front = s.front ? s.geometric_normal : -s.geometric_normal;
+    vec3 normal = along_tangents(hit, normal_on_front(hit, front), slope);
+    normal = normal_above(normal, front);
+    return s.front ? normal : -normal;
+}
+
 // Turns a surface's shading normal by the texel at its hit. Unlike an interpolated normal it may
 // face away from where the ray came from: what follows from that is the same for photons and eye
 // paths, see docs/materials.md.
@@ -43,12 +54,9 @@ FN void turn_normal(uint material_textures, HitRecord hit, vec3 ray_direction, I
     }
     uvec4 triangle = triangles[hit.triangle];
     vec2 b = vec2(hit.u, hit.v);
-    vec3 front = s.front ? s.geometric_normal : -s.geometric_normal;
-    vec3 normal = normal_on_front(hit, front);
     uint index = normal_texture_of(material_textures);
     vec3 slope = slope_of_texel(sample_texture(index, triangle, b), real(textures[index].scale));
-    normal = normal_above(along_tangents(hit, normal, slope), front);
-    s.shading_normal = s.front ? normal : -normal;
+    s.shading_normal = normal_of_slope(hit, s, slope);
     s.above_horizon = dot3(s.shading_normal, ray_direction) < real(0.0);
 }
 

@@ -271,7 +271,8 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
                                  surface.geometric_normal);
     vec2 where = vec2(u.y, u.z);
     real density = shines_by_texels(light) ? choose_texel(light, where) : real(1.0);
-    if (is_masked_out(light, where) || !light_sample(light, light_kinds, l.origin, where, l.s)) {
+    bool masked = may_have(v.material, MATERIAL_ALPHA) && is_masked_out(light, where);
+    if (masked || !light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
     }
     bool above = dot(l.s.wi, surface.geometric_normal) > real(0.0);
