@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -66,12 +67,15 @@ struct KernelConstant {
     std::uint32_t id;
 };
 
-/// A module with less code, for those values of a specialization constant that have no bits but
-/// `bits`. Drivers take long to compile what they then leave out.
+/// A module with less code, for those values of some specialization constants that have no bits but
+/// these. Drivers take long to compile what they then leave out.
 struct LeanModule {
-    std::span<const std::uint32_t> spirv; ///< empty: the kernel has none
-    std::uint32_t constant = 0;           ///< index among the kernel's constants
-    std::uint32_t bits = 0;
+    struct Limit {
+        std::uint32_t constant; ///< index among the kernel's constants
+        std::uint32_t bits;
+    };
+    std::span<const std::uint32_t> spirv;
+    std::span<const Limit> limits;
 };
 
 struct TwinArguments;
@@ -89,7 +93,7 @@ struct KernelInfo {
     const char* name;
     const char* stage; ///< the name of its twin: that of `x_texels` is `x`; else the kernel's name
     std::span<const std::uint32_t> spirv;
-    LeanModule lean = {};
+    std::span<const LeanModule> lean = {};     ///< that with the least code first
     std::span<const KernelBinding> bindings;   ///< in the order of the binding numbers
     std::span<const KernelConstant> constants; ///< in the order of their ids
     std::uint32_t push_bytes;                  ///< size of the push constants; 0: none
@@ -102,9 +106,14 @@ struct KernelInfo {
 /// The SPIR-V that a device compiles for these values of the specialization constants.
 inline std::span<const std::uint32_t> module_for(const KernelInfo& kernel,
                                                  std::span<const std::uint32_t> constants) {
-    const LeanModule& lean = kernel.lean;
-    const bool is_lean = !lean.spirv.empty() && (constants[lean.constant] & ~lean.bits) == 0;
-    return is_lean ? lean.spirv : kernel.spirv;
+    for (const LeanModule& lean : kernel.lean) {
+        if (std::ranges::all_of(lean.limits, [&](const LeanModule::Limit& limit) {
+                return (constants[limit.constant] & ~limit.bits) == 0;
+            })) {
+            return lean.spirv;
+        }
+    }
+    return kernel.spirv;
 }
 
 inline constexpr std::size_t max_bindings = 24;

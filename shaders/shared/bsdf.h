@@ -126,35 +126,63 @@ FN bool is_lambertian(IN(MaterialRecord) m) {
     return bsdf_lobes(m) == LOBE_DIFFUSE && !has_sheen(m);
 }
 
-// Approximate albedo of the masked lobes for light from wo; exact for the delta lobes. front: wo is
-// on the side from which the triangle's vertices run counter-clockwise, which is the outside of a
-// solid.
-FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
-    vec3 albedo = vec3(real(0.0));
+// Approximate albedos of the lobes for light from one direction; exact for the delta lobes.
+struct LobeAlbedos {
+    vec3 diffuse, glossy, mirror, transmit, coat, clear;
+};
+
+// Albedos of the masked lobes for light from wo; 0 for all others. front: wo is on the side from
+// which the triangle's vertices run counter-clockwise, which is the outside of a solid.
+FN LobeAlbedos lobe_albedos(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
+    LobeAlbedos a;
+    a.diffuse = vec3(real(0.0));
+    a.glossy = vec3(real(0.0));
+    a.mirror = vec3(real(0.0));
+    a.transmit = vec3(real(0.0));
+    a.coat = vec3(real(0.0));
+    a.clear = vec3(real(0.0));
     ReflectionParameters reflection = reflection_parameters(m);
     if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
-        albedo += diffuse_albedo(reflection, wo.z);
+        a.diffuse = diffuse_albedo(reflection, wo.z);
     }
     if (wants_lobe(m, lobes, LOBE_GLOSSY) && !roughness_is_delta(m)) {
-        albedo += layer_albedo(reflection, wo.z);
+        a.glossy = layer_albedo(reflection, wo.z);
     }
     if (is_covered(reflection)) {
-        albedo = albedo * passes_coat_at(reflection, wo);
-        albedo += wants_lobe(m, lobes, LOBE_DIFFUSE) ? rough_sheen_albedo(reflection, wo.z)
-                                                     : vec3(real(0.0));
-        albedo += wants_lobe(m, lobes, LOBE_COAT) && coat_is_rough(reflection)
-                      ? vec3(coat_albedo(reflection, wo) * coverage(m))
-                      : vec3(real(0.0));
+        real passed = passes_coat_at(reflection, wo);
+        a.diffuse = a.diffuse * passed;
+        a.glossy = a.glossy * passed;
+        if (wants_lobe(m, lobes, LOBE_DIFFUSE)) {
+            a.diffuse += rough_sheen_albedo(reflection, wo.z);
+        }
+        if (wants_lobe(m, lobes, LOBE_COAT) && coat_is_rough(reflection)) {
+            a.coat = vec3(coat_albedo(reflection, wo) * coverage(m));
+        }
     }
     if (wants_lobe(m, lobes, LOBES_DELTA)) {
         DeltaLobes delta = bsdf_delta_lobes(m, wo, front);
-        albedo += wants_lobe(m, lobes, LOBE_MIRROR) ? delta.reflected : vec3(real(0.0));
-        albedo += wants_lobe(m, lobes, LOBE_TRANSMIT) ? delta.transmitted : vec3(real(0.0));
+        a.mirror = wants_lobe(m, lobes, LOBE_MIRROR) ? delta.reflected : vec3(real(0.0));
+        a.transmit = wants_lobe(m, lobes, LOBE_TRANSMIT) ? delta.transmitted : vec3(real(0.0));
     }
     if (wants_lobe(m, lobes, LOBE_CLEAR) && clear_is_rough(m)) {
-        albedo += rough_clear_albedo(m, wo.z, front);
+        a.clear = rough_clear_albedo(m, wo.z, front);
     }
-    return albedo;
+    return a;
+}
+
+// Their sum over the masked lobes.
+FN vec3 sum_of_albedos(IN(LobeAlbedos) a, uint lobes) {
+    vec3 sum = (lobes & LOBE_DIFFUSE) != 0u ? a.diffuse : vec3(real(0.0));
+    sum += (lobes & LOBE_GLOSSY) != 0u ? a.glossy : vec3(real(0.0));
+    sum += (lobes & LOBE_COAT) != 0u ? a.coat : vec3(real(0.0));
+    sum += (lobes & LOBE_MIRROR) != 0u ? a.mirror : vec3(real(0.0));
+    sum += (lobes & LOBE_TRANSMIT) != 0u ? a.transmit : vec3(real(0.0));
+    sum += (lobes & LOBE_CLEAR) != 0u ? a.clear : vec3(real(0.0));
+    return sum;
+}
+
+FN vec3 bsdf_albedo(IN(MaterialRecord) m, vec3 wo, bool front, uint lobes) {
+    return sum_of_albedos(lobe_albedos(m, wo, front, lobes), lobes);
 }
 
 // Probabilities with which bsdf_sample chooses the diffuse lobe, the glossy lobe, any delta lobe,

@@ -43,6 +43,17 @@ CONSTANT uint MATERIAL_ALL = 262143u;
 // they double the size of kernels. A kernel for scenes without them is compiled apart, with
 // ARGAND_LEAN.
 CONSTANT uint MATERIAL_LEAN = 4047u;
+// Diffuse and glossy surfaces, mirrors, and glass that absorbs nothing. A kernel for scenes that
+// have only these, and no textures, is compiled with ARGAND_PLAIN.
+CONSTANT uint MATERIAL_PLAIN = 655u;
+// What this module knows.
+#if defined(ARGAND_PLAIN)
+CONSTANT uint MATERIAL_KNOWN = 655u;
+#elif defined(ARGAND_LEAN)
+CONSTANT uint MATERIAL_KNOWN = 4047u;
+#else
+CONSTANT uint MATERIAL_KNOWN = 262143u;
+#endif
 // Features that metals and dielectric layers need.
 CONSTANT uint MATERIAL_LAYER = 132u; // GGX or mirror
 
@@ -53,11 +64,7 @@ CONSTANT real SMALLEST_ALPHA = real(1e-3);
 // know the answer at compile time, so code for absent features vanishes. The result is the same for
 // every material of the scene.
 FN bool may_have(uint absent, uint bits) {
-#ifdef ARGAND_LEAN
-    return (bits & MATERIAL_LEAN) != 0u && (absent & bits) != bits;
-#else
-    return (absent & bits) != bits;
-#endif
+    return (bits & MATERIAL_KNOWN) != 0u && (absent & bits) != bits;
 }
 FN bool may_have(IN(MaterialRecord) m, uint bits) { return may_have(m.absent, bits); }
 FN bool wants_lobe(IN(MaterialRecord) m, uint lobes, uint lobe) {

@@ -121,6 +121,8 @@ TEST_F(Pictures, RequestsThatMakeNoSense) {
         expect_failure(scene + "--crop " + crop, usage, "--crop");
     }
     expect_failure(scene + "--tone vivid", usage, "--tone");
+    expect_failure(scene + "--tone filmic -o a.exr", usage, "no effect on .exr files");
+    expect_failure(scene + "--exposure 1 -o a.exr -o b.exr", usage, "--exposure");
     expect_failure(scene + "--filter gauss", usage, "--filter");
     expect_failure(scene + "-o a.exr --aovs beauty", usage, "--aovs");
     expect_failure(scene + "-o a.exr --aovs depth,beauty", usage, "--aovs");

@@ -4,6 +4,7 @@
 #include "optimise.hpp"
 #include "shader_compile/fixture.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -198,6 +199,15 @@ std::string kernel_of_kinds(const std::string& declaration) {
            "}\n";
 }
 
+/// Words of an array of SPIR-V in a generated source; 0: it has none of this name.
+std::ptrdiff_t words_of(const std::string& source, const std::string& name) {
+    const std::size_t begin = source.find(name + "[] = {");
+    return begin == std::string::npos
+               ? 0
+               : std::count(source.begin() + std::ptrdiff_t(begin),
+                            source.begin() + std::ptrdiff_t(source.find("};", begin)), ',');
+}
+
 TEST_F(ShaderCompile, AnotherDefaultUnderTheMacroGivesALeanModule) {
     const Outcome outcome =
         compile_body(kernel_of_kinds("#ifdef ARGAND_LEAN\n"
@@ -207,14 +217,34 @@ TEST_F(ShaderCompile, AnotherDefaultUnderTheMacroGivesALeanModule) {
                                      "#endif\n"));
     EXPECT_EQ(outcome.status, 0) << outcome.said;
     const std::string source = generated("bad.cpp");
-    EXPECT_NE(source.find(".lean = {bad_lean_spirv, 0, 1u},"), std::string::npos);
-    const std::size_t lean = source.find("bad_lean_spirv[] = {"),
-                      whole = source.find("bad_spirv[] = {");
-    ASSERT_NE(lean, std::string::npos);
-    ASSERT_NE(whole, std::string::npos);
-    const auto length = [&](std::size_t from) { return source.find("};", from) - from; };
-    EXPECT_LT(length(lean), length(whole));
+    EXPECT_NE(source.find(".lean = bad_lean,"), std::string::npos);
+    EXPECT_NE(source.find("{0, 1u},"), std::string::npos);
+    EXPECT_GT(words_of(source, "bad_lean0_spirv"), 0);
+    EXPECT_LT(words_of(source, "bad_lean0_spirv"), words_of(source, "bad_spirv"));
     EXPECT_NE(generated("bad.hpp").find("kinds = 3u"), std::string::npos);
+}
+
+TEST_F(ShaderCompile, AConstantThatIsFalseUnderTheMacroIsFixed) {
+    const std::string body =
+        "layout(set = 0, binding = 0) writeonly buffer Out { float result[]; };\n"
+        "#ifdef ARGAND_PLAIN\n"
+        "layout(constant_id = 3) const bool wavy = false;\n"
+        "#else\n"
+        "layout(constant_id = 3) const bool wavy = true;\n"
+        "#endif\n"
+        "layout(constant_id = 5) const bool steep = true;\n"
+        "void main() {\n"
+        "    uint i = gl_GlobalInvocationID.x;\n"
+        "    if (wavy && steep) { result[i] = sin(float(i)); }\n"
+        "    if (!wavy) { result[i] = steep ? 2.0 : 1.0; }\n"
+        "}\n";
+    ASSERT_EQ(compile_body(body).status, 0);
+    const std::string source = generated("bad.cpp");
+    EXPECT_NE(source.find("{0, false},"), std::string::npos);
+    EXPECT_LT(words_of(source, "bad_lean0_spirv"), words_of(source, "bad_spirv"));
+    // The other constant stays one of specialization.
+    const std::string lean = source.substr(source.find("bad_lean0_spirv[]"));
+    EXPECT_NE(lean.find("{\"steep\", 5}"), std::string::npos);
 }
 
 TEST_F(ShaderCompile, WithoutAnotherDefaultThereIsNoLeanModule) {

@@ -140,6 +140,20 @@ void check_lens(const RenderOptions& options) {
     }
 }
 
+/// Throws UsageError on options of how radiance becomes colours, if no output has colours.
+void check_display(const RenderOptions& options, const CLI::App& command) {
+    if (std::all_of(options.outputs.begin(), options.outputs.end(),
+                    [](const std::string& name) { return lower_extension(name) == ".exr"; })) {
+        for (const char* option : {"--exposure", "--tone"}) {
+            if (is_given(command, option)) {
+                throw UsageError(fmt::format("reading {}: it has no effect on .exr files, which "
+                                             "hold radiance; add -o FILE.png",
+                                             option));
+            }
+        }
+    }
+}
+
 /// Throws UsageError on layers that no file would have, or that cannot be found.
 void check_layers(const RenderOptions& options, const CLI::App& command) {
     const FeatureLayers& layers = options.picture.layers;
@@ -168,6 +182,7 @@ void check_layers(const RenderOptions& options, const CLI::App& command) {
 
 void check(const RenderOptions& options, const CLI::App& command) {
     check_lens(options);
+    check_display(options, command);
     check_layers(options, command);
     check_query(options, command);
     check_deterministic(options, command);

@@ -80,13 +80,14 @@ EShLanguage stage_of(const std::string& path) {
 } // namespace
 
 Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories,
-                 bool lean) {
+                 const std::string& macro) {
     const std::string path = std::filesystem::path(kernel).lexically_normal().string();
-    return compile_text(path, read_text(path), include_directories, lean);
+    return compile_text(path, read_text(path), include_directories, macro);
 }
 
 Compiled compile_text(const std::string& path, const std::string& text,
-                      const std::vector<std::string>& include_directories, bool lean) {
+                      const std::vector<std::string>& include_directories,
+                      const std::string& macro) {
     const Process process;
     Compiled result;
     result.sources.push_back({path, text});
@@ -100,8 +101,9 @@ Compiled compile_text(const std::string& path, const std::string& text,
     const int length = static_cast<int>(text.size());
     const char* const name = path.c_str();
     shader.setStringsWithLengthsAndNames(&string, &length, &name, 1);
-    const std::string preamble = fmt::format("#extension GL_GOOGLE_include_directive : require\n{}",
-                                             lean ? fmt::format("#define {}\n", lean_macro) : "");
+    const std::string preamble =
+        fmt::format("#extension GL_GOOGLE_include_directive : require\n{}",
+                    macro.empty() ? "" : fmt::format("#define {}\n", macro));
     shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);

@@ -2,6 +2,7 @@
 
 #include "sources.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace argand::shader_compile {
@@ -14,16 +15,19 @@ struct Compiled {
     std::string warnings; ///< lines "file:line: warning: ...", empty if there are none
 };
 
-/// Defined while the lean module of a kernel is compiled, see device/kernel.hpp.
-inline constexpr const char* lean_macro = "ARGAND_LEAN";
+/// Each is defined while a lean module of a kernel is compiled, see device/kernel.hpp: the one with
+/// the least code first.
+inline constexpr std::array lean_macros{"ARGAND_PLAIN", "ARGAND_LEAN"};
 
 /// Compiles a GLSL shader for Vulkan 1.2: a vertex shader if the path ends in .vert, a fragment
-/// shader if it ends in .frag, else a compute shader. Throws Error "file:line: error: ...".
+/// shader if it ends in .frag, else a compute shader. macro: is defined; empty: none. Throws Error
+/// "file:line: error: ...".
 Compiled compile(const std::string& kernel, const std::vector<std::string>& include_directories,
-                 bool lean = false);
+                 const std::string& macro = "");
 
 /// The same for the text of a kernel that `path` would hold.
 Compiled compile_text(const std::string& path, const std::string& text,
-                      const std::vector<std::string>& include_directories, bool lean = false);
+                      const std::vector<std::string>& include_directories,
+                      const std::string& macro = "");
 
 } // namespace argand::shader_compile

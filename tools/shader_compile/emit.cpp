@@ -206,6 +206,25 @@ void emit_raster_info(Out out, const Kernel& program) {
     fmt::format_to(out, "    .words = {},\n}};\n\n", program.interface.result_words);
 }
 
+void emit_lean(Out out, const Kernel& kernel) {
+    const std::string& name = kernel.name;
+    for (std::size_t i = 0; i < kernel.lean.size(); ++i) {
+        emit_spirv(out, fmt::format("{}_lean{}", name, i), kernel.lean[i].spirv);
+        fmt::format_to(out, "constexpr LeanModule::Limit {}_lean{}_limits[] = {{\n", name, i);
+        for (const Lean::Limit& limit : kernel.lean[i].limits) {
+            fmt::format_to(out, "    {{{}, {}}},\n", limit.constant, limit.bits);
+        }
+        fmt::format_to(out, "}};\n");
+    }
+    if (!kernel.lean.empty()) {
+        fmt::format_to(out, "constexpr LeanModule {}_lean[] = {{\n", name);
+        for (std::size_t i = 0; i < kernel.lean.size(); ++i) {
+            fmt::format_to(out, "    {{{0}_lean{1}_spirv, {0}_lean{1}_limits}},\n", name, i);
+        }
+        fmt::format_to(out, "}};\n");
+    }
+}
+
 void emit_info(Out out, const Kernel& kernel) {
     const Reflection& interface = kernel.interface;
     const std::string& name = kernel.name;
@@ -218,9 +237,8 @@ void emit_info(Out out, const Kernel& kernel) {
     fmt::format_to(out, "constinit const KernelInfo {0}::info{{\n    .name = \"{0}\",\n", name);
     fmt::format_to(out, "    .stage = \"{}\",\n", has_twin ? kernel.twin : name);
     fmt::format_to(out, "    .spirv = {}_spirv,\n", name);
-    if (kernel.lean) {
-        fmt::format_to(out, "    .lean = {{{}_lean_spirv, {}, {}}},\n", name, kernel.lean->constant,
-                       kernel.lean->bits);
+    if (!kernel.lean.empty()) {
+        fmt::format_to(out, "    .lean = {}_lean,\n", name);
     }
     emit_interface(out, kernel);
     fmt::format_to(out, "    .local_size = {{{}, {}, {}}},\n", interface.local_size[0],
@@ -336,9 +354,7 @@ std::string emit_source(const Kernel& kernel) {
     }
     emit_group_checks(out, interface);
     emit_spirv(out, kernel.name, kernel.spirv);
-    if (kernel.lean) {
-        emit_spirv(out, kernel.name + "_lean", kernel.lean->spirv);
-    }
+    emit_lean(out, kernel);
     if (kernel.fragment) {
         emit_spirv(out, kernel.name + "_fragment", *kernel.fragment);
     }

@@ -4,11 +4,14 @@
 
 namespace argand::shader_compile {
 
-/// A kernel's lean module, see device/kernel.hpp.
+/// One of a kernel's lean modules, see device/kernel.hpp.
 struct Lean {
-    Spirv spirv;          ///< final
-    std::size_t constant; ///< index among the kernel's specialization constants
-    std::string bits;     ///< a C++ literal
+    struct Limit {
+        std::size_t constant; ///< index among the kernel's specialization constants
+        std::string bits;     ///< a C++ literal
+    };
+    Spirv spirv; ///< final
+    std::vector<Limit> limits;
 };
 
 /// A kernel, a raster program, or a group of bindings, of which files are generated.
@@ -18,7 +21,7 @@ struct Kernel {
     Reflection interface;
     Spirv spirv;      ///< final; a group has none; of a raster program: the vertex shader
     std::string twin; ///< the kernel whose body other backends run; empty: none
-    std::optional<Lean> lean = {};
+    std::vector<Lean> lean = {};
     std::optional<Spirv> fragment = {}; ///< the fragment shader of a raster program
 };
 

@@ -8,12 +8,14 @@
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
+#include "fix_constants.hpp"
 #include "names.hpp"
 #include "optimise.hpp"
 #include "write.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 namespace argand::shader_compile {
 namespace {
@@ -91,28 +93,56 @@ void run_group(const Options& options) {
     write_if_changed(header, emit_group(group));
 }
 
-/// The kernel's lean module, if it has one: if a macro changes the default of one of its constants,
-/// and makes the kernel shorter.
-std::optional<Lean> compile_lean(const Options& options, const Compiled& whole,
-                                 const Kernel& kernel) {
-    const bool has_one = std::any_of(whole.sources.begin(), whole.sources.end(), [](const auto& s) {
-        return s.text.find(lean_macro) != std::string::npos;
-    });
-    if (!has_one) {
-        return {};
-    }
-    const Compiled compiled = compile(options.kernel, options.include_directories, true);
-    const Reflection lean = reflect(compiled, options.include_directories);
-    for (std::size_t i = 0; i < lean.constants.size(); ++i) {
-        if (lean.constants[i].value != kernel.interface.constants[i].value) {
-            Lean result{optimise(compiled.spirv, options.kernel), i, lean.constants[i].value};
-            validate(result.spirv, options.kernel);
-            if (result.spirv.size() < kernel.spirv.size()) {
-                return result;
+/// The kernel compiled with a macro that changes the defaults of some specialization constants to
+/// the bits that remain.
+Lean compile_with(const std::string& macro, const Options& options, const Kernel& kernel) {
+    const Compiled compiled = compile(options.kernel, options.include_directories, macro);
+    const std::vector<Constant> constants =
+        reflect(compiled, options.include_directories).constants;
+    Lean result;
+    std::set<std::uint32_t> fixed;
+    for (std::size_t i = 0; i < constants.size(); ++i) {
+        const std::string& bits = constants[i].value;
+        if (bits != kernel.interface.constants[i].value) {
+            result.limits.push_back({i, bits});
+            if (bits == "false") {
+                fixed.insert(constants[i].id);
             }
         }
     }
-    return {};
+    if (!result.limits.empty()) {
+        result.spirv = optimise(fix_constants(compiled.spirv, fixed), options.kernel);
+        validate(result.spirv, options.kernel);
+    }
+    return result;
+}
+
+/// The kernel's lean modules: those of macros that its sources name, if they are much shorter.
+std::vector<Lean> compile_lean(const Options& options, const Compiled& whole,
+                               const Kernel& kernel) {
+    std::vector<Lean> result;
+    for (const std::string macro : lean_macros) {
+        if (std::none_of(whole.sources.begin(), whole.sources.end(), [&](const Source& s) {
+                return s.text.find(macro) != std::string::npos;
+            })) {
+            continue;
+        }
+        Lean lean = compile_with(macro, options, kernel);
+        if (!lean.limits.empty()) {
+            result.push_back(std::move(lean));
+        }
+    }
+    // A module is worth its bytes in the program if it is an eighth shorter than the next one.
+    std::size_t next = kernel.spirv.size();
+    for (auto lean = result.end(); lean != result.begin();) {
+        --lean;
+        if (lean->spirv.size() < next / 8 * 7) {
+            next = lean->spirv.size();
+        } else {
+            lean = result.erase(lean);
+        }
+    }
+    return result;
 }
 
 std::string name_of(const Options& options) {

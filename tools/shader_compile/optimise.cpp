@@ -24,6 +24,7 @@ Spirv optimise(const Spirv& spirv, const std::string& kernel) {
     std::string said;
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);
     optimizer.SetMessageConsumer(append_to(said));
+    optimizer.RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
     optimizer.RegisterPerformancePasses();
     optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass());
     optimizer.RegisterPass(spvtools::CreateCompactIdsPass());

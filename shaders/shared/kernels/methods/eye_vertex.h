@@ -30,9 +30,10 @@ struct Vertex {
     MaterialRecord material;
     Frame frame; // of the shading normal
     vec3 wo;
-    uint followed, estimated;   // lobes, see shared/follow.h
-    bool ends;                  // at the estimated lobes, unless the ray seeks emission
-    uint onward;                // estimated lobes that also scatter the path
+    uint followed, estimated; // lobes, see shared/follow.h
+    bool ends;                // at the estimated lobes, unless the ray seeks emission
+    uint onward;              // estimated lobes that also scatter the path
+    LobeAlbedos albedos;
     real albedo;                // of the lobes that scatter the path, and what passes
     real estimated_probability; // probability that `onward` scatters the path
     real pass_probability;      // probability that the path goes straight on
@@ -200,9 +201,8 @@ FN void split_lobes(HitRecord hit, INOUT(Vertex) v) {
     v.wo = to_local(v.frame, v.toward);
     v.followed = followed_paths ? followed_lobes(v.material, scene[0].follow_roughness) : 0u;
     v.estimated = bsdf_lobes(v.material) & ~v.followed;
-    real followed_albedo =
-        v.followed != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.followed))
-                         : real(0.0);
+    v.albedos = lobe_albedos(v.material, v.wo, v.surface.front, v.followed | v.estimated);
+    real followed_albedo = max_component(sum_of_albedos(v.albedos, v.followed));
     v.ends = photon_map && (!final_gather || behind_estimated(v.path));
     // The map accounts for all other light behind the last estimated vertex. But if only shadow
     // rays found lights there, those that touch the surface or that a glossy lobe reflects would
@@ -210,9 +210,7 @@ FN void split_lobes(HitRecord hit, INOUT(Vertex) v) {
     // is not taken.
     bool seeks = batch.untaken != untaken_never || (direct_light && (has_sky() || has_emitters()));
     v.onward = !v.ends || seeks ? v.estimated : 0u;
-    real estimated_albedo =
-        v.onward != 0u ? max_component(bsdf_albedo(v.material, v.wo, v.surface.front, v.onward))
-                       : real(0.0);
+    real estimated_albedo = max_component(sum_of_albedos(v.albedos, v.onward));
     real passes = pass_share(v.material);
     v.albedo = followed_albedo + estimated_albedo + passes;
     v.estimated_probability = v.albedo > real(0.0) ? estimated_albedo / v.albedo : real(0.0);
@@ -318,6 +316,23 @@ FN vec3 light_by_spread_lobe(IN(Vertex) v, IN(SeenLight) l, uint lobe) {
     return arriving * f * weight;
 }
 
+// Radiance that the lobes `estimated` or `followed` scatter from a light's sample. weighs: the path
+// samples the same light by these lobes.
+FN vec3 light_by_lobes(IN(Vertex) v, IN(SeenLight) l, uint lobes, bool weighs) {
+    vec4 probabilities = weighs ? lobe_probabilities(v.material, v.wo, lobes) : vec4(real(0.0));
+    real pdf;
+    vec3 f =
+        bsdf_eval_and_pdf(reflection_parameters(v.material), v.wo, l.wi, lobes, probabilities, pdf);
+    real weight =
+        weighs ? power_heuristic(l.choice.probability * l.s.pdf, v.estimated_probability * pdf)
+               : real(1.0);
+    vec3 arriving = v.throughput * l.s.radiance * (l.wi.z / l.choice.probability);
+    if (may_have(v.material, MATERIAL_ABSORPTION)) {
+        arriving *= transmittance(v.medium, l.s.distance);
+    }
+    return arriving * weight * f;
+}
+
 // Writes a shadow ray to a light, and the radiance that it adds if nothing blocks it.
 FN void sample_light(IN(Vertex) v) {
     SeenLight l;
@@ -330,47 +345,40 @@ FN void sample_light(IN(Vertex) v) {
     uint followed_layer =
         behind && (v.path.state & path_followed) != 0u ? layer_caustic : estimated_layer;
     bool samples_followed = !left_to_photons(followed_layer);
-    vec3 spread = vec3(real(0.0));
+    vec3 by_followed = vec3(real(0.0));
     if (scatters(v, LOBE_CLEAR) && samples_followed) {
-        spread += light_by_spread_lobe(v, l, LOBE_CLEAR);
+        by_followed += light_by_spread_lobe(v, l, LOBE_CLEAR);
     }
     if (scatters(v, LOBE_COAT) && samples_followed) {
-        spread += light_by_spread_lobe(v, l, LOBE_COAT);
+        by_followed += light_by_spread_lobe(v, l, LOBE_COAT);
     }
-    vec3 arriving = v.throughput * s.radiance * (l.wi.z / l.choice.probability);
-    if (may_have(v.material, MATERIAL_ABSORPTION)) {
-        arriving *= transmittance(v.medium, s.distance);
+    // Paths find other lights by followed lobes. A loop, so that the kernel has this code once.
+    vec3 by_estimated = vec3(real(0.0));
+    uint sets = s.delta && v.followed != 0u && samples_followed ? 2u : 1u;
+    for (uint set = 0u; set < sets; ++set) {
+        bool weighs = set == 0u && !s.delta && v.onward != 0u;
+        vec3 light = light_by_lobes(v, l, set == 0u ? v.estimated : v.followed, weighs);
+        if (set == 0u) {
+            by_estimated = light;
+        } else {
+            by_followed += light;
+        }
     }
-    // Weight for the lobes in `onward`, which the path samples too. All others have only this
-    // sample.
-    real weight = real(1.0);
-    if (!s.delta && v.onward != 0u) {
-        real density = l.choice.probability * s.pdf;
-        weight = power_heuristic(density, v.estimated_probability *
-                                              bsdf_pdf(v.material, v.wo, l.wi, v.onward));
-    }
-    vec3 e = arriving * weight * bsdf_eval(v.material, v.wo, l.wi, v.onward);
-    if (v.onward != v.estimated) {
-        e += arriving * bsdf_eval(v.material, v.wo, l.wi, v.estimated & ~v.onward);
-    }
-    vec3 f = s.delta && v.followed != 0u && samples_followed
-                 ? arriving * bsdf_eval(v.material, v.wo, l.wi, v.followed)
-                 : vec3(real(0.0));
-    f += spread;
-    if (!(max_component(e) + max_component(f) > real(0.0))) {
+    if (!(max_component(by_estimated) + max_component(by_followed) > real(0.0))) {
         return;
     }
     shadow_rays[v.slot] =
         RayRecord(l.origin.x, l.origin.y, l.origin.z, s.distance, s.wi.x, s.wi.y, s.wi.z, 0u);
-    shadows[v.slot] = ShadowRecord(e.x, e.y, e.z, estimated_layer | followed_layer << 2u, f.x, f.y,
-                                   f.z, l.choice.index);
+    shadows[v.slot] = ShadowRecord(by_estimated.x, by_estimated.y, by_estimated.z,
+                                   estimated_layer | followed_layer << 2u, by_followed.x,
+                                   by_followed.y, by_followed.z, l.choice.index);
 }
 
 // Steps in which queries may share the estimate of a glossy surface (query_steps_shift).
 FN uint shared_direction_steps(IN(Vertex) v) {
     MaterialRecord m = v.material;
-    real all = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated));
-    real glossy = max_component(bsdf_albedo(m, v.wo, v.surface.front, v.estimated & LOBE_GLOSSY));
+    real all = max_component(sum_of_albedos(v.albedos, v.estimated));
+    real glossy = max_component(sum_of_albedos(v.albedos, v.estimated & LOBE_GLOSSY));
     real share = clamp(glossy / max(all, real(1e-9)), real(0.0), real(1.0));
     uint steps = direction_steps(max(ggx_alpha(m), SMALLEST_ALPHA), share);
     return has_sheen(m) ? max(steps, 8u) : steps;
@@ -379,7 +387,10 @@ FN uint shared_direction_steps(IN(Vertex) v) {
 // BRDF of a Lambertian surface [1/sr], computed from the packed vectors of a query.
 FN vec3 lambertian_reflectance(IN(Vertex) v, uint direction, uint shading_normal) {
     vec3 wo = to_local(make_frame(unpack_unit(shading_normal)), unpack_unit(direction));
-    return bsdf_eval(v.material, wo, vec3(real(0.0), real(0.0), real(1.0)), v.estimated);
+    if (!(wo.z > real(0.0))) {
+        return vec3(real(0.0));
+    }
+    return diffuse_reflectance(reflection_parameters(v.material), wo.z, real(1.0)) * INV_PI;
 }
 
 FN uint mixed(uint key, vec3 values) { return pcg4d(uvec4(float_bits(values), key)).x; }
@@ -437,7 +448,7 @@ FN void leave_query(IN(Vertex) v) {
     bool shares_irradiance = shares && lambertian;
     vec3 counts_by = v.throughput;
     if (shares_irradiance) {
-        counts_by = v.throughput * bsdf_albedo(v.material, v.wo, v.surface.front, LOBE_DIFFUSE);
+        counts_by = v.throughput * v.albedos.diffuse;
     } else if (!shares) {
         counts_by = v.throughput * vec3(batch.query_weight);
     }
