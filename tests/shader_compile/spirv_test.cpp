@@ -1,6 +1,7 @@
 // The SPIR-V that is embedded: exact arithmetic, no names, the right capabilities.
 #include "compile.hpp"
 #include "emit.hpp"
+#include "fix_constants.hpp"
 #include "optimise.hpp"
 #include "shader_compile/fixture.hpp"
 
@@ -13,10 +14,10 @@ namespace {
 
 // Numbers of the SPIR-V specification, section 3.
 constexpr std::uint32_t op_name = 5, op_ext_inst = 12, op_type_float = 22, op_type_vector = 23,
-                        op_type_matrix = 24, op_function = 54, op_decorate = 71, op_fnegate = 127,
-                        op_fadd = 129, op_fsub = 131, op_fmul = 133, op_fdiv = 136, op_frem = 140,
-                        op_fmod = 141, op_vector_times_scalar = 142, op_dot = 148,
-                        no_contraction = 42;
+                        op_type_matrix = 24, op_spec_constant_false = 49, op_function = 54,
+                        op_decorate = 71, op_fnegate = 127, op_fadd = 129, op_fsub = 131,
+                        op_fmul = 133, op_fdiv = 136, op_frem = 140, op_fmod = 141,
+                        op_vector_times_scalar = 142, op_dot = 148, no_contraction = 42;
 
 struct Instruction {
     std::uint32_t op;
@@ -224,27 +225,26 @@ TEST_F(ShaderCompile, AnotherDefaultUnderTheMacroGivesALeanModule) {
     EXPECT_NE(generated("bad.hpp").find("kinds = 3u"), std::string::npos);
 }
 
-TEST_F(ShaderCompile, AConstantThatIsFalseUnderTheMacroIsFixed) {
-    const std::string body =
-        "layout(set = 0, binding = 0) writeonly buffer Out { float result[]; };\n"
-        "#ifdef ARGAND_PLAIN\n"
-        "layout(constant_id = 3) const bool wavy = false;\n"
-        "#else\n"
-        "layout(constant_id = 3) const bool wavy = true;\n"
-        "#endif\n"
-        "layout(constant_id = 5) const bool steep = true;\n"
-        "void main() {\n"
-        "    uint i = gl_GlobalInvocationID.x;\n"
-        "    if (wavy && steep) { result[i] = sin(float(i)); }\n"
-        "    if (!wavy) { result[i] = steep ? 2.0 : 1.0; }\n"
-        "}\n";
-    ASSERT_EQ(compile_body(body).status, 0);
-    const std::string source = generated("bad.cpp");
-    EXPECT_NE(source.find("{0, false},"), std::string::npos);
-    EXPECT_LT(words_of(source, "bad_lean0_spirv"), words_of(source, "bad_spirv"));
-    // The other constant stays one of specialization.
-    const std::string lean = source.substr(source.find("bad_lean0_spirv[]"));
-    EXPECT_NE(lean.find("{\"steep\", 5}"), std::string::npos);
+TEST_F(FinalSpirv, ConstantsAreFixedById) {
+    const Compiled source =
+        compiled("layout(set = 0, binding = 0) buffer Out { float result[]; };\n"
+                 "layout(constant_id = 3) const bool wavy = false;\n"
+                 "layout(constant_id = 5) const bool steep = false;\n"
+                 "void main() {\n"
+                 "    uint i = gl_GlobalInvocationID.x;\n"
+                 "    if (wavy || steep) { result[i] = result[i + 1]; }\n"
+                 "    if (wavy) { result[i] *= 2.0; }\n"
+                 "    if (steep) { result[i] += 2.0; }\n"
+                 "}\n");
+    const Spirv all = optimise(source.spirv, "test");
+    EXPECT_EQ(count_of(all, op_spec_constant_false), 2);
+    EXPECT_EQ(count_of(all, op_fmul), 1);
+    const Spirv fixed = optimise(fix_constants(source.spirv, {3}), "test");
+    validate(fixed, "test");
+    EXPECT_EQ(count_of(fixed, op_spec_constant_false), 1);
+    EXPECT_EQ(count_of(fixed, op_fmul), 0);
+    EXPECT_EQ(count_of(fixed, op_fadd), 1);
+    EXPECT_EQ(fix_constants(source.spirv, {}), source.spirv);
 }
 
 TEST_F(ShaderCompile, WithoutAnotherDefaultThereIsNoLeanModule) {
