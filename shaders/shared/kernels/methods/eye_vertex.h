@@ -352,7 +352,8 @@ FN void sample_light(IN(Vertex) v) {
     if (scatters(v, LOBE_COAT) && samples_followed) {
         by_followed += light_by_spread_lobe(v, l, LOBE_COAT);
     }
-    // Paths find other lights by followed lobes. A loop, so that the kernel has this code once.
+    // By followed lobes the path finds all but delta lights. A loop, so that the kernel holds the
+    // code of the BSDF once.
     vec3 by_estimated = vec3(real(0.0));
     uint sets = s.delta && v.followed != 0u && samples_followed ? 2u : 1u;
     for (uint set = 0u; set < sets; ++set) {
