@@ -120,20 +120,24 @@ FN real mirror_below(Arrival a, real u, INOUT(vec3) wi, INOUT(real) cosine) {
 FN void depart_turned(Arrival a, MaterialRecord m, vec4 u, real mirrored, INOUT(Departure) d) {
     vec3 wi = to_world(a.frame, d.sampled.wi);
     real cosine = dot3(wi, a.surface.geometric_normal);
-    if (d.sampled.lobe == LOBE_DIFFUSE) {
+    bool diffuse = d.sampled.lobe == LOBE_DIFFUSE;
+    vec3 seen = d.sampled.wi;
+    if (diffuse) {
         wi = to_world(make_frame(a.surface.geometric_normal),
                       sample_cosine_hemisphere(vec2(u.y, u.z)));
-        vec3 seen = to_local(a.frame, toward_above(a.surface, wi));
-        d.flux = a.flux * bsdf_eval(m, a.wo, seen, LOBE_DIFFUSE) *
-                 (PI * a.shading / d.sampled.probability);
-        d.direction = wi;
-        return;
+        seen = to_local(a.frame, toward_above(a.surface, wi));
     }
-    if (d.sampled.lobe == LOBE_GLOSSY) {
-        real pdf = bsdf_pdf(m, a.wo, d.sampled.wi, LOBE_GLOSSY) * d.sampled.probability;
+    if (diffuse || d.sampled.lobe == LOBE_GLOSSY) {
+        real pdf; // of the glossy lobe alone
+        vec3 f = bsdf_eval_and_pdf(reflection_parameters(m), a.wo, seen, d.sampled.lobe,
+                                   vec4(real(0.0), real(1.0), real(0.0), real(0.0)), pdf);
+        if (diffuse) {
+            d.flux = a.flux * f * (PI * a.shading / d.sampled.probability);
+            d.direction = wi;
+            return;
+        }
         d.sampled.weight =
-            pdf > real(0.0) ? bsdf_eval(m, a.wo, d.sampled.wi, LOBE_GLOSSY) * (d.sampled.wi.z / pdf)
-                            : vec3(real(0.0));
+            pdf > real(0.0) ? f * (seen.z / (pdf * d.sampled.probability)) : vec3(real(0.0));
     }
     if ((d.sampled.wi.z > real(0.0)) == (cosine > real(0.0)) && d.sampled.wi.z != real(0.0)) {
         real factor =
