@@ -14,14 +14,15 @@ ARGAND_SHARED_BEGIN
 // Smoother sheen is rendered with this roughness squared: its fibres would be needles.
 CONSTANT real SMALLEST_SHEEN_ALPHA = real(0.01);
 
-// Logarithm of Smith's lambda for cosines up to 0.5, as fitted by the paper.
+// Logarithm of Smith's lambda for cosines up to 0.5, as fitted by the paper. Its differences of
+// parameters are written out: compilers of GLSL and C++ do not round them alike.
 FN real sheen_log_lambda(real cosine, real alpha) {
     real t = (real(1.0) - alpha) * (real(1.0) - alpha);
-    real a = real(21.5473) + (real(25.3245) - real(21.5473)) * t;
-    real b = real(3.82987) + (real(3.32435) - real(3.82987)) * t;
-    real c = real(0.19823) + (real(0.16801) - real(0.19823)) * t;
-    real d = real(-1.97760) + (real(-1.27393) + real(1.97760)) * t;
-    real e = real(-4.32054) + (real(-4.85967) + real(4.32054)) * t;
+    real a = real(21.5473) + real(3.7772) * t;
+    real b = real(3.82987) - real(0.50552) * t;
+    real c = real(0.19823) - real(0.03022) * t;
+    real d = real(-1.97760) + real(0.70367) * t;
+    real e = real(-4.32054) - real(0.53913) * t;
     return a / (real(1.0) + b * pow_real(cosine, c)) + d * cosine + e;
 }
 
