@@ -9,6 +9,7 @@
 #include "scene/gltf_material.hpp"
 #include "scene/gltf_mesh.hpp"
 #include "scene/gltf_node.hpp"
+#include "scene/gltf_uri.hpp"
 #include "scene/moving_factors.hpp"
 #include "scene/pose.hpp"
 #include "scene/studio.hpp"
@@ -82,6 +83,7 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     const GltfSource source = read_gltf_file(path, options, scene.notes);
     end_step("file");
     scene.name = one_line(path.filename().string());
+    scene.files = files_of_uris(source.directory, source.root);
     scene.seconds = seconds;
     add_extensions(source, scene);
     FileKeys keys = read_animations(source, scene);

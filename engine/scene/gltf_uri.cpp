@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 namespace argand {
@@ -62,6 +63,26 @@ std::filesystem::path path_of_uri(const std::filesystem::path& directory, const 
              what, one_line(uri, 60));
     }
     return path;
+}
+
+std::vector<std::filesystem::path> files_of_uris(const std::filesystem::path& directory,
+                                                 const nlohmann::json& root) {
+    std::vector<std::filesystem::path> files;
+    for (const char* kind : {"buffers", "images"}) {
+        const auto list = root.find(kind);
+        if (list == root.end() || !list->is_array()) {
+            continue;
+        }
+        for (const nlohmann::json& element : *list) {
+            const bool has_uri =
+                element.is_object() && element.contains("uri") && element["uri"].is_string();
+            const std::string uri = has_uri ? element["uri"].get<std::string>() : "";
+            if (!uri.empty() && !uri.starts_with("data:")) {
+                files.push_back(directory / percent_decoded(uri));
+            }
+        }
+    }
+    return files;
 }
 
 } // namespace argand

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace argand {
 
@@ -10,5 +12,9 @@ namespace argand {
 /// that is allowed.
 std::filesystem::path path_of_uri(const std::filesystem::path& directory, const std::string& uri,
                                   const std::string& what, bool allow_external);
+
+/// The files that a parsed glTF file names as buffers and images, wherever they are.
+std::vector<std::filesystem::path> files_of_uris(const std::filesystem::path& directory,
+                                                 const nlohmann::json& root);
 
 } // namespace argand

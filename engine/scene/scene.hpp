@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
@@ -85,8 +86,9 @@ struct Bounds {
 /// A file's contents on the host at one moment: triangles in world space, materials, lights,
 /// cameras. move_to() changes the moment.
 struct Scene {
-    std::string name;                 ///< file name without directory
-    std::vector<glm::vec3> positions; ///< vertices, world space
+    std::string name;                         ///< file name without directory
+    std::vector<std::filesystem::path> files; ///< other ones that the file names: buffers, images
+    std::vector<glm::vec3> positions;         ///< vertices, world space
     std::vector<glm::vec3> normals;   ///< one per vertex, unit; (0,0,0): use the geometric normal
     std::uint32_t uv_sets = 0;        ///< texture coordinates of each vertex
     std::vector<glm::vec2> uvs;       ///< uv_sets per vertex, finite

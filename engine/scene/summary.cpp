@@ -47,6 +47,8 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"film_ior", material.film_ior},
             {"film_thickness", material.film_thickness},
             {"alpha", material.coverage},
+            {"alpha_varies", material.alpha_varies},
+            {"cut_out", material.alpha_varies && material.alpha_mode == AlphaMode::mask},
             {"phong", material.phong ? json{{"specular", numbers(material.phong->specular)},
                                             {"exponent", material.phong->exponent}}
                                      : json(nullptr)},
@@ -254,6 +256,9 @@ std::string material_line(const json& material) {
     }
     if (material["alpha"].get<double>() < 1) {
         line += fmt::format(", alpha {:.4g}", material["alpha"].get<double>());
+    }
+    if (material["alpha_varies"].get<bool>()) {
+        line += material["cut_out"].get<bool>() ? ", cut out by alpha" : ", alpha varies";
     }
     if (material["emission"] != json::array({0.0f, 0.0f, 0.0f})) {
         line += fmt::format(", emits {} cd/m2{}", short_text(material["emission"]),

@@ -32,6 +32,26 @@ TEST_F(Outputs, NothingThatIsReadOrWrittenIsReplaced) {
     EXPECT_TRUE(pixels("b.exr") == before);
 }
 
+TEST_F(Outputs, ImagesAndBuffersOfTheSceneAreNotReplaced) {
+    const std::string text = read_text(asset("plane_point.gltf"));
+    const std::size_t at = text.find("\"asset\"");
+    ASSERT_NE(at, std::string::npos);
+    write_text(file("scene.gltf"),
+               text.substr(0, at) + R"("images": [{"uri": "scene.png"}, {"uri": "a%20b.exr"}], )" +
+                   text.substr(at));
+    write_text(file("scene.png"), "a texture");
+    write_text(file("a b.exr"), "another");
+    const std::string render = "render scene.gltf --method path --size 4x4 --spp 1 ";
+    expect_failure(render, usage, "would replace 'scene.png'"); // the picture's name by default
+    for (const char* options : {"-o ./scene.png", "-o a.exr -o 'a b.exr'",
+                                "--json scene.png -o a.exr", "--checkpoint scene.png -o a.exr"}) {
+        expect_failure(render + options, usage, "would replace");
+    }
+    EXPECT_EQ(read_text(file("scene.png")), "a texture");
+    EXPECT_EQ(read_text(file("a b.exr")), "another");
+    EXPECT_EQ(argand(render + "-q -o c.png", on_host).exit_code, 0);
+}
+
 TEST_F(Outputs, AKdTreeGivesTheSamePictures) {
     const std::string still =
         "render '" + asset("cornell_glass.glb") + "' --size 8x8 --spp 1 --photons 500 ";

@@ -1,4 +1,5 @@
 #include "gltf_builder.hpp"
+#include "scene/gltf.hpp"
 #include "scene/summary.hpp"
 
 #include <gmock/gmock.h>
@@ -131,6 +132,20 @@ TEST(Summary, ReportsAlpha) {
     builder.root["meshes"][0]["primitives"][0]["material"] = 0;
     EXPECT_EQ(summary_json(builder.load())["materials"][0]["alpha"], 0.25);
     EXPECT_THAT(summary_text(builder.load()), HasSubstr("roughness 1, alpha 0.25"));
+}
+
+TEST(Summary, SaysWhereAlphaVaries) {
+    const Scene scene = load_gltf(ARGAND_SOURCE_DIR "/assets/cutouts.glb");
+    int cut_out = 0, vary = 0;
+    const auto summary = summary_json(scene);
+    for (const auto& material : summary["materials"]) {
+        cut_out += material["cut_out"].get<bool>() ? 1 : 0;
+        vary += material["alpha_varies"].get<bool>() ? 1 : 0;
+    }
+    EXPECT_EQ(cut_out, 2); // the lantern and the plant
+    EXPECT_EQ(vary, 3);    // and the pane
+    EXPECT_THAT(summary_text(scene), HasSubstr("roughness 1, cut out by alpha, base_color"));
+    EXPECT_THAT(summary_text(scene), HasSubstr("alpha 0.9, alpha varies, base_color"));
 }
 
 TEST(Summary, ReportsPhong) {

@@ -14,4 +14,16 @@ void check_overwrites_none(const std::string& target, const std::vector<std::str
     }
 }
 
+void check_overwrites_no_file_of(const Scene& scene, const std::vector<std::string>& targets) {
+    std::vector<std::string> files;
+    for (const std::filesystem::path& file : scene.files) {
+        files.push_back(file.string());
+    }
+    for (const std::string& target : targets) {
+        if (!target.empty()) {
+            check_overwrites_none(target, files);
+        }
+    }
+}
+
 } // namespace argand

@@ -9,6 +9,7 @@
 #include "frames.hpp"
 #include "image/files.hpp"
 #include "method_options.hpp"
+#include "overwriting.hpp"
 #include "scene/pose.hpp"
 
 #include <vector>
@@ -88,6 +89,7 @@ void render_frames(const RenderOptions& options, const CLI::App& command) {
         if (done[frame - range.first]) {
             continue;
         }
+        check_overwrites_no_file_of(job.scene, outputs);
         const Clock::time_point start = Clock::now();
         job.device->reset_stage_times();
         move_without_vertices(seconds_of(frame), job.scene);

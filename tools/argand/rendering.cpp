@@ -10,6 +10,7 @@
 #include "method_options.hpp"
 #include "methods/plan_render.hpp"
 #include "numbers.hpp"
+#include "overwriting.hpp"
 #include "picture_size.hpp"
 #include "session/checkpoint.hpp"
 #include "session/render.hpp"
@@ -338,6 +339,8 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     const Clock::time_point start = Clock::now();
     job.scene = load_scene(options.scene, options, seconds, options.load);
     job.times.load = seconds_since(start);
+    check_overwrites_no_file_of(job.scene, options.outputs);
+    check_overwrites_no_file_of(job.scene, {options.report, options.checkpoint});
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);
     if (!options.shutter.empty()) {
