@@ -43,10 +43,12 @@ TEST_F(Outputs, ImagesAndBuffersOfTheSceneAreNotReplaced) {
     write_text(file("a b.exr"), "another");
     const std::string render = "render scene.gltf --method path --size 4x4 --spp 1 ";
     expect_failure(render, usage, "would replace 'scene.png'"); // the picture's name by default
-    for (const char* options : {"-o ./scene.png", "-o a.exr -o 'a b.exr'",
-                                "--json scene.png -o a.exr", "--checkpoint scene.png -o a.exr"}) {
+    for (const char* options :
+         {"-o ./scene.png", "-o a.exr -o 'a b.exr'", "--json scene.png -o a.exr"}) {
         expect_failure(render + options, usage, "would replace");
     }
+    // Whatever it is, it is no checkpoint.
+    expect_failure(render + "--checkpoint scene.png -o a.exr", failure, "something else");
     EXPECT_EQ(read_text(file("scene.png")), "a texture");
     EXPECT_EQ(read_text(file("a b.exr")), "another");
     EXPECT_EQ(argand(render + "-q -o c.png", on_host).exit_code, 0);

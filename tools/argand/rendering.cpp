@@ -340,7 +340,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.scene = load_scene(options.scene, options, seconds, options.load);
     job.times.load = seconds_since(start);
     check_overwrites_no_file_of(job.scene, options.outputs);
-    check_overwrites_no_file_of(job.scene, {options.report, options.checkpoint});
+    check_overwrites_no_file_of(job.scene, {options.report});
     job.settings.camera = find_camera(job.scene, options.camera);
     choose_method(job.settings, options, command, job.scene);
     if (!options.shutter.empty()) {
