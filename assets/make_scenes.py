@@ -595,10 +595,10 @@ def dynamic_camera():
 
 
 BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, cornell_mirror, ring, furnace, glossy,
-          varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground, forty_rooms, window_room,
-          glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only, shuffled_walls,
-          textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch, dynamic_block, dynamic_occluder,
-          dynamic_water, dynamic_camera)
+          varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground,
+          forty_rooms, window_room, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
+          shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,
+          dynamic_block, dynamic_occluder, dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)
 
 

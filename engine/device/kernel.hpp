@@ -67,12 +67,12 @@ struct KernelConstant {
     std::uint32_t id;
 };
 
-/// A module with less code, for those values of some specialization constants that have no bits but
-/// these. Drivers take long to compile what they then leave out.
+/// A module with less code, for values of specialization constants that are within its limits.
+/// Drivers take long to compile what they then leave out.
 struct LeanModule {
     struct Limit {
         std::uint32_t constant; ///< index among the kernel's constants
-        std::uint32_t bits;
+        std::uint32_t bits;     ///< which it may have
     };
     std::span<const std::uint32_t> spirv;
     std::span<const Limit> limits;

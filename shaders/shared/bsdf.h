@@ -170,7 +170,7 @@ FN LobeAlbedos lobe_albedos(IN(MaterialRecord) m, vec3 wo, bool front, uint lobe
     return a;
 }
 
-// Their sum over the masked lobes.
+// Sum of the masked lobes' albedos.
 FN vec3 sum_of_albedos(IN(LobeAlbedos) a, uint lobes) {
     vec3 sum = (lobes & LOBE_DIFFUSE) != 0u ? a.diffuse : vec3(real(0.0));
     sum += (lobes & LOBE_GLOSSY) != 0u ? a.glossy : vec3(real(0.0));

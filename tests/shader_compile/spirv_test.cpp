@@ -247,6 +247,23 @@ TEST_F(FinalSpirv, ConstantsAreFixedById) {
     EXPECT_EQ(fix_constants(source.spirv, {}), source.spirv);
 }
 
+TEST_F(ShaderCompile, ALeanModuleHasAPartOfTheBits) {
+    for (const char* defaults : {"uint kinds = 4u|uint kinds = 3u", "int kinds = 1|int kinds = 3",
+                                 "bool kinds = true|bool kinds = false"}) {
+        const std::string text = defaults;
+        const std::size_t bar = text.find('|');
+        const Outcome outcome = compile_body(
+            "layout(set = 0, binding = 0) writeonly buffer Out { float result[]; };\n"
+            "#ifdef ARGAND_LEAN\n"
+            "layout(constant_id = 3) const " +
+            text.substr(0, bar) + ";\n#else\nlayout(constant_id = 3) const " +
+            text.substr(bar + 1) + ";\n#endif\nvoid main() { result[0] = float(kinds); }\n");
+        EXPECT_NE(outcome.status, 0) << text;
+        EXPECT_NE(outcome.said.find("neither false nor a part of the bits"), std::string::npos)
+            << outcome.said;
+    }
+}
+
 TEST_F(ShaderCompile, WithoutAnotherDefaultThereIsNoLeanModule) {
     EXPECT_EQ(
         compile_body(kernel_of_kinds("layout(constant_id = 3) const uint kinds = 3u;")).status, 0);

@@ -9,6 +9,8 @@ namespace argand::shader_compile {
 
 using Spirv = std::vector<std::uint32_t>;
 
+inline constexpr std::size_t header_words = 5; ///< before the first instruction of a module
+
 struct Compiled {
     Spirv spirv; ///< SPIR-V 1.5 as glslang writes it: with names, not optimised
     Sources sources;

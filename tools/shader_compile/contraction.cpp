@@ -7,8 +7,6 @@
 namespace argand::shader_compile {
 namespace {
 
-constexpr std::size_t header_words = 5;
-
 bool is_float_arithmetic(spv::Op op) {
     switch (op) {
     case spv::OpFNegate:

@@ -5,8 +5,6 @@
 namespace argand::shader_compile {
 namespace {
 
-constexpr std::size_t header_words = 5;
-
 spv::Op fixed(spv::Op op) {
     switch (op) {
     case spv::OpSpecConstantTrue:

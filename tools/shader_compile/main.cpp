@@ -93,6 +93,13 @@ void run_group(const Options& options) {
     write_if_changed(header, emit_group(group));
 }
 
+/// Whether a constant has only a part of its default's bits: for a boolean one, whether it is
+/// false.
+bool has_part_of_bits(const Constant& part, const Constant& whole) {
+    return part.value == "false" || (part.type == "std::uint32_t" &&
+                                     (std::stoul(part.value) & ~std::stoul(whole.value)) == 0);
+}
+
 /// The kernel compiled with a macro that changes the defaults of some specialization constants to
 /// the bits that remain.
 Lean compile_with(const std::string& macro, const Options& options, const Kernel& kernel) {
@@ -102,12 +109,19 @@ Lean compile_with(const std::string& macro, const Options& options, const Kernel
     Lean result;
     std::set<std::uint32_t> fixed;
     for (std::size_t i = 0; i < constants.size(); ++i) {
+        const Constant& whole = kernel.interface.constants[i];
         const std::string& bits = constants[i].value;
-        if (bits != kernel.interface.constants[i].value) {
-            result.limits.push_back({i, bits});
-            if (bits == "false") {
-                fixed.insert(constants[i].id);
-            }
+        if (bits == whole.value) {
+            continue;
+        }
+        if (!has_part_of_bits(constants[i], whole)) {
+            fail("{}:1: error: with {} the default of {} is {}, which is neither false nor a part "
+                 "of the bits of {}",
+                 options.kernel, macro, whole.name, bits, whole.value);
+        }
+        result.limits.push_back({i, bits});
+        if (bits == "false") {
+            fixed.insert(constants[i].id);
         }
     }
     if (!result.limits.empty()) {
