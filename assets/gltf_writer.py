@@ -130,7 +130,7 @@ def sphere(radius, frequency):
 
 def revolved(profile, segments):
     """A closed profile of (radius, height, normal's radius, normal's height), counter-clockwise seen with the radius to
-    the right and the height up, rotated about the y axis; smooth."""
+    the right and the height up, rotated about the y axis; smooth. Triangles without area are left out."""
     positions, normals, triangles = [], [], []
     for s in range(segments):
         c, d = math.cos(2 * math.pi * s / segments), math.sin(2 * math.pi * s / segments)
@@ -142,8 +142,19 @@ def revolved(profile, segments):
         here, there = s * m, (s + 1) % segments * m
         for p in range(m):
             q = (p + 1) % m
-            triangles += [(here + p, here + q, there + q), (here + p, there + q, there + p)]
+            triangles += [corners for corners in ((here + p, here + q, there + q), (here + p, there + q, there + p))
+                          if len({positions[c] for c in corners}) == 3]
     return Mesh(positions, triangles, normals)
+
+
+def lathed(corners, segments):
+    """A body of revolution about the y axis with sharp edges. Its profile goes through (radius, height), from one point
+    of the axis to another, with the body to the left."""
+    profile = []
+    for (r0, h0), (r1, h1) in zip(corners, corners[1:]):
+        nr, nh, _ = unit((h1 - h0, r0 - r1, 0))
+        profile += [(r0, h0, nr, nh), (r1, h1, nr, nh)]
+    return revolved(profile, segments)
 
 
 def crossing_quads(width, height, count):

@@ -11,7 +11,7 @@ import pathlib
 import sys
 
 from gltf_writer import (Mesh, Scene, add, blended, box, cross, crossing_quads, cut_out, emitter, frosted_pane, glass,
-                         lambertian, layered, metal, phong, quad, revolved, rotation_towards, scaled, sphere,
+                         lambertian, lathed, layered, metal, phong, quad, revolved, rotation_towards, scaled, sphere,
                          textured_quad, tinted, unit)
 
 WHITE, RED, GREEN, WOOD = (0.725, 0.71, 0.68), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091), (0.63, 0.3, 0.1)
@@ -245,6 +245,22 @@ def tinted_glass():
     scene.add("thin amber", resting_sphere(0.12, -0.05, 0.7), amber)
     scene.add("blue block", box((-0.3, SUNK, -0.3), (0.3, 1.1, 0.3)).turned(25).moved((-0.4, 0, -0.3)),
               tinted(glass(0.6), (0.25, 0.5, 0.95), 0.4))
+    return scene
+
+
+def drink():
+    """A tumbler with tea that reaches into its walls, and an ice cube that swims in it: solids in one another."""
+    scene = cornell(light=True)
+    outer, inner, base, top, level = 0.42, 0.36, 0.1, 1.1, 0.8
+    within = (inner + outer) / 2  # how far the tea reaches
+    place = (0.15, -SUNK, 0.2)
+    tumbler = lathed([(0, 0), (outer, 0), (outer, top), (inner, top), (inner, base), (0, base)], 64)
+    tea = lathed([(0, base / 2), (within, base / 2), (within, level), (0, level)], 64)
+    scene.add("tumbler", tumbler.moved(place), glass(0.06))
+    scene.add("tea", tea.moved(place), tinted(glass(0.7, ior=1.33), (0.9, 0.5, 0.15), 0.4))
+    scene.add("ice", box((-0.15, 0.62, -0.15), (0.15, 0.92, 0.15)).turned(30).moved(place), glass(0.3, ior=1.31))
+    scene.add("cherry", sphere(0.12, 8).moved((0.3, 0.3, 0.25)), lambertian(RED))
+    scene.add("tall box", tall_box().moved((-0.2, 0, -0.15)), lambertian(WHITE))
     return scene
 
 
@@ -594,7 +610,7 @@ def dynamic_camera():
     return scene
 
 
-BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, cornell_mirror, ring, furnace, glossy,
+BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, drink, cornell_mirror, ring, furnace, glossy,
           varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground,
           forty_rooms, window_room, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
           shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,

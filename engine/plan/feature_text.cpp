@@ -35,6 +35,9 @@ FeatureText text_of(Feature feature) {
         return {"rough_glass", "rough transmission", ""};
     case Feature::absorption:
         return {"absorption", "absorption inside solids", ""};
+    case Feature::nested_solids:
+        return {"nested_solids", "solids that may overlap",
+                "every interface reads the material of the solid around it"};
     case Feature::coat:
         return {"coat", "coats", ""};
     case Feature::rough_coat:

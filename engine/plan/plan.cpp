@@ -30,6 +30,7 @@ constexpr Bit material_bits[] = {{Feature::diffuse, LOBE_DIFFUSE},
                                  {Feature::refraction, LOBE_TRANSMIT | MATERIAL_SOLID},
                                  {Feature::rough_glass, LOBE_CLEAR},
                                  {Feature::absorption, MATERIAL_ABSORPTION},
+                                 {Feature::nested_solids, MATERIAL_NESTED},
                                  {Feature::coat, MATERIAL_COAT},
                                  {Feature::rough_coat, LOBE_COAT | MATERIAL_COAT},
                                  {Feature::coat_normal, MATERIAL_COAT_NORMAL},
@@ -150,6 +151,13 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
         }
     }
     requirements.add(Feature::vertex_colors, "the vertices", !scene.colors.empty());
+    if (use.overlapping) {
+        const auto [a, b] = *use.overlapping;
+        const std::string by = named("material", scene.materials[a].name, a) + " beside " +
+                               named("material", scene.materials[b].name, b);
+        requirements.add(Feature::nested_solids, by);
+        requirements.add(Feature::alpha, by); // paths go on behind surfaces that are not there
+    }
     if (use.smoothed) {
         requirements.add(Feature::smooth_normals,
                          "surface of " +

@@ -18,10 +18,11 @@ enum class Feature : std::uint8_t {
     phong, ///< glossy reflection by modified Phong
     mirror,
     transmission,
-    refraction,  ///< at the interface of a solid
-    rough_glass, ///< transmission and refraction by rough surfaces
-    absorption,  ///< inside a solid
-    coat,        ///< of varnish
+    refraction,    ///< at the interface of a solid
+    rough_glass,   ///< transmission and refraction by rough surfaces
+    absorption,    ///< inside a solid
+    nested_solids, ///< solids that may overlap
+    coat,          ///< of varnish
     rough_coat,
     coat_normal, ///< coats with normals of their own
     sheen,

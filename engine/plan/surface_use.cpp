@@ -1,5 +1,7 @@
 #include "plan/surface_use.hpp"
 
+#include "scene/solids.hpp"
+
 #include <algorithm>
 
 namespace argand {
@@ -40,6 +42,7 @@ SurfaceUse surface_use(const Scene& scene) {
             use.smoothed = material;
         }
     }
+    use.overlapping = overlapping_solids(scene);
     return use;
 }
 

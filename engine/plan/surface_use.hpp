@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace argand {
@@ -14,6 +15,8 @@ struct SurfaceUse {
     std::vector<std::uint32_t> materials;  ///< used ones, in the order of their first triangles
     std::vector<std::size_t> triangles;    ///< of each material
     std::optional<std::uint32_t> smoothed; ///< of the first triangle that has vertex normals
+    /// Two solids that overlap, or may do so as the scene moves.
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping;
 };
 
 SurfaceUse surface_use(const Scene& scene);

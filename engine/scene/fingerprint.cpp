@@ -36,7 +36,7 @@ std::uint64_t fingerprint(const Scene& scene, std::uint64_t before) {
 std::uint64_t picture_fingerprint(const Scene& scene, std::size_t camera) {
     std::uint64_t hash = fingerprint(scene);
     for (const Material& material : scene.materials) {
-        hash = with(hash, material_record(material));
+        hash = with(with(hash, material_record(material)), material.priority);
     }
     for (const Texture& texture : scene.textures) {
         const TextureImage& image = *scene.images[texture.image];

@@ -12,9 +12,12 @@
 #include "scene/gltf_uri.hpp"
 #include "scene/moving_factors.hpp"
 #include "scene/pose.hpp"
+#include "scene/solids.hpp"
 #include "scene/studio.hpp"
+#include "shared/solids.h"
 #include "shared/texture_record.h"
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace argand {
@@ -97,6 +100,11 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     add_lights(source, nodes, std::move(keys.lights), scene);
     add_cameras(source, nodes, std::move(keys.cameras), scene);
     add_meshes(source, nodes, scene);
+    if (const std::size_t solids = solid_ranks(scene).materials.size(); solids > most_ranked_solids) {
+        add_note(scene, fmt::format("{} materials bound solids; paths know of {} whether they are "
+                                    "inside, those of the least priority and the largest volume",
+                                    solids, most_ranked_solids));
+    }
     end_step("meshes");
     add_missing_light(scene);
     forget_what_rests(scene);

@@ -196,6 +196,16 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     material.phong = Phong{glm::vec3(specular), static_cast<float>(exponent)};
 }
 
+/// "extras": {"priority": number}, for solids that overlap.
+void read_priority(const FactorReader& read, const json* object, Material& material) {
+    const double priority = number_of(read.source, find_member(object, "extras"), "priority", 0,
+                                      read.what + "'s \"extras\"");
+    if (!(std::abs(priority) <= unlimited)) {
+        read.source.fail("{} has a priority of {}, which is out of range", read.what, priority);
+    }
+    material.priority = static_cast<float>(priority);
+}
+
 /// What textures may change of a material, now or at another time.
 struct TextureNeeds {
     bool emission, specular, transmission, thickness, coat, film, sheen, anisotropy;
@@ -334,6 +344,9 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         material.double_sided = from.doubleSided;
         set_factors(factors, material);
         read_phong(read, object, material);
+        if (material.thickness > 0) {
+            read_priority(read, object, material);
+        }
         const TextureNeeds needs = needs_of(factors, keys[i]);
         read_textures(textures, read, object, needs, material);
         if (needs.anisotropy) {

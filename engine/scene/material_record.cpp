@@ -44,7 +44,7 @@ MaterialRecord material_record(const Material& m) {
                           0,
                           0,
                           m.coat_has_normal ? 1.0f : 0.0f,
-                          0};
+                          0}; // solids: World sets them
     if (m.alpha_varies && m.alpha_mode == AlphaMode::blend) {
         record.textures |= material_alpha_blend;
     } else if (m.alpha_varies && m.alpha_mode == AlphaMode::mask && m.coverage > 0) {

@@ -43,6 +43,7 @@ struct Material {
     float coat_roughness = 0;
     bool coat_has_normal = false; ///< of its own, as a texture turns the surface's or the coat's
     float dispersion = 0;         ///< KHR_materials_dispersion: of a solid, 20 over Abbe's number
+    float priority = 0;           ///< of a solid: where solids overlap, the greatest one is there
     float film = 0; ///< KHR_materials_iridescence: share of the surface with a thin film
     float film_ior = 1.3f;
     float film_thickness = 0.4f; ///< [micrometres]

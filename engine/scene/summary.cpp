@@ -40,6 +40,7 @@ json material_json(const Material& material, std::size_t triangles, double area)
             {"coat_roughness", material.coat_roughness},
             {"coat_has_normal", material.coat_has_normal},
             {"dispersion", material.dispersion},
+            {"priority", material.priority},
             {"sheen_color", numbers(material.sheen_color)},
             {"sheen_roughness", material.sheen_roughness},
             {"anisotropy", glm::length(material.anisotropy)},
@@ -204,12 +205,15 @@ std::string quoted_name(const json& object) {
     return name.empty() ? "(no name)" : name;
 }
 
-/// What lies over metal and dielectric, and how a solid disperses.
+/// What lies over metal and dielectric, how a solid disperses, and its priority.
 std::string layers_text(const json& material) {
     const auto value = [&](const char* key) { return material[key].get<double>(); };
     std::string text;
     if (value("dispersion") > 0 && value("transmission") > 0 && value("thickness") > 0) {
         text += fmt::format(", dispersion {:.4g}", value("dispersion"));
+    }
+    if (value("priority") != 0 && value("thickness") > 0) {
+        text += fmt::format(", priority {:.4g}", value("priority"));
     }
     if (value("anisotropy") > 0) {
         text += fmt::format(", anisotropy {:.4g}", value("anisotropy"));

@@ -1,8 +1,10 @@
 #include "world/world.hpp"
 
 #include "base/same_bits.hpp"
+#include "scene/solids.hpp"
 #include "scene/texture_range.hpp"
 #include "shared/bsdf.h"
+#include "shared/solids.h"
 #include "shared/texture_record.h"
 #include "world/connected_triangles.hpp"
 
@@ -42,7 +44,7 @@ std::vector<glm::uvec4> triangle_records(const Scene& scene, std::size_t first, 
     return triangles;
 }
 
-std::vector<MaterialRecord> material_records(const Scene& scene) {
+std::vector<MaterialRecord> material_records(const Scene& scene, const SolidRanks& solids) {
     std::vector<MaterialRecord> materials;
     materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
@@ -54,6 +56,13 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
             (lobes_anywhere(scene, material, lobes) & (LOBE_DIFFUSE | LOBE_GLOSSY)) != 0) {
             materials.back().textures |= material_stores_everywhere;
         }
+    }
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        materials[i].solids =
+            solids.of_material[i] <= most_ranked_solids ? solids.of_material[i] : 0;
+    }
+    for (std::size_t rank = 0; rank < solids.materials.size(); ++rank) {
+        materials[rank].solids |= solids.materials[rank] << solid_of_rank_shift;
     }
     return materials;
 }
@@ -105,7 +114,8 @@ World::World(Device& device, const Scene& scene, const TracerSettings& tracer)
     stage.emplace(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
-    uploaded_materials_ = material_records(scene);
+    solids_ = solid_ranks(scene);
+    uploaded_materials_ = material_records(scene, solids_);
     materials_ = upload(device, "materials", uploaded_materials_);
     last_moved_.resize(scene.motion.meshes.size());
     mirrored_.reserve(scene.motion.meshes.size());
@@ -188,7 +198,7 @@ const std::vector<std::uint32_t>& World::shining(const Scene& scene) {
 }
 
 void World::upload_changed_materials(const Scene& scene, WorldUpdate& update) {
-    const std::vector<MaterialRecord> records = material_records(scene);
+    const std::vector<MaterialRecord> records = material_records(scene, solids_);
     for (std::size_t i = 0; i < records.size(); ++i) {
         if (have_same_bits(records[i], uploaded_materials_[i])) {
             continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plan/surface_use.hpp"
+#include "scene/solids.hpp"
 #include "shared/material_record.h"
 #include "world/device_scene.hpp"
 #include "world/moving_meshes.hpp"
@@ -98,6 +99,7 @@ private:
     MovingMeshes meshes_;
     Bounds box_at_rest_;         ///< of what does not move
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
+    SolidRanks solids_; // they keep their ranks as the scene moves
     std::vector<MaterialRecord> uploaded_materials_;
 
     std::vector<std::uint32_t> shining_;            ///< triangles that emit light

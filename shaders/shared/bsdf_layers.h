@@ -25,7 +25,7 @@ CONSTANT uint LOBES_ALL = 63u;
 
 // Further features of a scene's materials: alpha, GGX lobes, Phong lobes, solids that refract,
 // those that absorb, unlit surfaces, coats, thin films, solids that refract colours differently,
-// sheen, anisotropic GGX lobes, coats with a normal of their own.
+// sheen, anisotropic GGX lobes, coats with a normal of their own, solids that may overlap.
 CONSTANT uint MATERIAL_ALPHA = 64u;
 CONSTANT uint MATERIAL_GGX = 128u;
 CONSTANT uint MATERIAL_PHONG = 256u;
@@ -38,10 +38,11 @@ CONSTANT uint MATERIAL_DISPERSION = 16384u;
 CONSTANT uint MATERIAL_SHEEN = 32768u;
 CONSTANT uint MATERIAL_ANISOTROPY = 65536u;
 CONSTANT uint MATERIAL_COAT_NORMAL = 131072u;
-CONSTANT uint MATERIAL_ALL = 262143u;
-// All but rough glass, coats, films, dispersion, sheen and anisotropy. Few scenes have these, and
-// they double the size of kernels. A kernel for scenes without them is compiled apart, with
-// ARGAND_LEAN.
+CONSTANT uint MATERIAL_NESTED = 262144u;
+CONSTANT uint MATERIAL_ALL = 524287u;
+// All but rough glass, coats, films, dispersion, sheen, anisotropy and solids that overlap. Few
+// scenes have these, and they double the size of kernels. A kernel for scenes without them is
+// compiled apart, with ARGAND_LEAN.
 CONSTANT uint MATERIAL_LEAN = 4047u;
 // Diffuse and glossy surfaces, mirrors, and glass that absorbs nothing. A kernel for scenes that
 // have only these, and no textures, is compiled with ARGAND_PLAIN.

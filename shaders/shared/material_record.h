@@ -38,7 +38,9 @@ struct MaterialRecord {
     // texture; else (0,0,0). In the frame of the tangents, with z > 0; kernels turn it into the
     // shading frame (kernels/coat.h).
     float32 coat_normal_x, coat_normal_y, coat_normal_z;
-    float32 pad0;
+    // Of solids: the low 5 bits are 1 more than the rank; 0: it has none. The other bits, of every
+    // record: the index of the material whose rank is this record's index (solids.h).
+    uint solids;
 };
 
 ARGAND_SHARED_END

@@ -38,6 +38,7 @@ const std::vector<Expected> scenes = {
     {"spot.glb", 34, 7, 0, 1},
     {"cutouts.glb", 26, 8, 0, 1},
     {"tinted_glass.glb", 5790, 12, 1, 0},
+    {"drink.glb", 2090, 14, 1, 0},
     {"varnish.glb", 8030, 14, 1, 0},
     {"sky_room.glb", 34, 7, 0, 0},
     {"courtyard.glb", 92, 6, 0, 1},

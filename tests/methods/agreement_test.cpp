@@ -118,6 +118,22 @@ TEST_F(Agreement, SlowCutoutsTintedGlassAndVarnish) {
     expect_same_means(load_asset("varnish.glb"), 16, 1024, {{"direct", 0.03}, {"indirect", 0.05}});
 }
 
+TEST_F(Agreement, SlowLayersOfScenesOfOtherMaterials) {
+    // Tolerances are some three times what two pictures by the path tracer differ by. The lamp of
+    // `textures` shines by its texels, and few pixels see it.
+    expect_same_means(load_asset("textures.glb"), 16, 1024, {{"direct", 0.05}, {"indirect", 0.05}});
+    expect_same_means(load_asset("frosted_glass.glb"), 16, 1024,
+                      {{"direct", 0.02}, {"indirect", 0.05}, {"caustic", 0.2}});
+    expect_same_means(load_asset("veil.glb"), 16, 1024, {{"direct", 0.02}, {"indirect", 0.05}});
+    expect_same_means(load_asset("glossy.glb"), 16, 1024, {{"direct", 0.02}, {"indirect", 0.05}});
+    expect_same_means(load_asset("bulb.glb"), 16, 1024,
+                      {{"direct", 0.03}, {"indirect", 0.05}, {"caustic", 0.1}});
+    expect_same_means(load_asset("drink.glb"), 16, 4096,
+                      {{"direct", 0.03}, {"indirect", 0.1}, {"caustic", 0.25}});
+    // Paths cannot hit its light by way of the ring.
+    expect_same_means(load_asset("ring.glb"), 16, 64, {{"direct", 0.01}});
+}
+
 TEST_F(Agreement, SlowCornellBoxes) {
     // The path tracer is noisy where light arrives by way of glass or a mirror.
     const std::pair<const char*, std::uint32_t> scenes[] = {{"cornell_point.glb", 256},

@@ -28,6 +28,42 @@ TEST_P(Textured, ReflectsTheTexelsColour) {
     }
 }
 
+// A globe, whose image has a texel for every 45 degrees of longitude and latitude. The light comes
+// from the eye.
+TEST_P(Textured, SphereReflectsTheTexelsColour) {
+    Scene scene;
+    add_sphere(scene, glm::vec3(0), 1, 96, true, add_material(scene, lambertian(glm::vec3(1))));
+    const int columns = 8, rows = 4;
+    std::vector<std::uint32_t> texels;
+    for (int i = 0; i < columns * rows; ++i) {
+        texels.push_back(texel(8 * i, 255 - 7 * i, (37 * i) % 256));
+    }
+    add_texture(scene, 0, material_base_color_texture, columns, texels, true);
+    for (const glm::vec3& p : scene.positions) {
+        scene.uvs.emplace_back(0.5f + std::atan2(p.z, p.x) / (2 * pi),
+                               std::acos(std::clamp(p.y, -1.0f, 1.0f)) / pi);
+    }
+    RenderSettings settings = settings_of(GetParam(), 4, 1);
+    settings.photons = 1000;
+    const glm::vec3 to_eye = glm::normalize(glm::vec3(1, 0.5f, 0.3f));
+    scene.lights = {directional_light(-to_eye, glm::vec3(float(pi)))};
+    for (int i = 0; i < columns * rows; ++i) {
+        const float longitude = (float(i % columns) + 0.4f) / columns * 2 * pi - pi;
+        const float polar = (float(i / columns) + 0.6f) / rows * pi;
+        const glm::vec3 at(std::sin(polar) * std::cos(longitude), std::cos(polar),
+                           std::sin(polar) * std::sin(longitude));
+        const double cosine = glm::dot(at, to_eye);
+        if (cosine < 0.2) {
+            continue; // behind, or where the facets' edges matter
+        }
+        const glm::dvec3 l = radiance(scene, settings, at + 3.0f * to_eye, at, "direct");
+        const auto color = std::bit_cast<glm::u8vec4>(texels[std::size_t(i)]);
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(l[channel], linear(color[channel]) * cosine, 2e-3) << i << ", " << channel;
+        }
+    }
+}
+
 TEST_P(Textured, ReflectsTheVerticesColour) {
     Scene scene = floor_scene(lambertian(glm::vec3(0.5f, 1, 1)), 1);
     for (const glm::vec3& p : scene.positions) { // 0 at x = -1, half at x = 1

@@ -107,6 +107,16 @@ TEST(Plan, EachMaterialAddsItsFeatures) {
         const auto found = added(room, with_quad(room, amber));
         EXPECT_EQ(std::count(found.begin(), found.end(), Feature::absorption), solid ? 1 : 0);
     }
+    Scene solids = room;
+    add_box(solids, glm::vec3(0), glm::vec3(0.5f), add_material(solids, glass(1.5f, true)), false);
+    for (const float gap : {0.1f, -0.1f}) {
+        Scene more = solids;
+        add_box(more, glm::vec3(0.5f + gap), glm::vec3(0.9f), add_material(more, glass(1.3f, true)),
+                false);
+        const auto found = added(solids, more);
+        EXPECT_EQ(std::count(found.begin(), found.end(), Feature::nested_solids), gap < 0 ? 1 : 0);
+        EXPECT_EQ(std::count(found.begin(), found.end(), Feature::alpha), gap < 0 ? 1 : 0);
+    }
     for (const float share : {0.0f, 1.0f}) {
         Material soap = mirror();
         soap.film = share;

@@ -283,6 +283,21 @@ TEST(GltfMaterial, AnisotropyIsStrengthAlongARotatedTangent) {
                 ::testing::HasSubstr("\"anisotropyRotation\" that is not a number"));
 }
 
+TEST(GltfMaterial, SolidsHaveAPriority) {
+    const auto solid = [](const json& extras, double thickness = 1) {
+        json material = extension("KHR_materials_volume", {{"thicknessFactor", thickness}});
+        material["extras"] = extras;
+        return with_material(material);
+    };
+    EXPECT_EQ(solid(json::object()).load().materials[0].priority, 0);
+    EXPECT_EQ(solid({{"priority", -2.5}}).load().materials[0].priority, -2.5f);
+    EXPECT_THAT(solid({{"priority", "high"}}).problem(),
+                ::testing::HasSubstr("\"priority\" that is not a number"));
+    EXPECT_THAT(solid({{"priority", 1e300}}).problem(), ::testing::HasSubstr("out of range"));
+    // Of other materials it is none of Argand's business.
+    EXPECT_EQ(solid({{"priority", "high"}}, 0).load().materials[0].priority, 0);
+}
+
 TEST(GltfMaterial, VolumesAbsorb) {
     const auto absorption = [](const json& volume) {
         return with_material(extension("KHR_materials_volume", volume))

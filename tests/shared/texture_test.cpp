@@ -70,15 +70,18 @@ TEST(Texture, InterpolatesTheEndlessImage) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> anywhere(-3, 4);
     for (const auto& [width, height] :
-         {std::pair{1u, 1u}, {2u, 1u}, {3u, 5u}, {7u, 2u}, {64u, 64u}}) {
+         {std::pair{1u, 1u}, {2u, 1u}, {3u, 5u}, {7u, 2u}, {64u, 64u}, {1u, 4096u}, {4096u, 1u}}) {
         for (const std::uint32_t wrap_u : wraps) {
             for (const std::uint32_t wrap_v : wraps) {
                 const TextureRecord t = texture(width, height, wrap_u | wrap_v << texture_wrap_v);
                 for (int i = 0; i < 500; ++i) {
                     const float u = anywhere(random);
                     const float v = anywhere(random);
-                    // A coordinate near 4 has 2^-22 of rounding, times the texels of a row.
-                    EXPECT_NEAR(found(t, u, v), expected(t, double(u), double(v)), 2e-6 * 64)
+                    // Places in the image are rounded to 2^-24 of them, and neighbouring texels
+                    // differ by up to 2.
+                    const double place = std::abs(double(u)) * width + std::abs(double(v)) * height;
+                    EXPECT_NEAR(found(t, u, v), expected(t, double(u), double(v)),
+                                4 * std::ldexp(place, -24) + 2e-6)
                         << width << "x" << height << ", " << wrap_u << wrap_v << ": " << u << ", "
                         << v;
                 }

@@ -1,41 +1,70 @@
-// Absorption inside solids. A ray carries the solid that it is in, so that light is absorbed on its
-// way to what lies inside as well: 1 more than the index of its material, or 0 for none. Rays of
-// paths have no end: RayRecord::t_max has room for this, just below far_away or, where they go on
-// behind their last hit, just above goes_on.
+// The solids that a path is in: light is absorbed on its way through them, and refracted by the
+// index of refraction on either side of an interface. A ray carries them as a set (solids.h). Rays
+// of paths have no end: RayRecord::t_max has room for the set, just below far_away or, where they
+// go on behind their last hit, just above goes_on.
 //
-// A ray that leaves a solid is taken to be in none, and one that meets a surface from inside while
-// it is in none, to have been in that solid. So it is right for solids apart from each other, and
-// for one within another.
+// Paths start in no solid, as far as they know. One that meets a solid's surface from inside has
+// been in it. So a camera or a lamp inside a solid is right up to the first surface of another one.
 
-FN real unbounded_in(uint medium) { return bits_float(float_bits(far_away) - medium); }
-FN real goes_on_in(uint medium) { return bits_float(float_bits(goes_on) + medium); }
-FN uint medium_of(float32 t_max) {
+#include "shared/solids.h"
+
+FN real unbounded_in(uint solids) { return bits_float(float_bits(far_away) - solids); }
+FN real goes_on_in(uint solids) { return bits_float(float_bits(goes_on) + solids); }
+FN uint solids_of(float32 t_max) {
     return t_max > far_away ? float_bits(t_max) - float_bits(goes_on)
                             : float_bits(far_away) - float_bits(t_max);
 }
 
-// The solid in which a ray reached a surface. known: medium_of its ray; material: the surface's.
-FN uint medium_before(uint known, uint material, IN(MaterialRecord) m, bool front) {
-    if (!may_have(m, MATERIAL_ABSORPTION)) {
+// The solids in which a ray reached a surface. known: solids_of its ray.
+FN uint solids_on_way(uint known, IN(MaterialRecord) m, bool front) {
+    if (!may_have(m, MATERIAL_ABSORPTION | MATERIAL_NESTED)) {
         return 0u;
     }
-    return known == 0u && !front && is_solid(m) ? material + 1u : known;
+    return is_solid(m) ? solids_before(known, solid_bit(m), front) : known;
 }
 
-// The solid in which a path goes on. before: the one in which it came; passes: to the other side.
-FN uint medium_after(uint before, uint material, IN(MaterialRecord) m, bool front, bool passes) {
-    if (!may_have(m, MATERIAL_ABSORPTION) || !passes || !is_solid(m)) {
+// The solids in which a path goes on. before: those in which it came; passes: to the other side.
+FN uint solids_after(uint before, IN(MaterialRecord) m, bool front, bool passes) {
+    if (!may_have(m, MATERIAL_ABSORPTION | MATERIAL_NESTED) || !passes || !is_solid(m)) {
         return before;
     }
-    return front ? material + 1u : 0u;
+    return solids_behind(before, solid_bit(m), front);
 }
 
-// Part of the light that a solid lets through over a distance (Beer and Lambert).
-FN vec3 transmittance(uint medium, real distance) {
-    if (medium == 0u) {
-        return vec3(real(1.0));
+// Whether the surface is not there, as it lies inside a solid of higher rank.
+FN bool is_hidden(uint before, IN(MaterialRecord) m) {
+    return may_have(m, MATERIAL_NESTED) && is_solid(m) && is_in_higher_solid(before, solid_bit(m));
+}
+
+// Refers the solid's index of refraction to what lies around it.
+FN void refer_index(uint before, INOUT(MaterialRecord) m) {
+    if (!may_have(m, MATERIAL_NESTED) || !is_solid(m)) {
+        return;
     }
-    MaterialRecord m = materials[medium - 1u];
+    uint around = before & ~solid_bit(m);
+    if (around != 0u) {
+        uint other = materials[highest_solid(around)].solids >> solid_of_rank_shift;
+        m.ior = float32(relative_ior(real(m.ior), real(materials[other].ior)));
+    }
+}
+
+// Part of the light that is left after a distance in a solid (Beer and Lambert).
+FN vec3 transmittance_of(IN(MaterialRecord) m, real distance) {
     return vec3(exp_negative(-m.absorption_r * distance), exp_negative(-m.absorption_g * distance),
                 exp_negative(-m.absorption_b * distance));
+}
+
+// The same in a set of solids.
+FN vec3 transmittance(uint solids, real distance) {
+    if (solids == 0u) {
+        return vec3(real(1.0));
+    }
+    uint solid = materials[highest_solid(solids)].solids >> solid_of_rank_shift;
+    return transmittance_of(materials[solid], distance);
+}
+
+// The same on the way to a surface. before: solids_on_way.
+FN vec3 transmittance_to(uint before, IN(MaterialRecord) m, bool front, real distance) {
+    bool inside_unranked = !front && is_solid(m) && solid_bit(m) == 0u;
+    return inside_unranked ? transmittance_of(m, distance) : transmittance(before, distance);
 }

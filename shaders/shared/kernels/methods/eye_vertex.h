@@ -25,7 +25,8 @@ struct Vertex {
     uint triangle;
     uint cone; // of the ray
     real distance;
-    uint medium; // in which the ray came (kernels/medium.h)
+    uint solids; // in which the ray came (kernels/medium.h)
+    bool hidden; // inside a solid of higher rank
     Surface surface;
     MaterialRecord material;
     Frame frame; // of the shading normal
@@ -309,9 +310,8 @@ FN vec3 light_by_spread_lobe(IN(Vertex) v, IN(SeenLight) l, uint lobe) {
     }
     vec3 arriving = v.throughput * l.s.radiance * (abs(l.wi.z) / l.choice.probability);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
-        arriving *= transmittance(
-            medium_after(v.medium, triangles[v.triangle].w, v.material, v.surface.front, passes),
-            l.s.distance);
+        arriving *= transmittance(solids_after(v.solids, v.material, v.surface.front, passes),
+                                  l.s.distance);
     }
     return arriving * f * weight;
 }
@@ -328,7 +328,7 @@ FN vec3 light_by_lobes(IN(Vertex) v, IN(SeenLight) l, uint lobes, bool weighs) {
                : real(1.0);
     vec3 arriving = v.throughput * l.s.radiance * (l.wi.z / l.choice.probability);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
-        arriving *= transmittance(v.medium, l.s.distance);
+        arriving *= transmittance(v.solids, l.s.distance);
     }
     return arriving * weight * f;
 }
@@ -494,7 +494,7 @@ CONSTANT real least_passing = real(0.125);
 FN void pass_surface(IN(Vertex) v, real u) {
     PathRecord path = v.path;
     path.vertices += 1u;
-    if (is_culled(v)) {
+    if (is_culled(v) || v.hidden) {
         path.pdf = real(0.0); // shadow rays do not find what is behind it
     }
     // Solids absorb on the whole way, once its end is known.
@@ -503,7 +503,11 @@ FN void pass_surface(IN(Vertex) v, real u) {
     real refracted = scale_by_refraction(path, v.material, real(1.0));
     real survival = min(max_component(throughput) / (refracted * least_passing), real(1.0));
     if (u < survival) {
-        rays[v.slot].t_max = goes_on_in(medium_of(rays[v.slot].t_max));
+        uint solids = solids_of(rays[v.slot].t_max);
+        if (v.hidden) {
+            solids = solids_behind(v.solids, solid_bit(v.material), v.surface.front);
+        }
+        rays[v.slot].t_max = goes_on_in(solids);
         leave_path(v, path, throughput / survival);
     }
 }
@@ -553,9 +557,9 @@ FN void continue_path(INOUT(Vertex) v) {
     if (!(max_component(throughput) > real(0.0))) {
         return;
     }
-    rays[v.slot] = make_ray(v.surface, wi,
-                            unbounded_in(medium_after(v.medium, triangles[v.triangle].w, v.material,
-                                                      v.surface.front, s.wi.z < real(0.0))));
+    rays[v.slot] = make_ray(
+        v.surface, wi,
+        unbounded_in(solids_after(v.solids, v.material, v.surface.front, s.wi.z < real(0.0))));
     if (mip_maps) {
         rays[v.slot].cone = pack_cone(
             cone_width(v.cone, v.distance),
@@ -601,12 +605,12 @@ FN void main() {
     v.surface = load_surface(hit, v.direction);
     v.cone = rays[v.slot].cone;
     v.material = material_at(triangles[hit.triangle], hit, v.cone, v.direction);
-    v.medium = medium_before(medium_of(rays[v.slot].t_max), triangles[hit.triangle].w, v.material,
-                             v.surface.front);
+    v.solids = solids_on_way(solids_of(rays[v.slot].t_max), v.material, v.surface.front);
     if (may_have(v.material, MATERIAL_ABSORPTION)) {
-        v.throughput *= transmittance(v.medium, hit.t);
+        v.throughput *= transmittance_to(v.solids, v.material, v.surface.front, hit.t);
     }
-    if (is_culled(v)) {
+    v.hidden = is_hidden(v.solids, v.material);
+    if (is_culled(v) || v.hidden) {
         v.material.coverage = float32(0.0);
     }
     turn_normal(v.material.textures, hit, v.direction, v.surface);
@@ -623,6 +627,7 @@ FN void main() {
                              vertices_of(v.path));
             disperse(v.material, v.throughput, w.x);
         }
+        refer_index(v.solids, v.material);
         split_lobes(hit, v);
         if (direct_light && scene[0].light_count > 0u &&
             ((v.estimated | v.followed) & (LOBE_DIFFUSE | LOBE_GLOSSY | LOBES_SPREAD)) != 0u) {

@@ -30,8 +30,9 @@ struct Arrival {
     vec3 flux;
     real shading; // cosine with the shading normal over that with the geometric one
     uint depth;   // number of scatterings so far
-    real carried; // largest component of the flux before the solid on its way absorbed some
-    uint medium;  // that solid (kernels/medium.h)
+    real carried; // largest component of the flux before a solid on its way absorbed some
+    uint solids;  // in which it came (kernels/medium.h)
+    bool hidden;  // inside a solid of higher rank
 };
 
 FN Arrival arrive(HitRecord hit, vec3 direction, MaterialRecord m, PhotonPathRecord path) {
@@ -52,7 +53,8 @@ FN Arrival arrive(HitRecord hit, vec3 direction, MaterialRecord m, PhotonPathRec
     }
     a.depth = path.state & photon_depth_mask;
     a.carried = max_component(a.flux);
-    a.medium = 0u;
+    a.solids = 0u;
+    a.hidden = false;
     return a;
 }
 
@@ -228,10 +230,8 @@ FN void absorb(uint slot, INOUT(Arrival) a, IN(MaterialRecord) m) {
     if (!has(MATERIAL_ABSORPTION)) {
         return;
     }
-    a.medium =
-        medium_before(medium_of(rays[slot].t_max), triangles[a.hit.triangle].w, m, a.surface.front);
     vec3 flux = a.flux;
-    a.flux = flux * transmittance(a.medium, a.hit.t);
+    a.flux = flux * transmittance_to(a.solids, m, a.surface.front, a.hit.t);
     ledgers[slot].absorbed += units_of(flux) - units_of(a.flux);
 }
 
@@ -289,11 +289,11 @@ FN vec4 scattering_random(uint slot, uint depth) {
 }
 
 // Writes the ray and the state with which a photon continues. flags: of the state.
-FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint cone, uint medium,
+FN void continue_path(uint slot, Arrival a, vec3 direction, vec3 flux, uint cone, uint solids,
                       uint flags) {
     vec3 origin = offset_ray_origin(a.surface.position, a.surface.error, a.surface.geometric_normal,
                                     direction);
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, unbounded_in(medium), direction.x,
+    rays[slot] = RayRecord(origin.x, origin.y, origin.z, unbounded_in(solids), direction.x,
                            direction.y, direction.z, cone);
     paths[slot] = PhotonPathRecord(flux.x, flux.y, flux.z, (a.depth + 1u) | flags);
 }
@@ -310,8 +310,8 @@ FN real pass_probability(Arrival a, MaterialRecord m) {
 
 // Lets a photon go straight on. That is no scattering: it stays what it was, and so does its
 // differential, which will be transferred from where its ray began. u: in [0,1).
-FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability, real u) {
-    real kept = share / probability;
+FN void pass_surface(uint i, uint slot, Arrival a, IN(MaterialRecord) m, real probability, real u) {
+    real kept = pass_share(m) / probability;
     real survival = min(kept, real(1.0));
     if (!(u < survival)) {
         ledgers[slot].absorbed += units_of(a.flux);
@@ -324,7 +324,11 @@ FN void pass_surface(uint i, uint slot, Arrival a, real share, real probability,
     paths[slot].flux_r = flux.x;
     paths[slot].flux_g = flux.y;
     paths[slot].flux_b = flux.z;
-    rays[slot].t_max = goes_on_in(medium_of(rays[slot].t_max));
+    uint solids = solids_of(rays[slot].t_max);
+    if (a.hidden) {
+        solids = solids_behind(a.solids, solid_bit(m), a.surface.front);
+    }
+    rays[slot].t_max = goes_on_in(solids);
     if (extents == extents_differentials) {
         PhotonDifferential d = load_differential(differentials[slot]);
         roulette_differential(d, probability * survival);
@@ -417,8 +421,7 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
                                           out_of.sampled.pdf));
     }
     continue_path(slot, a, out_of.direction, flux, cone,
-                  medium_after(a.medium, triangles[how.triangle].w, m, a.surface.front,
-                               out_of.sampled.wi.z < real(0.0)),
+                  solids_after(a.solids, m, a.surface.front, out_of.sampled.wi.z < real(0.0)),
                   stays_followed ? how.state & ~photon_depth_mask
                                  : next_for_view << photon_view_shift);
     return true;
@@ -455,8 +458,14 @@ FN void main() {
     Arrival a = arrive(hit, direction, m, path);
     turn_anisotropy(hit, a.surface, a.frame, m);
     turn_coat(hit, a.surface, a.frame, m);
+    a.solids = solids_on_way(solids_of(rays[slot].t_max), m, a.surface.front);
     absorb(slot, a, m);
+    a.hidden = is_hidden(a.solids, m);
+    if (a.hidden) {
+        m.coverage = float32(0.0);
+    }
     real channels = disperse_photon(slot, a, m, hit.triangle);
+    refer_index(a.solids, m);
     how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     how.estimated = bsdf_lobes(m) & ~how.followed;
     PhotonDifferential d;
@@ -472,7 +481,7 @@ FN void main() {
     how.only_followed = (path.state & photon_followed) != 0u;
     bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
-    if (stores && may_be_estimated && a.surface.above_horizon) {
+    if (stores && may_be_estimated && !a.hidden && a.surface.above_horizon) {
         store_with_details(slot, store, a, followed_paths && how.only_followed && a.depth > 0u, d);
     }
     uint vertex = (keeps & kept_path) != 0u ? add_vertex(slot, store, a) : 0u;
@@ -482,7 +491,7 @@ FN void main() {
         vec4 w = random4(batch.seed ^ 0x7a55e5u, batch.first + slot, a.depth, hit.triangle);
         real passes = pass_probability(a, m);
         if (w.x < passes) {
-            pass_surface(i, slot, a, pass_share(m), passes, w.y);
+            pass_surface(i, slot, a, m, passes, w.y);
             return;
         }
         how.scattered = real(1.0) - passes;

@@ -1,0 +1,81 @@
+#include "methods/scenes.hpp"
+#include "scene/solids.hpp"
+
+#include <gtest/gtest.h>
+
+namespace argand::testing {
+namespace {
+
+using Materials = std::vector<std::uint32_t>;
+
+/// A cube of a solid of its own.
+std::uint32_t add_cube(Scene& scene, float low, float high, float priority = 0) {
+    Material m = glass(1.5f, true);
+    m.priority = priority;
+    const std::uint32_t material = add_material(scene, m);
+    add_box(scene, glm::vec3(low), glm::vec3(high), material, false);
+    return material;
+}
+
+TEST(SolidRanks, LargerVolumesAreLower) {
+    Scene scene;
+    EXPECT_EQ(solid_ranks(scene).materials, Materials());
+    const std::uint32_t ice = add_cube(scene, 0.4f, 0.6f);
+    const std::uint32_t water = add_cube(scene, 0, 1);
+    const std::uint32_t drop = add_cube(scene, 10, 10.1f);
+    EXPECT_EQ(solid_ranks(scene).materials, (Materials{water, ice, drop}));
+    // Of a hollow body only what is between its walls counts.
+    const std::uint32_t vessel = add_cube(scene, -0.01f, 1.01f);
+    add_box(scene, glm::vec3(0), glm::vec3(1), vessel, true);
+    EXPECT_EQ(solid_ranks(scene).materials, (Materials{water, vessel, ice, drop}));
+}
+
+TEST(SolidRanks, PriorityComesBeforeVolume) {
+    Scene scene;
+    const std::uint32_t ice = add_cube(scene, 0.4f, 0.6f, -1);
+    const std::uint32_t water = add_cube(scene, 0, 1);
+    const std::uint32_t glass = add_cube(scene, 0, 2, 0.5f);
+    EXPECT_EQ(solid_ranks(scene).materials, (Materials{ice, water, glass}));
+}
+
+TEST(SolidRanks, CavitiesAreThoseOfTheSameGlassAround) {
+    Scene scene;
+    const std::uint32_t outside = add_cube(scene, 0, 1);
+    const std::uint32_t inside = add_material(scene, scene.materials[outside]);
+    add_box(scene, glm::vec3(0.1f), glm::vec3(0.9f), inside, true);
+    const std::uint32_t water = add_cube(scene, 0.05f, 0.8f, 1);
+    const SolidRanks ranks = solid_ranks(scene);
+    EXPECT_EQ(ranks.materials, (Materials{outside, water}));
+    EXPECT_EQ(ranks.of_material, (Materials{1, 1, 2}));
+    EXPECT_EQ(overlapping_solids(scene), std::pair(outside, water));
+    // Of another glass, or where nothing is around, they are solids like others.
+    scene.materials[inside].ior = 1.4f;
+    EXPECT_EQ(solid_ranks(scene).materials, (Materials{outside, inside, water}));
+    Scene room;
+    add_box(room, glm::vec3(-1), glm::vec3(1), add_material(room, glass(1.5f, true)), true);
+    EXPECT_EQ(solid_ranks(room).of_material, Materials{1});
+}
+
+TEST(SolidRanks, OthersHaveNone) {
+    Scene scene = box_scene(lambertian(glm::vec3(0.5f)));
+    add_box(scene, glm::vec3(0), glm::vec3(0.5f), add_material(scene, glass(1.5f, false)), false);
+    add_material(scene, glass(1.5f, true)); // of no triangle
+    EXPECT_EQ(solid_ranks(scene).materials, Materials());
+    EXPECT_FALSE(overlapping_solids(scene));
+}
+
+TEST(OverlappingSolids, AreFoundByTheirBoxes) {
+    Scene scene;
+    const std::uint32_t a = add_cube(scene, 0, 1);
+    EXPECT_FALSE(overlapping_solids(scene));
+    const std::uint32_t beside = add_cube(scene, 1, 2);
+    EXPECT_FALSE(overlapping_solids(scene)); // they touch
+    scene.motion.meshes.emplace_back();
+    EXPECT_EQ(overlapping_solids(scene), std::pair(a, beside)); // they may move
+    scene.motion.meshes.clear();
+    const std::uint32_t inside = add_cube(scene, 0.25f, 0.5f);
+    EXPECT_EQ(overlapping_solids(scene), std::pair(a, inside));
+}
+
+} // namespace
+} // namespace argand::testing
