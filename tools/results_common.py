@@ -76,7 +76,7 @@ PAGES = [
     ("Films: time and error by frame", "dynamic.md", "tools/results_dynamic"),
     ("Frames of films", "frames.md", "argand render --frames, argand bench rays, tools/results_frames, tools/results_refit"),
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
-    ("Loading a large textured scene", "loading.md", "tools/results_loading"),
+    ("Loading textured scenes, and what textures cost", "loading.md", "tools/results_loading"),
     ("What was wrong outside the Cornell box", "rooms.md", "argand render, argand compare, test_methods, tools/results_rooms"),
     ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
 ]

@@ -100,10 +100,19 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     add_lights(source, nodes, std::move(keys.lights), scene);
     add_cameras(source, nodes, std::move(keys.cameras), scene);
     add_meshes(source, nodes, scene);
-    if (const std::size_t solids = solid_ranks(scene).materials.size(); solids > most_ranked_solids) {
+    if (const std::size_t solids = solid_ranks(scene).materials.size();
+        solids > most_ranked_solids) {
         add_note(scene, fmt::format("{} materials bound solids; paths know of {} whether they are "
                                     "inside, those of the least priority and the largest volume",
                                     solids, most_ranked_solids));
+    }
+    if (const std::vector<std::uint32_t> thin = thin_bodies(scene); !thin.empty()) {
+        add_note(
+            scene,
+            fmt::format("{}{} transmits light and bounds a body, but has no thickness "
+                        "(KHR_materials_volume): it does not refract, as a thin wall",
+                        label("material", static_cast<int>(thin[0]), scene.materials[thin[0]].name),
+                        thin.size() > 1 ? fmt::format(" (like {} more)", thin.size() - 1) : ""));
     }
     end_step("meshes");
     add_missing_light(scene);

@@ -39,11 +39,11 @@ void for_each_triangle(const Scene& scene, std::vector<Solid>& solids, const Add
     }
 }
 
-/// The solids that triangles bound, by material.
-std::vector<Solid> find_solids(const Scene& scene) {
+/// What the triangles of each of these materials bound.
+template <class Wanted> std::vector<Solid> find_bodies(const Scene& scene, const Wanted& wanted) {
     std::vector<Solid> solids;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        if (may_bound_solid(scene.materials[i])) {
+        if (wanted(scene.materials[i])) {
             solids.push_back({.material = i});
         }
     }
@@ -64,6 +64,8 @@ std::vector<Solid> find_solids(const Scene& scene) {
     std::erase_if(solids, [](const Solid& solid) { return solid.box.low.x > solid.box.high.x; });
     return solids;
 }
+
+std::vector<Solid> find_solids(const Scene& scene) { return find_bodies(scene, may_bound_solid); }
 
 bool contains(const Bounds& outer, const Bounds& inner) {
     return glm::all(glm::lessThanEqual(outer.low, inner.low)) &&
@@ -137,6 +139,22 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_solids(const 
         }
     }
     return std::nullopt;
+}
+
+std::vector<std::uint32_t> thin_bodies(const Scene& scene) {
+    // An open surface bounds some volume too, seen from the middle of its box, but seldom as much.
+    constexpr double least_filled = 0.2;
+    std::vector<std::uint32_t> found;
+    for (const Solid& body : find_bodies(scene, [](const Material& m) {
+             return m.transmission > 0 && m.thickness <= 0 && m.metallic < 1 && !m.phong &&
+                    !m.unlit;
+         })) {
+        const glm::dvec3 size = glm::dvec3(body.box.high) - glm::dvec3(body.box.low);
+        if (body.volume > least_filled * size.x * size.y * size.z) {
+            found.push_back(body.material);
+        }
+    }
+    return found;
 }
 
 } // namespace argand

@@ -25,4 +25,7 @@ SolidRanks solid_ranks(const Scene& scene);
 /// that only touch do not overlap.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_solids(const Scene& scene);
 
+/// Materials of closed bodies that transmit light but have no thickness, as if of thin walls.
+std::vector<std::uint32_t> thin_bodies(const Scene& scene);
+
 } // namespace argand

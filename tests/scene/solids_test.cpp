@@ -64,6 +64,20 @@ TEST(SolidRanks, OthersHaveNone) {
     EXPECT_FALSE(overlapping_solids(scene));
 }
 
+TEST(ThinBodies, AreClosedAndTransmitWithoutThickness) {
+    Scene scene;
+    add_cube(scene, 0, 1);
+    const std::uint32_t thin = add_material(scene, glass(1.5f, false));
+    add_quad(scene, glm::vec3(0), {1, 0, 0.2f}, {0, 1, 0.1f}, thin);
+    add_cube(scene, 2, 3);
+    EXPECT_EQ(thin_bodies(scene), Materials());
+    add_box(scene, glm::vec3(-2), glm::vec3(-1), thin, false);
+    EXPECT_EQ(thin_bodies(scene), Materials());
+    const std::uint32_t ball = add_material(scene, glass(1.5f, false));
+    add_sphere(scene, {5, 0, 0}, 1, 8, true, ball);
+    EXPECT_EQ(thin_bodies(scene), Materials{ball});
+}
+
 TEST(OverlappingSolids, AreFoundByTheirBoxes) {
     Scene scene;
     const std::uint32_t a = add_cube(scene, 0, 1);
