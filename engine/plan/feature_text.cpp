@@ -37,7 +37,8 @@ FeatureText text_of(Feature feature) {
         return {"absorption", "absorption inside solids", ""};
     case Feature::nested_solids:
         return {"nested_solids", "solids that may overlap",
-                "every interface reads the material of the solid around it"};
+                "every interface reads the material of the solid around it, and rays that of every "
+                "triangle that they meet"};
     case Feature::coat:
         return {"coat", "coats", ""};
     case Feature::rough_coat:

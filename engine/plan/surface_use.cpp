@@ -42,7 +42,7 @@ SurfaceUse surface_use(const Scene& scene) {
             use.smoothed = material;
         }
     }
-    use.overlapping = overlapping_solids(scene);
+    use.overlapping = known_solid_ranks(scene).overlapping;
     return use;
 }
 

@@ -73,6 +73,22 @@ Bounds bounds_to_frame(const Scene& scene) {
     return bounds(moved);
 }
 
+void add_notes_on_solids(Scene& scene) {
+    if (const std::size_t solids = scene.solids->materials.size(); solids > most_ranked_solids) {
+        add_note(scene, fmt::format("{} materials bound solids; overlaps are resolved for {} of "
+                                    "them: the least priority, then the largest volume",
+                                    solids, most_ranked_solids));
+    }
+    if (const std::vector<std::uint32_t> thin = thin_bodies(scene); !thin.empty()) {
+        const std::string& name = scene.materials[thin[0]].name;
+        add_note(scene, fmt::format(
+                            "{}{} bounds a body and transmits light, but has no thickness "
+                            "(KHR_materials_volume): it is a thin wall, which does not refract",
+                            label("material", static_cast<int>(thin[0]), name),
+                            thin.size() > 1 ? fmt::format(" (and {} more)", thin.size() - 1) : ""));
+    }
+}
+
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds,
@@ -100,23 +116,11 @@ Scene load_gltf(const std::filesystem::path& path, std::optional<double> seconds
     add_lights(source, nodes, std::move(keys.lights), scene);
     add_cameras(source, nodes, std::move(keys.cameras), scene);
     add_meshes(source, nodes, scene);
-    if (const std::size_t solids = solid_ranks(scene).materials.size();
-        solids > most_ranked_solids) {
-        add_note(scene, fmt::format("{} materials bound solids; paths know of {} whether they are "
-                                    "inside, those of the least priority and the largest volume",
-                                    solids, most_ranked_solids));
-    }
-    if (const std::vector<std::uint32_t> thin = thin_bodies(scene); !thin.empty()) {
-        add_note(
-            scene,
-            fmt::format("{}{} transmits light and bounds a body, but has no thickness "
-                        "(KHR_materials_volume): it does not refract, as a thin wall",
-                        label("material", static_cast<int>(thin[0]), scene.materials[thin[0]].name),
-                        thin.size() > 1 ? fmt::format(" (like {} more)", thin.size() - 1) : ""));
-    }
     end_step("meshes");
     add_missing_light(scene);
     forget_what_rests(scene);
+    scene.solids = solid_ranks(scene);
+    add_notes_on_solids(scene);
     const Bounds to_frame = scene.cameras.empty() ? bounds_to_frame(scene) : Bounds();
     if (seconds) {
         move_to(*seconds, scene);

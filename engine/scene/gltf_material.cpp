@@ -196,14 +196,19 @@ void read_phong(const FactorReader& read, const json* object, Material& material
     material.phong = Phong{glm::vec3(specular), static_cast<float>(exponent)};
 }
 
-/// "extras": {"priority": number}, for solids that overlap.
+/// "extras": {"priority": number}, for solids that overlap. Other programs may mean another thing.
 void read_priority(const FactorReader& read, const json* object, Material& material) {
-    const double priority = number_of(read.source, find_member(object, "extras"), "priority", 0,
-                                      read.what + "'s \"extras\"");
-    if (!(std::abs(priority) <= unlimited)) {
-        read.source.fail("{} has a priority of {}, which is out of range", read.what, priority);
+    const json* priority = find_member(find_member(object, "extras"), "priority");
+    if (!priority) {
+        return;
     }
-    material.priority = static_cast<float>(priority);
+    if (!priority->is_number() || !(std::abs(priority->get<double>()) <= unlimited)) {
+        add_note(read.scene, fmt::format("{} has a \"priority\" that is not a number in range, "
+                                         "and is ignored",
+                                         read.what));
+        return;
+    }
+    material.priority = priority->get<float>();
 }
 
 /// What textures may change of a material, now or at another time.

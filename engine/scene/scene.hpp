@@ -79,6 +79,18 @@ struct Animation {
     std::vector<std::string> moves; ///< "rotation of node 2 "wheel""
 };
 
+/// The order of the solids that light may pass (shared/solids.h).
+struct SolidRanks {
+    /// The material of each rank, lowest first: by priority, and of equal priority the larger
+    /// volume first, so that an ice cube is in its water, and the water not in the ice.
+    std::vector<std::uint32_t> materials;
+    /// Of each material of the scene 1 more than its rank; 0: it bounds no solid. A body that is
+    /// turned inside out is a cavity, of the solid of the same glass around it, whose rank it has.
+    std::vector<std::uint32_t> of_material;
+    /// Two solids whose bounding boxes overlap, not only touch; any two if meshes move.
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping;
+};
+
 struct Bounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()};
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
@@ -104,7 +116,10 @@ struct Scene {
     std::vector<std::uint32_t> triangle_material; ///< one per triangle, index into materials
     std::vector<SceneObject> objects; ///< by first_triangle; those without triangles are left out
     std::vector<Material> materials;  ///< at least one
-    std::vector<Texture> textures;    ///< a material's follow one another
+    /// At rest, so that they are the same at all times. Reset it after a change of materials or
+    /// triangles; those of where solids are now take its place.
+    std::optional<SolidRanks> solids;
+    std::vector<Texture> textures;                           ///< a material's follow one another
     std::vector<std::shared_ptr<const TextureImage>> images; ///< used by textures
     std::vector<Light> lights;
     std::optional<glm::vec3> sky;           ///< uniform radiance from all directions [cd/m²]

@@ -1,71 +1,83 @@
 #include "scene/solids.hpp"
 
+#include "scene/moving_factors.hpp"
+
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace argand {
 
 namespace {
 
-struct Solid {
+/// What the triangles of a material bound.
+struct Body {
     std::uint32_t material = 0;
     Bounds box;
     double volume = 0; ///< below 0: its faces look inwards
+    glm::dvec3 area_vector{0};
+    double area = 0;
 };
 
-/// Whether a material bounds a solid, now or at another time: textures and motion may change how
-/// much of it is clear, but not the rest.
-bool may_bound_solid(const Material& m) { return m.thickness > 0 && !m.phong && !m.unlit; }
-
-/// The material's solid among these; null: it bounds none.
-std::vector<Solid*> by_material(const Scene& scene, std::vector<Solid>& solids) {
-    std::vector<Solid*> result(scene.materials.size(), nullptr);
-    for (Solid& solid : solids) {
-        result[solid.material] = &solid;
-    }
-    return result;
+/// Whether a material transmits light, now or at another time.
+bool may_transmit(const Scene& scene, std::uint32_t index) {
+    const Material& m = scene.materials[index];
+    const MovingMaterial* moving = moving_material(scene.motion, index);
+    return !m.phong && !m.unlit && (m.transmission > 0 || (moving && moving->keys.transmission)) &&
+           (m.metallic < 1 || (moving && moving->keys.metallic));
 }
 
-/// Calls `add` with the solid and the corners of each triangle that bounds one.
+bool may_be_thick(const Scene& scene, std::uint32_t index) {
+    const MovingMaterial* moving = moving_material(scene.motion, index);
+    return scene.materials[index].thickness > 0 || (moving && moving->keys.thickness);
+}
+
+/// Calls `add` with the body and the corners of each triangle of one.
 template <class Add>
-void for_each_triangle(const Scene& scene, std::vector<Solid>& solids, const Add& add) {
-    const std::vector<Solid*> of_material = by_material(scene, solids);
+void for_each_triangle(const Scene& scene, std::vector<Body>& bodies, const Add& add) {
+    std::vector<Body*> of_material(scene.materials.size(), nullptr);
+    for (Body& body : bodies) {
+        of_material[body.material] = &body;
+    }
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        if (Solid* solid = of_material[scene.triangle_material[i]]) {
+        if (Body* body = of_material[scene.triangle_material[i]]) {
             const glm::uvec3& corners = scene.triangles[i];
-            add(*solid, scene.positions[corners.x], scene.positions[corners.y],
+            add(*body, scene.positions[corners.x], scene.positions[corners.y],
                 scene.positions[corners.z]);
         }
     }
 }
 
-/// What the triangles of each of these materials bound.
-template <class Wanted> std::vector<Solid> find_bodies(const Scene& scene, const Wanted& wanted) {
-    std::vector<Solid> solids;
+/// The bodies of these materials.
+template <class Wanted> std::vector<Body> find_bodies(const Scene& scene, const Wanted& wanted) {
+    std::vector<Body> bodies;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        if (wanted(scene.materials[i])) {
-            solids.push_back({.material = i});
+        if (wanted(i)) {
+            bodies.push_back({.material = i});
         }
     }
-    if (solids.empty()) {
-        return solids;
+    if (bodies.empty()) {
+        return bodies;
     }
-    for_each_triangle(scene, solids, [](Solid& solid, const auto&... corners) {
+    for_each_triangle(scene, bodies, [](Body& body, const auto&... corners) {
         for (const glm::vec3& corner : {corners...}) {
-            solid.box.low = glm::min(solid.box.low, corner);
-            solid.box.high = glm::max(solid.box.high, corner);
+            body.box.low = glm::min(body.box.low, corner);
+            body.box.high = glm::max(body.box.high, corner);
         }
     });
-    // Seen from the box's middle, an open surface bounds little.
-    for_each_triangle(scene, solids, [](Solid& solid, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-        const glm::dvec3 middle = (glm::dvec3(solid.box.low) + glm::dvec3(solid.box.high)) * 0.5;
-        solid.volume += glm::dot(a - middle, glm::cross(b - middle, c - middle)) / 6;
+    for_each_triangle(scene, bodies, [](Body& body, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+        const glm::dvec3 origin(body.box.low); // near, so that little is rounded off
+        body.volume += glm::dot(a - origin, glm::cross(b - origin, c - origin)) / 6;
+        const glm::dvec3 twice = glm::cross(b - a, c - a);
+        body.area_vector += twice / 2.0;
+        body.area += glm::length(twice) / 2;
     });
-    std::erase_if(solids, [](const Solid& solid) { return solid.box.low.x > solid.box.high.x; });
-    return solids;
+    std::erase_if(bodies, [](const Body& body) { return !(body.area > 0); });
+    return bodies;
 }
 
-std::vector<Solid> find_solids(const Scene& scene) { return find_bodies(scene, may_bound_solid); }
+/// Whether a body's faces look to all sides alike, as those of a closed surface do.
+bool is_closed(const Body& body) { return glm::length(body.area_vector) < 0.01 * body.area; }
 
 bool contains(const Bounds& outer, const Bounds& inner) {
     return glm::all(glm::lessThanEqual(outer.low, inner.low)) &&
@@ -76,81 +88,85 @@ bool overlap(const Bounds& a, const Bounds& b) {
     return glm::all(glm::lessThan(a.low, b.high)) && glm::all(glm::lessThan(b.low, a.high));
 }
 
-bool same_glass(const Material& a, const Material& b) {
+bool is_same_glass(const Material& a, const Material& b) {
     return a.ior == b.ior && a.absorption == b.absorption && a.dispersion == b.dispersion &&
            a.priority == b.priority;
 }
 
-/// The smallest solid in which this one is a cavity; null: it is none.
-const Solid* around_cavity(const Scene& scene, const std::vector<Solid>& solids,
-                           const Solid& cavity) {
-    const Solid* around = nullptr;
-    for (const Solid& solid : solids) {
+/// The smallest body in which this one is a cavity; null: it is none.
+const Body* body_around(const Scene& scene, const std::vector<Body>& bodies, const Body& cavity) {
+    if (!(cavity.volume < 0) || !is_closed(cavity)) {
+        return nullptr;
+    }
+    const Body* around = nullptr;
+    for (const Body& body : bodies) {
         const bool fits =
-            cavity.volume < 0 && solid.volume > 0 && contains(solid.box, cavity.box) &&
-            same_glass(scene.materials[solid.material], scene.materials[cavity.material]);
-        if (fits && (!around || solid.volume < around->volume)) {
-            around = &solid;
+            body.volume > 0 && contains(body.box, cavity.box) &&
+            is_same_glass(scene.materials[body.material], scene.materials[cavity.material]);
+        if (fits && (!around || body.volume < around->volume)) {
+            around = &body;
         }
     }
     return around;
 }
 
-/// The solids but for cavities of others.
-std::vector<Solid> without_cavities(const Scene& scene, const std::vector<Solid>& solids) {
-    std::vector<Solid> bodies;
-    std::copy_if(solids.begin(), solids.end(), std::back_inserter(bodies),
-                 [&](const Solid& solid) { return !around_cavity(scene, solids, solid); });
-    return bodies;
-}
-
-} // namespace
-
-SolidRanks solid_ranks(const Scene& scene) {
-    const std::vector<Solid> solids = find_solids(scene);
-    std::vector<Solid> bodies = without_cavities(scene, solids);
-    const auto rank = [&](const Solid& s) {
-        return std::tuple(scene.materials[s.material].priority, -std::abs(s.volume), s.material);
-    };
-    std::sort(bodies.begin(), bodies.end(),
-              [&](const Solid& a, const Solid& b) { return rank(a) < rank(b); });
-    SolidRanks ranks;
-    ranks.of_material.resize(scene.materials.size(), 0);
-    for (const Solid& body : bodies) {
-        ranks.materials.push_back(body.material);
-        ranks.of_material[body.material] = static_cast<std::uint32_t>(ranks.materials.size());
-    }
-    for (const Solid& solid : solids) {
-        if (const Solid* around = around_cavity(scene, solids, solid)) {
-            ranks.of_material[solid.material] = ranks.of_material[around->material];
-        }
-    }
-    return ranks;
-}
-
-std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_solids(const Scene& scene) {
-    const std::vector<Solid> solids = without_cavities(scene, find_solids(scene));
+/// The materials of two of these whose boxes overlap; of any two if meshes move.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping(const Scene& scene,
+                                                                   const std::vector<Body>& of) {
     const bool moves = !scene.motion.meshes.empty();
-    for (std::size_t a = 0; a < solids.size(); ++a) {
-        for (std::size_t b = a + 1; b < solids.size(); ++b) {
-            if (moves || overlap(solids[a].box, solids[b].box)) {
-                return std::pair(solids[a].material, solids[b].material);
+    for (std::size_t a = 0; a < of.size(); ++a) {
+        for (std::size_t b = a + 1; b < of.size(); ++b) {
+            if (moves || overlap(of[a].box, of[b].box)) {
+                return std::minmax(of[a].material, of[b].material);
             }
         }
     }
     return std::nullopt;
 }
 
+} // namespace
+
+SolidRanks solid_ranks(const Scene& scene) {
+    const std::vector<Body> bodies = find_bodies(scene, [&](std::uint32_t material) {
+        return may_transmit(scene, material) && may_be_thick(scene, material);
+    });
+    std::vector<Body> solids;
+    std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(solids),
+                 [&](const Body& body) { return !body_around(scene, bodies, body); });
+    // An open surface is that of something large, as a sea.
+    const auto rank = [&](const Body& body) {
+        const double volume =
+            is_closed(body) ? std::abs(body.volume) : std::numeric_limits<double>::infinity();
+        return std::tuple(scene.materials[body.material].priority, -volume, body.material);
+    };
+    std::sort(solids.begin(), solids.end(),
+              [&](const Body& a, const Body& b) { return rank(a) < rank(b); });
+    SolidRanks ranks;
+    ranks.of_material.resize(scene.materials.size(), 0);
+    for (const Body& solid : solids) {
+        ranks.materials.push_back(solid.material);
+        ranks.of_material[solid.material] = static_cast<std::uint32_t>(ranks.materials.size());
+    }
+    for (const Body& body : bodies) {
+        if (const Body* around = body_around(scene, bodies, body)) {
+            ranks.of_material[body.material] = ranks.of_material[around->material];
+        }
+    }
+    ranks.overlapping = overlapping(scene, solids);
+    return ranks;
+}
+
+SolidRanks known_solid_ranks(const Scene& scene) {
+    const bool known = scene.solids && scene.solids->of_material.size() == scene.materials.size();
+    return known ? *scene.solids : solid_ranks(scene);
+}
+
 std::vector<std::uint32_t> thin_bodies(const Scene& scene) {
-    // An open surface bounds some volume too, seen from the middle of its box, but seldom as much.
-    constexpr double least_filled = 0.2;
     std::vector<std::uint32_t> found;
-    for (const Solid& body : find_bodies(scene, [](const Material& m) {
-             return m.transmission > 0 && m.thickness <= 0 && m.metallic < 1 && !m.phong &&
-                    !m.unlit;
+    for (const Body& body : find_bodies(scene, [&](std::uint32_t material) {
+             return may_transmit(scene, material) && !may_be_thick(scene, material);
          })) {
-        const glm::dvec3 size = glm::dvec3(body.box.high) - glm::dvec3(body.box.low);
-        if (body.volume > least_filled * size.x * size.y * size.z) {
+        if (is_closed(body) && body.volume > 0) {
             found.push_back(body.material);
         }
     }

@@ -3,6 +3,7 @@
 #include "scene/environment_summary.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/light_power.hpp"
+#include "scene/solids.hpp"
 #include "shared/texture_record.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -396,6 +397,10 @@ json summary_json(const Scene& scene) {
         animations.push_back(
             {{"name", animation.name}, {"seconds", animation.seconds}, {"moves", animation.moves}});
     }
+    json solids = json::array();
+    for (const std::uint32_t material : known_solid_ranks(scene).materials) {
+        solids.push_back({{"material", material}, {"name", scene.materials[material].name}});
+    }
     json extensions = json::array();
     for (const std::string& name : scene.extensions_used) {
         extensions.push_back({{"name", name}, {"understood", supports_extension(name)}});
@@ -406,6 +411,7 @@ json summary_json(const Scene& scene) {
             {"area", surface_area(scene)},
             {"bounds", {{"low", numbers(box.low)}, {"high", numbers(box.high)}}},
             {"materials", materials_json(scene)},
+            {"solids", solids},
             {"lights", lights},
             {"emissive", emissive_json(scene)},
             {"sky", scene.sky ? numbers(*scene.sky) : json(nullptr)},
@@ -429,6 +435,14 @@ std::string summary_text(const Scene& scene) {
     line("bounds", fmt::format("{} to {}", full_text(summary["bounds"]["low"]),
                                full_text(summary["bounds"]["high"])));
     append_list(text, "materials", summary["materials"], material_line);
+    if (summary["solids"].size() > 1) {
+        std::vector<std::string> names;
+        for (const json& solid : summary["solids"]) {
+            names.push_back(quoted_name(solid));
+        }
+        line("solids", fmt::format("{}: where they overlap, the last of them is there",
+                                   fmt::join(names, ", ")));
+    }
     append_list(text, "lights", summary["lights"], light_line);
     const json& emissive = summary["emissive"];
     const auto textured = emissive["textured"].get<std::size_t>();

@@ -114,7 +114,7 @@ World::World(Device& device, const Scene& scene, const TracerSettings& tracer)
     stage.emplace(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
-    solids_ = solid_ranks(scene);
+    solids_ = known_solid_ranks(scene);
     uploaded_materials_ = material_records(scene, solids_);
     materials_ = upload(device, "materials", uploaded_materials_);
     last_moved_.resize(scene.motion.meshes.size());

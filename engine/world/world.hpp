@@ -1,7 +1,6 @@
 #pragma once
 
 #include "plan/surface_use.hpp"
-#include "scene/solids.hpp"
 #include "shared/material_record.h"
 #include "world/device_scene.hpp"
 #include "world/moving_meshes.hpp"

@@ -38,8 +38,8 @@ struct MaterialRecord {
     // texture; else (0,0,0). In the frame of the tangents, with z > 0; kernels turn it into the
     // shading frame (kernels/coat.h).
     float32 coat_normal_x, coat_normal_y, coat_normal_z;
-    // Of solids: the low 5 bits are 1 more than the rank; 0: it has none. The other bits, of every
-    // record: the index of the material whose rank is this record's index (solids.h).
+    // Low 5 bits: of a solid 1 more than its rank (solids.h); 0: it has none. High bits: a table
+    // of its own, whose entry r, in record r, is the index of the material of rank r.
     uint solids;
 };
 

@@ -19,11 +19,11 @@ FN uint solid_bit(IN(MaterialRecord) m) {
     return rank > 0u ? 1u << (rank - 1u) : 0u;
 }
 
-// The set on the side from which light between surface and eye, or light and surface, comes. known:
-// what is known of it; front: it is the outside of this solid.
+// The solids on the side of a solid's surface from which a ray comes. known: those that the ray
+// knows of; front: it meets the surface from outside.
 FN uint solids_before(uint known, uint bit, bool front) { return front ? known : known | bit; }
 
-// The set on the other side of the solid's surface.
+// The solids on the other side.
 FN uint solids_behind(uint before, uint bit, bool front) {
     return front ? before | bit : before & ~bit;
 }

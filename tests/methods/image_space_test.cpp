@@ -63,7 +63,7 @@ TEST_F(ImageSpace, LittleFluxIsLostInABox) {
     EXPECT_LE(statistics.own.at("points_missed"), 0.01);
 }
 
-TEST_F(ImageSpace, HasAtMostAsManyMapsAsRequested) {
+TEST_F(ImageSpace, SlowHasAtMostAsManyMapsAsRequested) {
     const Scene scene = load_asset("cornell_point.glb");
     for (const char* count : {"1", "3", "30"}) {
         RenderSettings settings = cube_settings(8);
@@ -147,7 +147,7 @@ TEST_F(MovingImageSpace, MapsFollowWhatMoves) {
     EXPECT_GT(compare(photons[1], photons[0]).rel_mse, 0.02);
 }
 
-TEST_F(MovingImageSpace, CentersAreKeptWhileTheyShowAsMuch) {
+TEST_F(MovingImageSpace, SlowCentersAreKeptWhileTheyShowAsMuch) {
     EXPECT_EQ(film("image-space", "3", 0.01).since_choice, (std::vector<double>{0, 1, 2, 0}));
 }
 
@@ -193,7 +193,7 @@ TEST_F(MovingImageSpace, MapsFollowWhatMovesWhileTheShutterIsOpen) {
     EXPECT_LT(compare(blurred("image-space"), blurred("photons")).rel_mse, 0.004);
 }
 
-TEST_F(ImageSpace, SplatsOfOneDensityAreDiscs) {
+TEST_F(ImageSpace, SlowSplatsOfOneDensityAreDiscs) {
     const Scene scene = load_asset("cornell_area.glb");
     RenderSettings settings = cube_settings(32);
     const RenderResult discs = render(scene, settings);
@@ -214,7 +214,7 @@ TEST_F(ImageSpace, SplatsRefuseOptionsThatContradict) {
     EXPECT_THROW(render(scene, settings), UsageError);
 }
 
-TEST_F(ImageSpace, SplatsHaveTheLightOfDiscs) {
+TEST_F(ImageSpace, SlowSplatsHaveTheLightOfDiscs) {
     for (const char* asset : {"cornell_area.glb", "ring.glb"}) {
         const Scene scene = load_asset(asset);
         RenderSettings settings = cube_settings(32);

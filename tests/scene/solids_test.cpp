@@ -47,7 +47,7 @@ TEST(SolidRanks, CavitiesAreThoseOfTheSameGlassAround) {
     const SolidRanks ranks = solid_ranks(scene);
     EXPECT_EQ(ranks.materials, (Materials{outside, water}));
     EXPECT_EQ(ranks.of_material, (Materials{1, 1, 2}));
-    EXPECT_EQ(overlapping_solids(scene), std::pair(outside, water));
+    EXPECT_EQ(solid_ranks(scene).overlapping, std::pair(outside, water));
     // Of another glass, or where nothing is around, they are solids like others.
     scene.materials[inside].ior = 1.4f;
     EXPECT_EQ(solid_ranks(scene).materials, (Materials{outside, inside, water}));
@@ -61,7 +61,7 @@ TEST(SolidRanks, OthersHaveNone) {
     add_box(scene, glm::vec3(0), glm::vec3(0.5f), add_material(scene, glass(1.5f, false)), false);
     add_material(scene, glass(1.5f, true)); // of no triangle
     EXPECT_EQ(solid_ranks(scene).materials, Materials());
-    EXPECT_FALSE(overlapping_solids(scene));
+    EXPECT_FALSE(solid_ranks(scene).overlapping);
 }
 
 TEST(ThinBodies, AreClosedAndTransmitWithoutThickness) {
@@ -78,17 +78,55 @@ TEST(ThinBodies, AreClosedAndTransmitWithoutThickness) {
     EXPECT_EQ(thin_bodies(scene), Materials{ball});
 }
 
+TEST(SolidRanks, OpenSurfacesAreThoseOfSomethingLarge) {
+    Scene scene;
+    const std::uint32_t ball = add_cube(scene, -1, 1);
+    const std::uint32_t sea = add_material(scene, glass(1.33f, true));
+    add_quad(scene, {-0.9f, 0, 0.9f}, {1.8f, 0, 0}, {0, 0, -1.8f}, sea);
+    EXPECT_EQ(solid_ranks(scene).materials, (Materials{sea, ball}));
+}
+
+TEST(SolidRanks, MaterialsThatMayBecomeSolidsHaveOne) {
+    Scene scene;
+    const std::uint32_t block = add_cube(scene, 0, 1);
+    for (auto [property, keys] : {std::pair(&Material::thickness, &MaterialKeys::thickness),
+                                  {&Material::transmission, &MaterialKeys::transmission}}) {
+        Scene moving = scene;
+        moving.materials[block].*property = 0;
+        EXPECT_EQ(solid_ranks(moving).materials, Materials());
+        MovingMaterial& motion = moving.motion.materials.emplace_back();
+        motion.index = block;
+        (motion.keys.*keys).emplace();
+        EXPECT_EQ(solid_ranks(moving).materials, Materials{block});
+    }
+    scene.materials[block].metallic = 1; // metal transmits nothing
+    EXPECT_EQ(solid_ranks(scene).materials, Materials());
+}
+
+TEST(SolidRanks, OfAFileAreThoseAtRest) {
+    Scene scene;
+    add_cube(scene, 0, 1);
+    add_cube(scene, 0, 2);
+    scene.solids = solid_ranks(scene);
+    for (glm::vec3& p : scene.positions) {
+        p *= p.x > 1 ? 0.1f : 1;
+    }
+    EXPECT_EQ(known_solid_ranks(scene).materials, (Materials{1, 0}));
+    scene.solids.reset();
+    EXPECT_EQ(known_solid_ranks(scene).materials, (Materials{0, 1}));
+}
+
 TEST(OverlappingSolids, AreFoundByTheirBoxes) {
     Scene scene;
     const std::uint32_t a = add_cube(scene, 0, 1);
-    EXPECT_FALSE(overlapping_solids(scene));
+    EXPECT_FALSE(solid_ranks(scene).overlapping);
     const std::uint32_t beside = add_cube(scene, 1, 2);
-    EXPECT_FALSE(overlapping_solids(scene)); // they touch
+    EXPECT_FALSE(solid_ranks(scene).overlapping); // they touch
     scene.motion.meshes.emplace_back();
-    EXPECT_EQ(overlapping_solids(scene), std::pair(a, beside)); // they may move
+    EXPECT_EQ(solid_ranks(scene).overlapping, std::pair(a, beside)); // they may move
     scene.motion.meshes.clear();
     const std::uint32_t inside = add_cube(scene, 0.25f, 0.5f);
-    EXPECT_EQ(overlapping_solids(scene), std::pair(a, inside));
+    EXPECT_EQ(solid_ranks(scene).overlapping, std::pair(a, inside));
 }
 
 } // namespace

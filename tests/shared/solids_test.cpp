@@ -81,7 +81,7 @@ TEST(Solids, AreFoundByRaysThatStartInside) {
 TEST(Solids, WithoutARankHaveNoBitAndAreNeverHidden) {
     MaterialRecord m = glass(1.5f, 1);
     EXPECT_EQ(solid_bit(m), 0u);
-    EXPECT_FALSE(is_in_higher_solid(~0u, solid_bit(m)));
+    EXPECT_FALSE(is_in_higher_solid(6u, solid_bit(m)));
     for (uint rank = 0; rank < most_ranked_solids; ++rank) {
         m.solids = (77u << solid_of_rank_shift) | (rank + 1);
         EXPECT_EQ(solid_bit(m), 1u << rank);

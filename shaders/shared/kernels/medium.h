@@ -8,6 +8,9 @@
 
 #include "shared/solids.h"
 
+// Index of the material of a rank.
+FN uint solid_of_rank(uint rank) { return materials[rank].solids >> solid_of_rank_shift; }
+
 FN real unbounded_in(uint solids) { return bits_float(float_bits(far_away) - solids); }
 FN real goes_on_in(uint solids) { return bits_float(float_bits(goes_on) + solids); }
 FN uint solids_of(float32 t_max) {
@@ -43,7 +46,7 @@ FN void refer_index(uint before, INOUT(MaterialRecord) m) {
     }
     uint around = before & ~solid_bit(m);
     if (around != 0u) {
-        uint other = materials[highest_solid(around)].solids >> solid_of_rank_shift;
+        uint other = solid_of_rank(highest_solid(around));
         m.ior = float32(relative_ior(real(m.ior), real(materials[other].ior)));
     }
 }
@@ -59,8 +62,7 @@ FN vec3 transmittance(uint solids, real distance) {
     if (solids == 0u) {
         return vec3(real(1.0));
     }
-    uint solid = materials[highest_solid(solids)].solids >> solid_of_rank_shift;
-    return transmittance_of(materials[solid], distance);
+    return transmittance_of(materials[solid_of_rank(highest_solid(solids))], distance);
 }
 
 // The same on the way to a surface. before: solids_on_way.
