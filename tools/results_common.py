@@ -64,6 +64,7 @@ PAGES = [
     ("Bandwidth", "bandwidth.md", "a script outside the repository"),
     ("Footprints: choices", "footprints.md", "argand render, argand compare"),
     ("Widths that fall from pass to pass", "progressive.md", "tools/results_progressive"),
+    ("Error over time", "over_time.md", "tools/results_over_time"),
     ("Final gather", "final_gather.md", "argand render, argand compare"),
     ("Quasi-random photons", "quasi_random.md", "argand render, argand compare"),
     ("Smaller records, faster arithmetic", "precision.md", "argand render, changed builds"),
