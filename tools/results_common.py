@@ -74,7 +74,7 @@ PAGES = [
     ("Backends: lavapipe and the host", "backends_vulkan_cpu.md", "tools/results_backends vulkan cpu"),
     ("Path tracer compared with Cycles", "cycles.md", "argand render, Blender"),
     ("Scenes unlike a box of two metres", "hard_scenes.md", "tools/results_hard_scenes"),
-    ("Films: time and error by frame", "dynamic.md", "tools/results_dynamic"),
+    ("Films: time and error by frame", "dynamic.md", "tools/results_dynamic, tools/results_queue"),
     ("Frames of films", "frames.md", "argand render --frames, argand bench rays, tools/results_frames, tools/results_refit"),
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
     ("Loading textured scenes, and what textures cost", "loading.md", "tools/results_loading"),

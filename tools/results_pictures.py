@@ -60,12 +60,16 @@ def render(argand, scene, picture, *options):
     return json.loads(report.read_text())
 
 
+def digest(*files):
+    """A name for the contents of files."""
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
+
+
 def references(argand, scene, folder, size, samples, seeds):
     """The layers of a picture by path tracing for each seed, which are kept in a folder until the scene changes."""
-    digest = hashlib.sha256(scene.read_bytes()).hexdigest()[:12]
     found = []
     for seed in seeds:
-        picture = folder / f"{scene.stem}_{size}_{digest}_{samples}_{seed}.exr"
+        picture = folder / f"{scene.stem}_{size}_{digest(scene)}_{samples}_{seed}.exr"
         if not picture.exists():
             render(argand, scene, picture, "--method", "path", "--size", size, "--spp", samples, "--seed", seed)
         found.append(read_exr(picture))
