@@ -151,8 +151,8 @@ bool add_surfaces(Requirements& requirements, const Scene& scene, const SurfaceU
         }
     }
     requirements.add(Feature::vertex_colors, "the vertices", !scene.colors.empty());
-    if (use.overlapping) {
-        const auto [a, b] = *use.overlapping;
+    if (use.solids.overlapping) {
+        const auto [a, b] = *use.solids.overlapping;
         const std::string by = named("material", scene.materials[a].name, a) + " beside " +
                                named("material", scene.materials[b].name, b);
         requirements.add(Feature::nested_solids, by);

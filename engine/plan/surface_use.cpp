@@ -42,7 +42,7 @@ SurfaceUse surface_use(const Scene& scene) {
             use.smoothed = material;
         }
     }
-    use.overlapping = known_solid_ranks(scene).overlapping;
+    use.solids = known_solid_ranks(scene);
     return use;
 }
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace argand {
@@ -15,8 +14,7 @@ struct SurfaceUse {
     std::vector<std::uint32_t> materials;  ///< used ones, in the order of their first triangles
     std::vector<std::size_t> triangles;    ///< of each material
     std::optional<std::uint32_t> smoothed; ///< of the first triangle that has vertex normals
-    /// Two solids that overlap, or may do so as the scene moves.
-    std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping;
+    SolidRanks solids;
 };
 
 SurfaceUse surface_use(const Scene& scene);

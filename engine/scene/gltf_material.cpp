@@ -211,7 +211,7 @@ void read_priority(const FactorReader& read, const json* object, Material& mater
     material.priority = priority->get<float>();
 }
 
-/// What textures may change of a material, now or at another time.
+/// What a material may have now or at another time, so that textures may change it.
 struct TextureNeeds {
     bool emission, specular, transmission, thickness, coat, film, sheen, anisotropy;
 };
@@ -349,10 +349,10 @@ void add_materials(const GltfSource& source, std::vector<MaterialKeys> keys, Sce
         material.double_sided = from.doubleSided;
         set_factors(factors, material);
         read_phong(read, object, material);
-        if (material.thickness > 0) {
+        const TextureNeeds needs = needs_of(factors, keys[i]);
+        if (needs.thickness) {
             read_priority(read, object, material);
         }
-        const TextureNeeds needs = needs_of(factors, keys[i]);
         read_textures(textures, read, object, needs, material);
         if (needs.anisotropy) {
             scene.uv_sets = std::max(scene.uv_sets, 1u); // tangents may follow the first

@@ -1,7 +1,6 @@
 #include "world/world.hpp"
 
 #include "base/same_bits.hpp"
-#include "scene/solids.hpp"
 #include "scene/texture_range.hpp"
 #include "shared/bsdf.h"
 #include "shared/solids.h"
@@ -114,8 +113,7 @@ World::World(Device& device, const Scene& scene, const TracerSettings& tracer)
     stage.emplace(device, "upload scene");
     positions_ = upload(device, "positions", padded(scene.positions));
     triangles_ = upload(device, "triangles", triangle_records(scene, 0, scene.triangles.size()));
-    solids_ = known_solid_ranks(scene);
-    uploaded_materials_ = material_records(scene, solids_);
+    uploaded_materials_ = material_records(scene, surfaces_.solids);
     materials_ = upload(device, "materials", uploaded_materials_);
     last_moved_.resize(scene.motion.meshes.size());
     mirrored_.reserve(scene.motion.meshes.size());
@@ -198,7 +196,7 @@ const std::vector<std::uint32_t>& World::shining(const Scene& scene) {
 }
 
 void World::upload_changed_materials(const Scene& scene, WorldUpdate& update) {
-    const std::vector<MaterialRecord> records = material_records(scene, solids_);
+    const std::vector<MaterialRecord> records = material_records(scene, surfaces_.solids);
     for (std::size_t i = 0; i < records.size(); ++i) {
         if (have_same_bits(records[i], uploaded_materials_[i])) {
             continue;

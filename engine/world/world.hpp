@@ -98,7 +98,6 @@ private:
     MovingMeshes meshes_;
     Bounds box_at_rest_;         ///< of what does not move
     std::vector<bool> mirrored_; ///< of each moving mesh, as its triangles were uploaded last
-    SolidRanks solids_;          // they keep their ranks as the scene moves
     std::vector<MaterialRecord> uploaded_materials_;
 
     std::vector<std::uint32_t> shining_;            ///< triangles that emit light

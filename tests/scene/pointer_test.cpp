@@ -285,6 +285,18 @@ TEST(Pointer, WhatIsInvisibleAtRestMayAppearLater) {
     EXPECT_EQ(cutoff.load(1.0).materials[0].coverage, 0);
 }
 
+TEST(Pointer, WhatIsThinAtRestMayBecomeASolidWithAPriority) {
+    Animated file = stage();
+    file.builder.root["materials"][0]["extras"]["priority"] = 3;
+    file.builder.root["materials"][0]["extensions"]["KHR_materials_transmission"] = {
+        {"transmissionFactor", 1}};
+    EXPECT_EQ(screen_of(file.load(1.0)).priority, 0);
+    const Scene scene = with_value(
+        file, to_material + "extensions/KHR_materials_volume/thicknessFactor", "SCALAR", {2});
+    EXPECT_EQ(screen_of(scene).priority, 3);
+    EXPECT_EQ(scene.solids->materials, std::vector<std::uint32_t>{0});
+}
+
 TEST(Pointer, MovesALightWhoseNodeMovesToo) {
     Animated file = stage();
     file.animate(1, "translation", {0, 1}, {{0, 0, 0}, {8, 0, 0}});

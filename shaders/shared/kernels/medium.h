@@ -34,6 +34,12 @@ FN uint solids_after(uint before, IN(MaterialRecord) m, bool front, bool passes)
     return solids_behind(before, solid_bit(m), front);
 }
 
+// t_max of a ray that goes on behind a surface that is not there. A hidden one leads into the
+// solid or out of it. t_max: of the ray that met it.
+FN real goes_on_past(float32 t_max, uint before, IN(MaterialRecord) m, bool front, bool hidden) {
+    return goes_on_in(hidden ? solids_behind(before, solid_bit(m), front) : solids_of(t_max));
+}
+
 // Whether the surface is not there, as it lies inside a solid of higher rank.
 FN bool is_hidden(uint before, IN(MaterialRecord) m) {
     return may_have(m, MATERIAL_NESTED) && is_solid(m) && is_in_higher_solid(before, solid_bit(m));

@@ -503,11 +503,8 @@ FN void pass_surface(IN(Vertex) v, real u) {
     real refracted = scale_by_refraction(path, v.material, real(1.0));
     real survival = min(max_component(throughput) / (refracted * least_passing), real(1.0));
     if (u < survival) {
-        uint solids = solids_of(rays[v.slot].t_max);
-        if (v.hidden) {
-            solids = solids_behind(v.solids, solid_bit(v.material), v.surface.front);
-        }
-        rays[v.slot].t_max = goes_on_in(solids);
+        rays[v.slot].t_max =
+            goes_on_past(rays[v.slot].t_max, v.solids, v.material, v.surface.front, v.hidden);
         leave_path(v, path, throughput / survival);
     }
 }

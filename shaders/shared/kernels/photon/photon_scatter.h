@@ -324,11 +324,7 @@ FN void pass_surface(uint i, uint slot, Arrival a, IN(MaterialRecord) m, real pr
     paths[slot].flux_r = flux.x;
     paths[slot].flux_g = flux.y;
     paths[slot].flux_b = flux.z;
-    uint solids = solids_of(rays[slot].t_max);
-    if (a.hidden) {
-        solids = solids_behind(a.solids, solid_bit(m), a.surface.front);
-    }
-    rays[slot].t_max = goes_on_in(solids);
+    rays[slot].t_max = goes_on_past(rays[slot].t_max, a.solids, m, a.surface.front, a.hidden);
     if (extents == extents_differentials) {
         PhotonDifferential d = load_differential(differentials[slot]);
         roulette_differential(d, probability * survival);
