@@ -408,6 +408,19 @@ def window_room():
     return scene
 
 
+def blind():
+    """A room with a lamp, and a closed blind of white slats in its sunlit window. They overlap, 3 mm from one to the next."""
+    scene = window_room()
+    scene.add("lamp", ceiling(-0.3, 0.3, -0.3, 0.3, 2.49), emitter(scaled((1, 0.9, 0.75), 20)))
+    upright = box((-0.0004, -0.015, -0.62), (0.0004, 0.015, 0.62))
+    slat = Mesh([(x + 0.15 * y, y, z) for x, y, z in upright.positions], upright.triangles)
+    slats = Mesh()
+    for i in range(58):
+        slats += slat.moved((1.98, 0.88 + 0.02 * i, 0))
+    scene.add("blind", slats, lambertian((0.8, 0.8, 0.78)))
+    return scene
+
+
 def marble(scale):
     """A glass marble of 4 cm on a table, and its caustic, in a room `scale` times as large as one of 6 m. The room is
     scaled about the marble's foot, so that the picture is nearly the same."""
@@ -612,7 +625,7 @@ def dynamic_camera():
 
 BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, drink, cornell_mirror, ring, furnace, glossy,
           varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground,
-          forty_rooms, window_room, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
+          forty_rooms, window_room, blind, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
           shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,
           dynamic_block, dynamic_occluder, dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)

@@ -22,6 +22,11 @@ def origin():
             f"{platform.machine()}, {os.cpu_count()} cores.")
 
 
+def revision_of(argand):
+    found = subprocess.run(["git", "-C", argand.parent, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
+
+
 def wrap(paragraph):
     """Lines of at most 120 characters; those of an item of a list, which begins with a dash, are indented."""
     indent = "  " if paragraph.startswith("- ") else ""

@@ -114,7 +114,7 @@ MethodInfo footprints_method() {
             .abilities = {.photon_map = true, .footprints = true},
             .law = photon_mapping_law,
             .trial = TrialOrder::later,
-            .options = all_photon_map_options(options),
+            .options = photon_mapping_options(options),
             .make = [](RenderContext& context) {
                 return make_photon_mapping(context, make_footprints());
             }};

@@ -116,7 +116,7 @@ MethodInfo knn_method() {
             .paper = "Jensen 1996",
             .abilities = {.photon_map = true},
             .law = photon_mapping_law,
-            .options = all_photon_map_options(nearest_options()),
+            .options = photon_mapping_options(nearest_options()),
             .make = [](RenderContext& context) {
                 return make_photon_mapping(context, make_nearest());
             }};

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "methods/bandwidth.hpp"
+#include "methods/near_field.hpp"
 #include "methods/persist_buffer.hpp"
 #include "methods/photon_numbers.hpp"
 #include "methods/photon_targets.hpp"
@@ -119,6 +120,7 @@ public:
         if (strategy_->takes_uneven_photons()) {
             aim_at_view(c_, queries);
         }
+        set_near_distance(c_, queries, may_follow_near());
         first_ = trace_first(budget);
         image_.learnt = budget.once([&] {
             const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
@@ -168,6 +170,7 @@ private:
     std::optional<StoredPhotons> trace(PhotonPass emission);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
+    bool may_follow_near() const;
     double area_share() const;
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
     StoredPhotons trace_again();
@@ -293,10 +296,20 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
                 {most_growth * c_.settings.photons_per_pass, max_photons_per_pass(c_.device),
                  room / std::max<std::uint64_t>(stored_or_fail(stored).slots, 1) *
                      image_.split.photons});
+            if (learn_near_field(c_, *stored)) {
+                continue;
+            }
             return *stored;
         }
         image_.split = split(c_.settings, image_.emitted, image_.split.photons / 2);
     }
+}
+
+/// Whether eye paths may follow the light of nearby surfaces: their rays go on behind estimates,
+/// and hits are exact.
+bool PhotonMapping::may_follow_near() const {
+    return c_.settings.least_coverage > 0 && c_.on_device.plan.needs(Feature::direct_light) &&
+           strategy_->corrects_boundaries(c_.settings) && !strategy_->splats() && !tracing_;
 }
 
 /// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the
@@ -378,7 +391,8 @@ void PhotonMapping::make_estimator(const PassNumbers& numbers, const StoredPhoto
         image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
                                        c_.scene.cameras[c_.settings.camera], made_->lookup());
     }
-    made_->untaken = image_.untaken.value_or(untaken_never);
+    made_->untaken = c_.on_device.record.follows_near != 0 ? untaken_often
+                                                           : image_.untaken.value_or(untaken_never);
 }
 
 /// Traces the photons of the last map once more, after a load. Their flux is in the sums already.
@@ -458,6 +472,8 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.mean_footprints = image_.mean_footprints;
     statistics.leaf_size = image_.leaf_size;
     statistics.footprint_scale = image_.footprint_scale;
+    const SceneRecord& scene = c_.on_device.record;
+    statistics.near_field = scene.follows_near != 0 ? scene.near_distance : 0;
     if (image_.maps > 0) {
         // Every pass emits all of the lights' power.
         statistics.flux = flux_of(download<std::int64_t>(c_.device, photons_.flux_sums, flux_words),

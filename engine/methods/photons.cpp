@@ -13,7 +13,7 @@ MethodInfo photons_method() {
             .abilities = {.photon_map = true},
             .law = photon_mapping_law,
             .trial = TrialOrder::first,
-            .options = all_photon_map_options(fixed_radius_options()),
+            .options = photon_mapping_options(fixed_radius_options()),
             .make = [](RenderContext& context) {
                 return make_photon_mapping(context, make_fixed_radius());
             }};

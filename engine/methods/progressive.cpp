@@ -15,7 +15,7 @@ OptionSweep around_last_radius() {
 
 /// The options of `photons`, but for those that fix the radius or ask for what this method is.
 std::vector<Option> progressive_method_options() {
-    std::vector<Option> options = all_photon_map_options(fixed_radius_options());
+    std::vector<Option> options = photon_mapping_options(fixed_radius_options());
     std::erase_if(options, [](const Option& option) {
         return option.fixes_bandwidth || option.name == "progressive";
     });

@@ -77,6 +77,16 @@ Option least_coverage_option() {
     return option;
 }
 
+Option near_field_option() {
+    Option option = member_option(
+        "near-field",
+        "Distance within which eye paths follow the light of other surfaces instead of taking it "
+        "from the photon map; 0: never (default: from the scene)",
+        [](RenderSettings & s) -> auto& { return s.near_field; }, 0, 1e18);
+    option.sweep = {.full = {"0"}, .matters = finds_photons};
+    return option;
+}
+
 Option leaf_size_option() {
     Option option = member_option(
         "leaf-size", "Maximum number of photons in a leaf of the photon map; 0: 16",
@@ -259,6 +269,12 @@ std::vector<Option> progressive_options() {
         "lower the bias faster, and the noise more slowly",
         [](RenderSettings & s) -> auto& { return s.progressive.exponent; }, 1e-6, 0.499999);
     return {progressive, passes, first_radius, exponent};
+}
+
+std::vector<Option> photon_mapping_options(const std::vector<Option>& own) {
+    std::vector<Option> options = all_photon_map_options(own);
+    options.push_back(near_field_option());
+    return options;
 }
 
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own) {

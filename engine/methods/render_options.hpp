@@ -26,6 +26,9 @@ std::vector<Option> progressive_options();
 /// `samples_option` and all that follow above, then a method's own.
 std::vector<Option> all_photon_map_options(const std::vector<Option>& own);
 
+/// Those of make_photon_mapping() by exact rays: all_photon_map_options() and near-field.
+std::vector<Option> photon_mapping_options(const std::vector<Option>& own);
+
 /// Whether density estimation has photons to find: what most options of photon maps need to
 /// matter.
 bool finds_photons(const Variation& variation);

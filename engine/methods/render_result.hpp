@@ -36,6 +36,7 @@ struct RenderStatistics {
     std::uint32_t caustic_neighbours = 0;
     double smoothing = 0;
     double mean_footprints = 0;  ///< footprints on a point, if they were spread evenly
+    double near_field = 0;       ///< distance within which eye paths follow light; 0: none
     std::uint32_t leaf_size = 0; ///< maximum number of photons in a leaf of the map
     std::optional<FootprintScale> footprint_scale; ///< none: photons are points
     std::uint64_t non_finite = 0; ///< samples left out because they were not finite

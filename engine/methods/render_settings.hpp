@@ -99,6 +99,9 @@ struct RenderSettings {
     /// Least share of an estimate's disc that lies on surfaces; with less the estimate is not
     /// taken, and the eye path goes on. 0: all estimates are taken.
     double least_coverage = 0.1;
+    /// Distance within which eye paths follow the light of other surfaces instead of taking it from
+    /// the map, in scene units; 0: never; none: from the scene.
+    std::optional<double> near_field;
     std::uint32_t leaf_size = 0; ///< photons in a leaf of the photon map; 0: 16
     bool wide_codes = false;     ///< photons are sorted by 63-bit Morton codes, not 30-bit ones
     QuerySearch query = QuerySearch::automatic;

@@ -1,9 +1,7 @@
 #include "photon/photon_map.hpp"
 
 #include "device/copy_elements.hpp"
-#include "kernels/area_cover.hpp"
 #include "kernels/area_footprints.hpp"
-#include "kernels/area_rays.hpp"
 #include "kernels/area_samples.hpp"
 #include "kernels/flux_sum.hpp"
 #include "kernels/photon_advance.hpp"
@@ -16,8 +14,8 @@
 #include "kernels/photon_tally.hpp"
 #include "parallel/compact.hpp"
 #include "parallel/reduce.hpp"
+#include "photon/covered.hpp"
 #include "photon/sort_photons.hpp"
-#include "shared/bsdf.h"
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
@@ -184,48 +182,6 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
     return download_word(device, w.traversal.unfinished) == 0 || w.traversal.careful;
 }
 
-/// Finds the sides of area samples that other surfaces cover, by short rays against the normals.
-/// The samples lie behind the stored slots.
-void find_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
-                        std::uint32_t samples, double height) {
-    const std::uint64_t sides = 2 * std::uint64_t(samples);
-    // Rays go on behind both faces of a pane.
-    const bool some_pass =
-        (scene.plan.material_features() & (LOBE_TRANSMIT | LOBE_CLEAR | MATERIAL_ALPHA)) != 0;
-    const int surfaces = some_pass ? 3 : 1;
-    device.fill(w.traversal.unfinished, 0);
-    for (std::uint64_t first = 0; first < sides; first += w.slots) {
-        const AreaCoverParams params{
-            .first = static_cast<std::uint32_t>(first),
-            .count = static_cast<std::uint32_t>(std::min(w.slots, sides - first)),
-            .height = static_cast<float>(height),
-            .error = position_error(scene.record)};
-        dispatch(device,
-                 kernels::area_rays{.counters = w.counters,
-                                    .photons = w.photons,
-                                    .rays = w.rays,
-                                    .active_slots = w.active,
-                                    .params = params},
-                 params.count);
-        for (int surface = 0; surface < surfaces; ++surface) {
-            trace_closest(device, scene.bvh, w.traversal,
-                          {w.rays, w.active, w.hits, Count(params.count)});
-            dispatch(device,
-                     kernels::area_cover{
-                         .triangles = scene.triangles,
-                         .materials = scene.materials,
-                         .hits = w.hits,
-                         .counters = w.counters,
-                         .photons = w.photons,
-                         .positions = scene.positions,
-                         .rays = w.rays,
-                         .params = params,
-                         .constants = {.material_features = scene.plan.material_features()}},
-                     params.count);
-        }
-    }
-}
-
 /// Appends samples of the surfaces' area to the photons. Returns their number, 0 if there is too
 /// little room.
 std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
@@ -262,7 +218,7 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
                                .texture = scene.texture_constants()}},
              samples);
     if (settings.cover_height > 0) {
-        find_covered_areas(device, scene, w, samples, settings.cover_height);
+        drop_covered_areas(device, scene, w, samples, settings.cover_height);
     }
     upload_word(device, w.counters, counter_stored_slots,
                 static_cast<std::uint32_t>(stored.slots + samples));
@@ -400,7 +356,10 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
              (w.capacity + slots_per_tally - 1) / slots_per_tally);
     const std::vector<std::uint32_t> counters =
         download<std::uint32_t>(device, w.counters, counter_count);
-    return StoredPhotons{counters[counter_stored_slots], counters[counter_photons], pass.count};
+    return StoredPhotons{.slots = counters[counter_stored_slots],
+                         .photons = counters[counter_photons],
+                         .emitted = pass.count,
+                         .near = counters[counter_near]};
 }
 
 FootprintParams footprint_params(const DeviceScene& scene, const FootprintScale& scale,
@@ -461,6 +420,10 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
     map.corrected = {scene.areas.part.center, inner_share * scene.areas.part.reach};
+    if (map.area_samples > 0 && settings.cover_height > 0) {
+        const StageScope stage(device, "sample areas");
+        drop_covered_photons(device, scene, w, stored.slots, settings.cover_height, map.corrected);
+    }
     map.frontier = settings.frontier;
     // Footprints of area samples are made from those of their neighbours in the order.
     if (map.frontier && !settings.footprints) {

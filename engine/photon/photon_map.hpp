@@ -49,6 +49,7 @@ struct StoredPhotons {
     std::uint64_t slots = 0;   ///< records in use, some of them empty
     std::uint64_t photons = 0; ///< records that hold a photon
     std::uint64_t emitted = 0;
+    std::uint64_t near = 0; ///< photons from nearby surfaces, stored or not
 };
 
 /// Finds the hits of photons' rays, as trace_closest() does. The results hold the hits that the
@@ -108,7 +109,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
 
 struct PhotonMapSettings {
     std::uint64_t area_samples = 0; ///< wanted; the map has none if there is no room for them
-    double cover_height = 0;        ///< surfaces that lie lower over an area sample cover it
+    double cover_height = 0;        ///< of surfaces that cover photons and areas (covered.hpp)
     std::uint32_t seed = 0;         ///< of the area samples
     std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, up to most_photons_a_leaf; 0: 16
     bool wide_codes = false;        ///< 63-bit Morton codes, for photons that lie in a few places

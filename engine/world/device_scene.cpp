@@ -189,6 +189,12 @@ void set_view(Device& device, DeviceScene& scene, const glm::vec4& sphere, doubl
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
 }
 
+void set_near_field(Device& device, DeviceScene& scene, float distance, bool follows) {
+    scene.record.near_distance = distance;
+    scene.record.follows_near = follows ? 1 : 0;
+    scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
+}
+
 CameraRecord camera_record(const Camera& camera, int width, int height) {
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);

@@ -102,6 +102,10 @@ void set_targets(Device& device, DeviceScene& scene, std::span<const glm::vec4> 
 /// uploads `record` with it. Records only.
 void set_view(Device& device, DeviceScene& scene, const glm::vec4& sphere, double share);
 
+/// Sets up to which distance surfaces are nearby, and whether eye paths follow their light; uploads
+/// `record` with it. Records only.
+void set_near_field(Device& device, DeviceScene& scene, float distance, bool follows);
+
 /// The camera for a picture of this size in pixels. The vertical angle does not depend on the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);
 

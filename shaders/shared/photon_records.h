@@ -199,6 +199,7 @@ CONSTANT uint counter_photons = 6u; // photons among the records
 CONSTANT uint counter_footprints = 7u;
 CONSTANT uint counter_area_places = 8u; // area samples among the records
 CONSTANT uint counter_others = 9u;      // photons of the map that are not caustic, which come first
+CONSTANT uint counter_near = 10u;       // photons from nearby surfaces, stored or not
 CONSTANT uint counter_count = 16u;
 
 ARGAND_SHARED_END

@@ -31,7 +31,10 @@ struct SceneRecord {
     uint sky_columns;     // of texels in the sky's picture; 0: there is none
     uint first_tangent;   // among the vertices' attributes: the first triangle's tangents
     uint cull_back_faces; // 1: eye paths go straight on through those of one-sided surfaces
-    uint pad0, pad1;
+    // Photons whose last ray was shorter than this come from nearby surfaces; 0: none do. With
+    // follows_near they are not stored, and eye paths follow that light instead.
+    float32 near_distance;
+    uint follows_near;
     lane4 view; // sphere (center, radius) around most of what is in view
 };
 

@@ -51,6 +51,7 @@ const std::vector<Expected> scenes = {
     {"sunlit_ground.glb", 40, 5, 1, 1},
     {"forty_rooms.glb", 1040, 3, 1, 0},
     {"window_room.glb", 58, 5, 0, 1},
+    {"blind.glb", 756, 7, 1, 1},
     {"glass_marble.glb", 2906, 4, 1, 0},
     {"marble_box.glb", 2906, 4, 1, 0},
     {"bulb.glb", 4344, 5, 1, 0},

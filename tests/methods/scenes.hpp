@@ -207,6 +207,18 @@ inline Scene room_scene() {
     return scene;
 }
 
+/// The room with a stack of 300 white sheets before a wall, 1.5 mm from one to the next.
+inline Scene room_with_sheets() {
+    Scene scene = room_scene();
+    scene.name = "room with sheets";
+    const std::uint32_t white = add_material(scene, lambertian(glm::vec3(0.9f)));
+    for (int i = 0; i < 300; ++i) {
+        const float y = -0.6f + 0.0015f * static_cast<float>(i);
+        add_quad(scene, {-0.95f, y, 0.6f}, {0.05f, 0, 0}, {0, 0, -1.2f}, white);
+    }
+    return scene;
+}
+
 /// The scene scaled by `factor`, with its lights adjusted so that the image stays the same.
 inline Scene scaled(Scene scene, float factor) {
     for (glm::vec3& p : scene.positions) {

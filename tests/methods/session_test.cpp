@@ -167,7 +167,7 @@ TEST_P(Sessions, PassesMayBeAddedOneByOne) {
 }
 
 // Of these scenes different things are learnt: where the sun comes in, how lights are chosen, where
-// areas are sampled, at which small caster photons are aimed.
+// areas are sampled, at which small caster photons are aimed, whether eye paths follow near light.
 TEST_P(Sessions, GoOnFromWhatTheyHaveSavedWithTheSameBits) {
     expect_same_bits_after_resuming(load_asset("window_room.glb"));
 }
@@ -176,6 +176,7 @@ TEST_P(Sessions, SlowGoOnFromWhatTheyHaveSavedWithTheSameBits) {
     for (const char* name : {"sunlit_ground.glb", "marble_box.glb"}) {
         expect_same_bits_after_resuming(load_asset(name));
     }
+    expect_same_bits_after_resuming(room_with_sheets());
 }
 
 // Passes of a photon map that serves many samples: 48 x 48 pixels of which eight samples are traced

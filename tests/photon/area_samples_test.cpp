@@ -229,6 +229,48 @@ TEST_F(AreaSamples, HiddenSurfacesDarkenNoEstimate) {
     EXPECT_TRUE(finished);
 }
 
+/// What is found beside the panel on a floor of irradiance 1, where there is a hundred times the
+/// light under the panel. caustic: that light is. slots: photons whose rays are traced together.
+double beside_a_bright_gap(Device& device, const Material& panel, bool caustic,
+                           std::uint64_t slots) {
+    const Scene scene = floor_with_panel(0.01f, panel);
+    const DeviceScene on_device =
+        upload_scene(device, scene, make_plan(scene, {.everything = true}));
+    constexpr int side = 100;
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < side * side; ++i) {
+        const float x = 2 * (static_cast<float>(i % side) + 0.5f) / side - 1;
+        const float z = 2 * (static_cast<float>(i / side) + 0.5f) / side - 1;
+        const float flux = (x > 0 ? 100 : 1) * 4.0f / (side * side);
+        photons.push_back({x, 0, z, pack_photon_normal({0, 1, 0}, caustic && x > 0), flux, flux,
+                           flux, pack_photon_direction({0, 1, 0}, 1)});
+    }
+    PhotonWorkspace workspace = make_photon_workspace(device, photons.size());
+    workspace.slots = slots;
+    const double radius = 0.3;
+    const PhotonMap map = build_photon_map(
+        device, on_device, workspace, store(device, workspace, photons),
+        {.area_samples = 10'000, .cover_height = disc_half_height * radius, .seed = 0});
+    RadiusEstimator estimator(device, on_device.plan, {radius, radius});
+    bool finished = false;
+    const Gathered sum =
+        answers(device, estimator, map, {{{-0.05f, 0, 0}}}, Answering{.albedo = 0.5f}, finished)[0];
+    return (sum.indirect.r + sum.caustic.r) * double(pi) / 0.5;
+}
+
+TEST_F(AreaSamples, LightInAGapLeaksIntoNoEstimate) {
+    const Material white = lambertian(glm::vec3(0.5f));
+    for (const std::uint64_t slots : {1000u, 10'000u}) {
+        EXPECT_NEAR(beside_a_bright_gap(open(), white, false, slots), 1, 0.03) << slots;
+    }
+}
+
+// Light passes through glass, so that what it covers is not apart. Caustics are sharp anyway.
+TEST_F(AreaSamples, LightUnderGlassAndCausticsCount) {
+    EXPECT_GT(beside_a_bright_gap(open(), glass(1.5f, true), false, 10'000), 20);
+    EXPECT_GT(beside_a_bright_gap(open(), lambertian(glm::vec3(0.5f)), true, 10'000), 20);
+}
+
 TEST_F(AreaSamples, DifferBetweenSeeds) {
     const Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
     const std::vector<PhotonRecord> a = samples(scene, 100, 1), b = samples(scene, 100, 2);

@@ -82,6 +82,7 @@ Json parameters_json(const RenderReport& render) {
         {"budget", settings.budget ? Json(*settings.budget) : Json()},
         {"query_cell", settings.query_cell},
         {"least_coverage", settings.least_coverage},
+        {"near_field", statistics.near_field},
         {"wide_codes", settings.wide_codes},
         {"follow_roughness", settings.follow_roughness},
         {"cull_back_faces", settings.cull_back_faces},

@@ -99,6 +99,12 @@ FN bool seeks_emission(IN(PathRecord) path) {
 // at the first estimated vertex, and must not count twice where paths go on behind it.
 FN bool left_to_photons(uint layer) { return photon_map && layer == layer_caustic; }
 
+// Whether the path goes on here although it only seeks emission: light that nearby surfaces scatter
+// is not in the map.
+FN bool follows_near(real distance) {
+    return photon_map && scene[0].follows_near != 0u && distance < scene[0].near_distance;
+}
+
 FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
     uint layer = layer_of_emission(path.state);
     if (!left_to_photons(layer)) {
@@ -566,7 +572,7 @@ FN void continue_path(INOUT(Vertex) v) {
     if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u) {
         path.pdf = probability * s.pdf; // shadow rays find the same lights
     }
-    path.state = state_after(path.state, !takes_estimated);
+    path.state = state_after(path.state & ~path_seeks_emission, !takes_estimated);
     if (v.ends && takes_estimated) {
         path.state |= path_seeks_emission;
     }
@@ -614,7 +620,7 @@ FN void main() {
     v.toward = toward_above(v.surface, -v.direction);
     add_surface_emission(v, hit);
     add_unlit(v);
-    bool ends = seeks_emission(v.path) ||
+    bool ends = (seeks_emission(v.path) && !follows_near(hit.t)) ||
                 (behind_estimated(v.path) && (v.path.state & path_depth_mask) >= batch.bounces);
     if (ends) {
         only_pass(v);

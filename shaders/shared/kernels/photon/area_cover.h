@@ -1,5 +1,4 @@
-#include "shared/kernels/material.h"
-#include "shared/kernels/passes_light.h"
+#include "shared/kernels/photon/cover.h"
 
 // Hits on another triangle whose barycentric weights are all above this are no hits on a neighbour,
 // at the edge that a sample's rounded position has crossed.
@@ -13,15 +12,6 @@ FN bool is_copy(HitRecord hit, uint packed_normal) {
     vec3 a = vec3(positions[t.x]);
     vec3 normal = cross3(vec3(positions[t.y]) - a, vec3(positions[t.z]) - a);
     return least > least_inside && dot3(normal, unpack_photon_normal(packed_normal)) > real(0.0);
-}
-
-// Moves the start of a ray behind its hit.
-FN void go_on_behind(uint i, real t) {
-    real by = t + params.error;
-    rays[i].origin_x += by * rays[i].direction_x;
-    rays[i].origin_y += by * rays[i].direction_y;
-    rays[i].origin_z += by * rays[i].direction_z;
-    rays[i].t_max -= by;
 }
 
 // Takes the area from those sides of area samples on which another surface lies through which no

@@ -276,6 +276,16 @@ FN void store_photon(uint store, Arrival a, bool caustic) {
                      pack_photon_direction(-a.direction, a.depth));
 }
 
+// Whether a photon of the map comes from a surface so near that eye paths follow its light instead;
+// counts those from nearby surfaces.
+FN bool is_left_to_eye_paths(Arrival a) {
+    if (!(a.hit.t < scene[0].near_distance)) {
+        return false;
+    }
+    atomicAdd(counters[counter_near], 1u);
+    return scene[0].follows_near != 0u;
+}
+
 // The random numbers of a photon's scattering. Those of the first one lie in one set of four with
 // those of the direction of emission, see photon_emit.h.
 FN vec4 scattering_random(uint slot, uint depth) {
@@ -477,8 +487,10 @@ FN void main() {
     how.only_followed = (path.state & photon_followed) != 0u;
     bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
-    if (stores && may_be_estimated && !a.hidden && a.surface.above_horizon) {
-        store_with_details(slot, store, a, followed_paths && how.only_followed && a.depth > 0u, d);
+    bool caustic = followed_paths && how.only_followed && a.depth > 0u;
+    if (stores && may_be_estimated && !a.hidden && a.surface.above_horizon &&
+        (caustic || !is_left_to_eye_paths(a))) {
+        store_with_details(slot, store, a, caustic, d);
     }
     uint vertex = (keeps & kept_path) != 0u ? add_vertex(slot, store, a) : 0u;
     how.scattered = real(1.0);

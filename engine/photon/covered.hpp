@@ -1,0 +1,23 @@
+#pragma once
+
+#include "photon/photon_map.hpp"
+
+#include <cstdint>
+
+namespace argand {
+
+// Surfaces that lie lower than `height` over a place cover it, unless light passes through them.
+// Hardly any light reaches such a place, or other light than the surface around it has: that in the
+// gap behind a panel, or between the slats of a blind. So neither its area nor its photons count
+// for an estimate that lies outside. Short rays against the normals find them.
+
+/// Takes the area of covered sides from area samples, which lie behind the stored slots.
+void drop_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                        std::uint32_t samples, double height);
+
+/// Drops covered photons, but for caustic ones and outside the part in which area samples surround
+/// every query. slots: records in use.
+void drop_covered_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& workspace,
+                          std::uint64_t slots, double height, const SampledPart& corrected);
+
+} // namespace argand

@@ -1,0 +1,19 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "material_features.glsl"
+#include "shared/bsdf.h"
+#include "shared/cover_records.h"
+#include "shared/geometry_records.h"
+#include "shared/photon.h"
+#include "shared/photon_records.h"
+#include "shared/texture_record.h"
+
+layout(set = 0, binding = 0) readonly buffer Triangles { uvec4 triangles[]; };
+layout(set = 0, binding = 1) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 0, binding = 2) readonly buffer Hits { HitRecord hits[]; };
+layout(set = 0, binding = 3) buffer Photons { PhotonRecord photons[]; };
+layout(set = 0, binding = 4) buffer Rays { RayRecord rays[]; };
+layout(push_constant) uniform Push { PhotonCoverParams params; };
+
+#include "shared/kernels/photon/photon_cover.h"
