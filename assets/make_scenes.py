@@ -412,7 +412,7 @@ def blind():
     """A room with a lamp, and a closed blind of white slats in its sunlit window. They overlap, 3 mm from one to the next."""
     scene = window_room()
     scene.add("lamp", ceiling(-0.3, 0.3, -0.3, 0.3, 2.49), emitter(scaled((1, 0.9, 0.75), 20)))
-    upright = box((-0.0004, -0.015, -0.62), (0.0004, 0.015, 0.62))
+    upright = box((-0.0008, -0.015, -0.62), (0.0008, 0.015, 0.62))
     slat = Mesh([(x + 0.15 * y, y, z) for x, y, z in upright.positions], upright.triangles)
     slats = Mesh()
     for i in range(58):

@@ -16,8 +16,9 @@ namespace argand {
 
 namespace {
 
-/// Copies where photons from inside the scene are aimed.
-void copy_targets(const SceneRecord& from, SceneRecord& to) {
+/// Copies what was learnt: where photons from inside the scene are aimed, whether near light is
+/// followed.
+void copy_learnt(const SceneRecord& from, SceneRecord& to) {
     SceneRecord record = from;
     // Everything up to the targets belongs to the moment.
     std::memcpy(&record, &to, offsetof(SceneRecord, target_0));
@@ -72,7 +73,7 @@ void add(FoundShares& shares, std::uint32_t emitter, double light) {
 
 void keep_learnt(RenderContext& context, const DeviceScene& before) {
     DeviceScene& scene = context.on_device;
-    copy_targets(before.record, scene.record);
+    copy_learnt(before.record, scene.record);
     set_aims(context.device, scene, before.aims);
     const bool same_emitters = scene.light_table.emitter_weights.size() == before.ray_shares.size();
     const DeviceScene& choices = same_emitters ? before : scene;
@@ -103,7 +104,8 @@ void persist_lights(Archive& archive, RenderContext& context) {
     };
     if (!are_shares(learnt.ray_shares) || !are_shares(learnt.photon_shares) ||
         !are_aims(learnt.aims) || learnt.record.target_count > most_targets ||
-        !(learnt.record.view_share >= 0 && learnt.record.view_share < 0.5f)) {
+        !(learnt.record.view_share >= 0 && learnt.record.view_share < 0.5f) ||
+        !(learnt.record.near_distance >= 0) || learnt.record.follows_near > 1) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
     keep_learnt(context, learnt);
@@ -123,7 +125,7 @@ void learn_lights(RenderContext& context) {
                                       context.scene.cameras[context.settings.camera]);
     make_relative(found);
     // Where photons account for reflected light, shadow rays look for direct light only, but for
-    // the few of paths that go on where an estimate is not taken.
+    // those of paths that go on where an estimate is not taken or surfaces are near.
     const bool direct_only = photons && !context.settings.final_gather;
     FoundShares for_rays{.light = std::vector<double>(emitters, 0.0)};
     FoundShares for_photons = for_rays;

@@ -13,7 +13,7 @@ constexpr double least_photons = 0.03;
 
 } // namespace
 
-void set_near_distance(RenderContext& context, std::span<const glm::vec4> points, bool usable) {
+void begin_near_field(RenderContext& context, std::span<const glm::vec4> points, bool usable) {
     double distance = 0;
     if (usable && context.settings.near_field) {
         distance = *context.settings.near_field;

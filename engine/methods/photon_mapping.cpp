@@ -120,7 +120,7 @@ public:
         if (strategy_->takes_uneven_photons()) {
             aim_at_view(c_, queries);
         }
-        set_near_distance(c_, queries, may_follow_near());
+        begin_near_field(c_, queries, may_follow_near());
         first_ = trace_first(budget);
         image_.learnt = budget.once([&] {
             const SortedPhotons sorted = sort_photons(c_.device, photons_, *first_);
@@ -170,6 +170,7 @@ private:
     std::optional<StoredPhotons> trace(PhotonPass emission);
     StoredPhotons stored_or_fail(const std::optional<StoredPhotons>& stored) const;
     StoredPhotons trace_first(Budget& budget);
+    bool goes_on() const;
     bool may_follow_near() const;
     double area_share() const;
     PhotonMap build_map(const PassNumbers& numbers, const StoredPhotons& stored);
@@ -305,11 +306,16 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
     }
 }
 
+/// Whether eye paths go on where the map's estimate is not taken.
+bool PhotonMapping::goes_on() const {
+    return c_.settings.least_coverage > 0 && c_.on_device.plan.needs(Feature::direct_light);
+}
+
 /// Whether eye paths may follow the light of nearby surfaces: their rays go on behind estimates,
 /// and hits are exact.
 bool PhotonMapping::may_follow_near() const {
-    return c_.settings.least_coverage > 0 && c_.on_device.plan.needs(Feature::direct_light) &&
-           strategy_->corrects_boundaries(c_.settings) && !strategy_->splats() && !tracing_;
+    return image_.emitted > 0 && goes_on() && strategy_->corrects_boundaries(c_.settings) &&
+           !strategy_->splats() && !tracing_;
 }
 
 /// Share of the area samples that discs get. Where widths fall from pass to pass, it falls with the
@@ -334,6 +340,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
                                      {.area_samples = samples,
                                       .cover_height = disc_half_height * radius,
+                                      .drops_covered = goes_on(),
                                       .seed = area_seed(numbers),
                                       .leaf_size = c_.settings.leaf_size,
                                       .wide_codes = c_.settings.wide_codes,
@@ -387,12 +394,15 @@ void PhotonMapping::make_estimator(const PassNumbers& numbers, const StoredPhoto
                               .sharp_caustics = has_sharp_caustics(image_.bandwidth)};
     made_->estimator = strategy_->make(c_, made_->map, image_.bandwidth);
     made_->gathers = strategy_->make_for_gathers(c_, image_.bandwidth);
+    if (c_.on_device.record.follows_near != 0) {
+        made_->untaken = untaken_often;
+        return;
+    }
     if (!image_.untaken && made_->map.area_samples > 0) {
         image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
                                        c_.scene.cameras[c_.settings.camera], made_->lookup());
     }
-    made_->untaken = c_.on_device.record.follows_near != 0 ? untaken_often
-                                                           : image_.untaken.value_or(untaken_never);
+    made_->untaken = image_.untaken.value_or(untaken_never);
 }
 
 /// Traces the photons of the last map once more, after a load. Their flux is in the sums already.

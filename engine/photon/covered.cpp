@@ -16,8 +16,9 @@ namespace {
 /// batch's rays, and that look at their hits, with its parameters; they hold what all batches
 /// share.
 template <class Params, class WriteRays, class Look>
-void find_covers(Device& device, const DeviceScene& scene, PhotonWorkspace& w, std::uint64_t count,
-                 Params params, const WriteRays& write_rays, const Look& look) {
+void trace_to_places(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                     std::uint64_t count, Params params, const WriteRays& write_rays,
+                     const Look& look) {
     // Rays go on behind both faces of a pane.
     const bool some_pass =
         (scene.plan.material_features() & (LOBE_TRANSMIT | LOBE_CLEAR | MATERIAL_ALPHA)) != 0;
@@ -33,6 +34,19 @@ void find_covers(Device& device, const DeviceScene& scene, PhotonWorkspace& w, s
                           {w.rays, w.active, w.hits, Count(params.count)});
             dispatch(device, look(params), params.count);
         }
+    }
+}
+
+/// The same, once more and with care if a ray ran out of iterations: what a cover was found for
+/// stays dropped.
+template <class Params, class WriteRays, class Look>
+void find_covers(Device& device, const DeviceScene& scene, PhotonWorkspace& w, std::uint64_t count,
+                 const Params& params, const WriteRays& write_rays, const Look& look) {
+    trace_to_places(device, scene, w, count, params, write_rays, look);
+    if (!w.traversal.careful && download_word(device, w.traversal.unfinished) > 0) {
+        w.traversal.careful = true;
+        trace_to_places(device, scene, w, count, params, write_rays, look);
+        w.traversal.careful = false;
     }
 }
 

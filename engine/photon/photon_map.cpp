@@ -420,7 +420,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     // A disc at the edge of the sampled part would lack some of its samples.
     constexpr double inner_share = 0.9;
     map.corrected = {scene.areas.part.center, inner_share * scene.areas.part.reach};
-    if (map.area_samples > 0 && settings.cover_height > 0) {
+    if (map.area_samples > 0 && settings.drops_covered) {
         const StageScope stage(device, "sample areas");
         drop_covered_photons(device, scene, w, stored.slots, settings.cover_height, map.corrected);
     }

@@ -110,6 +110,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
 struct PhotonMapSettings {
     std::uint64_t area_samples = 0; ///< wanted; the map has none if there is no room for them
     double cover_height = 0;        ///< of surfaces that cover photons and areas (covered.hpp)
+    bool drops_covered = false;     ///< covered photons are not in the map
     std::uint32_t seed = 0;         ///< of the area samples
     std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, up to most_photons_a_leaf; 0: 16
     bool wide_codes = false;        ///< 63-bit Morton codes, for photons that lie in a few places

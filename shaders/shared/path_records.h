@@ -28,6 +28,9 @@ CONSTANT uint path_followed = 0x20000u;
 // The path ends at the next surface; it is traced for the emission there only, unless the photon
 // map's estimate is not taken (estimate_add).
 CONSTANT uint path_seeks_emission = 0x40000u;
+// Only followed lobes scattered the path since it met a surface near an estimated vertex whose
+// estimate was taken. That estimate has the caustics which such a path finds.
+CONSTANT uint path_near_followed = 0x80000u;
 
 // Radiance that a path has gathered so far, by layer (docs/path-classes.md).
 struct LayersRecord {

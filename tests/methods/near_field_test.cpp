@@ -32,6 +32,21 @@ TEST_P(NearField, EachLayerHasTheLightOfPathTracing) {
     }
 }
 
+// Caustics behind a second estimated vertex are in the map, and paths must not find them again. All
+// light of the bulb's lamp is a caustic first.
+TEST_P(NearField, SlowCausticsBehindSecondVerticesCountOnce) {
+    const Scene bulb = load_asset("bulb.glb"), glass = load_asset("frosted_glass.glb");
+    for (const bool gathers : {false, true}) {
+        SCOPED_TRACE(gathers);
+        RenderSettings everything = settings(100);
+        everything.final_gather = gathers;
+        EXPECT_RELATIVE(mean(layer(render(bulb, everything), "indirect")).g,
+                        mean(layer(truth(bulb, 2048), "indirect")).g, 0.06);
+        EXPECT_RELATIVE(mean(layer(render(glass, everything), "indirect")).g,
+                        mean(layer(truth(glass, 1024), "indirect")).g, 0.06);
+    }
+}
+
 TEST_P(NearField, CountsBounces) {
     const Scene scene = room_scene();
     for (const std::uint32_t bounces : {1u, 2u}) {
@@ -60,9 +75,11 @@ TEST_P(NearField, NeedsPathsThatGoOn) {
     RenderSettings all_taken = settings(0.5);
     all_taken.least_coverage = 0;
     EXPECT_EQ(render(room_scene(), all_taken).statistics.near_field, 0);
-    RenderSettings no_photons = settings({});
+    RenderSettings no_photons = settings(0.5);
     no_photons.photons = 0;
-    EXPECT_EQ(render(room_with_sheets(), no_photons).statistics.near_field, 0);
+    const RenderResult found = render(room_scene(), no_photons);
+    EXPECT_EQ(found.statistics.near_field, 0);
+    EXPECT_EQ(mean(layer(found, "indirect")), glm::dvec3(0));
 }
 
 INSTANTIATE_QUICK_AND_SLOW(NearField, "photons", without(estimates, "path"));

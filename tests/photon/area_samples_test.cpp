@@ -231,8 +231,9 @@ TEST_F(AreaSamples, HiddenSurfacesDarkenNoEstimate) {
 
 /// What is found beside the panel on a floor of irradiance 1, where there is a hundred times the
 /// light under the panel. caustic: that light is. slots: photons whose rays are traced together.
-double beside_a_bright_gap(Device& device, const Material& panel, bool caustic,
-                           std::uint64_t slots) {
+/// drops: covered photons are not in the map.
+double beside_a_bright_gap(Device& device, const Material& panel, bool caustic, std::uint64_t slots,
+                           bool drops = true) {
     const Scene scene = floor_with_panel(0.01f, panel);
     const DeviceScene on_device =
         upload_scene(device, scene, make_plan(scene, {.everything = true}));
@@ -248,9 +249,12 @@ double beside_a_bright_gap(Device& device, const Material& panel, bool caustic,
     PhotonWorkspace workspace = make_photon_workspace(device, photons.size());
     workspace.slots = slots;
     const double radius = 0.3;
-    const PhotonMap map = build_photon_map(
-        device, on_device, workspace, store(device, workspace, photons),
-        {.area_samples = 10'000, .cover_height = disc_half_height * radius, .seed = 0});
+    const PhotonMap map =
+        build_photon_map(device, on_device, workspace, store(device, workspace, photons),
+                         {.area_samples = 10'000,
+                          .cover_height = disc_half_height * radius,
+                          .drops_covered = drops,
+                          .seed = 0});
     RadiusEstimator estimator(device, on_device.plan, {radius, radius});
     bool finished = false;
     const Gathered sum =
@@ -263,6 +267,11 @@ TEST_F(AreaSamples, LightInAGapLeaksIntoNoEstimate) {
     for (const std::uint64_t slots : {1000u, 10'000u}) {
         EXPECT_NEAR(beside_a_bright_gap(open(), white, false, slots), 1, 0.03) << slots;
     }
+}
+
+// The area in the gap does not count, so the light leaks if it does.
+TEST_F(AreaSamples, LightInAGapLeaksIfItCounts) {
+    EXPECT_GT(beside_a_bright_gap(open(), lambertian(glm::vec3(0.5f)), false, 10'000, false), 20);
 }
 
 // Light passes through glass, so that what it covers is not apart. Caustics are sharp anyway.

@@ -95,9 +95,11 @@ FN bool seeks_emission(IN(PathRecord) path) {
     return photon_map && (path.state & path_seeks_emission) != 0u;
 }
 
-// Whether photons account for the light of this layer that paths find. Caustics come from the map
-// at the first estimated vertex, and must not count twice where paths go on behind it.
-FN bool left_to_photons(uint layer) { return photon_map && layer == layer_caustic; }
+// Whether photons account for the light of this layer that the path finds. Caustics come from the
+// map at the estimated vertex, and must not count twice where paths go on behind it.
+FN bool left_to_photons(uint state, uint layer) {
+    return photon_map && (layer == layer_caustic || (state & path_near_followed) != 0u);
+}
 
 // Whether the path goes on here although it only seeks emission: light that nearby surfaces scatter
 // is not in the map.
@@ -107,7 +109,7 @@ FN bool follows_near(real distance) {
 
 FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
     uint layer = layer_of_emission(path.state);
-    if (!left_to_photons(layer)) {
+    if (!left_to_photons(path.state, layer)) {
         add_to_layer(slot, layer, radiance);
     }
 }
@@ -350,7 +352,8 @@ FN void sample_light(IN(Vertex) v) {
     uint estimated_layer = behind ? layer_indirect : layer_direct;
     uint followed_layer =
         behind && (v.path.state & path_followed) != 0u ? layer_caustic : estimated_layer;
-    bool samples_followed = !left_to_photons(followed_layer);
+    bool samples_followed =
+        !left_to_photons(v.path.state, followed_layer) && !seeks_emission(v.path);
     vec3 by_followed = vec3(real(0.0));
     if (scatters(v, LOBE_CLEAR) && samples_followed) {
         by_followed += light_by_spread_lobe(v, l, LOBE_CLEAR);
@@ -571,6 +574,11 @@ FN void continue_path(INOUT(Vertex) v) {
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
     if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u) {
         path.pdf = probability * s.pdf; // shadow rays find the same lights
+    }
+    if (takes_estimated) {
+        path.state &= ~path_near_followed;
+    } else if (seeks_emission(path)) {
+        path.state |= path_near_followed;
     }
     path.state = state_after(path.state & ~path_seeks_emission, !takes_estimated);
     if (v.ends && takes_estimated) {
