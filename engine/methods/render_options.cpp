@@ -83,7 +83,9 @@ Option near_field_option() {
         "Distance within which eye paths follow the light of other surfaces instead of taking it "
         "from the photon map; 0: never (default: from the scene)",
         [](RenderSettings & s) -> auto& { return s.near_field; }, 0, 1e18);
-    option.sweep = {.full = {"0"}, .matters = finds_photons};
+    option.sweep = {.around = [](const RenderStatistics& learnt,
+                                 double factor) { return around_width(learnt.near_field, factor); },
+                    .matters = finds_photons};
     return option;
 }
 

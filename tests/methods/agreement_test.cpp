@@ -134,6 +134,24 @@ TEST_F(Agreement, SlowLayersOfScenesOfOtherMaterials) {
     expect_same_means(load_asset("ring.glb"), 16, 64, {{"direct", 0.01}});
 }
 
+// Sunlight between the slats must not count on the side of the room. It was 10 % of the indirect
+// light; seeds differ by 2 %.
+TEST_F(Agreement, SlowSunlightInABlindDoesNotLeak) {
+    const Scene scene = load_asset("blind.glb");
+    const glm::dvec3 expected =
+        mean(layer(render(scene, settings_of("path", 24, 2048)), "indirect"));
+    glm::dvec3 found(0);
+    for (const std::uint32_t seed : {0u, 1u, 2u}) {
+        RenderSettings settings = settings_of("photons", 24, 64);
+        settings.photons = 400'000;
+        settings.seed = seed;
+        found += mean(layer(render(scene, settings), "indirect")) / 3.0;
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_RELATIVE(found[channel], expected[channel], 0.04);
+    }
+}
+
 TEST_F(Agreement, SlowCornellBoxes) {
     // The path tracer is noisy where light arrives by way of glass or a mirror.
     const std::pair<const char*, std::uint32_t> scenes[] = {{"cornell_point.glb", 256},
