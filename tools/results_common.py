@@ -14,17 +14,17 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ARGAND = ROOT / "build/release/tools/argand/argand"
 
 
+def revision_of(folder):
+    """The revision of the working tree that a folder belongs to."""
+    found = subprocess.run(["git", "-C", folder, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
+
+
 def origin():
     """A sentence: the command, date, revision and machine of the results."""
     command = " ".join([pathlib.Path(sys.argv[0]).name, *sys.argv[1:]])
-    revision = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
-    return (f"Written by `tools/{command}`. {datetime.date.today()}, revision {revision.stdout.strip()}, "
+    return (f"Written by `tools/{command}`. {datetime.date.today()}, revision {revision_of(ROOT)}, "
             f"{platform.machine()}, {os.cpu_count()} cores.")
-
-
-def revision_of(argand):
-    found = subprocess.run(["git", "-C", argand.parent, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
-    return found.stdout.strip() or "unknown"
 
 
 def wrap(paragraph):

@@ -11,7 +11,7 @@ struct PhotonCoverParams {
     uint first, count; // slots of this batch
     float32 height;    // at which the rays start
     float32 error;     // bound of the rounding errors of positions
-    // Photons farther from this point than this are not covered: no area samples lie there.
+    // Only photons within this distance of this point are tested: area samples surround them.
     float32 corrected_x, corrected_y, corrected_z, corrected_distance;
 };
 

@@ -259,6 +259,7 @@ double beside_a_bright_gap(Device& device, const Material& panel, bool caustic, 
     bool finished = false;
     const Gathered sum =
         answers(device, estimator, map, {{{-0.05f, 0, 0}}}, Answering{.albedo = 0.5f}, finished)[0];
+    EXPECT_TRUE(finished);
     return (sum.indirect.r + sum.caustic.r) * double(pi) / 0.5;
 }
 

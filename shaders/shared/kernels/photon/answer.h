@@ -1,11 +1,9 @@
 // The answer to a query: its estimate, from the sums over photons.
+#include "shared/kernels/photon/corrected.h"
 
 // Whether the area samples around a query at p tell how much of its disc lies on surfaces.
 FN bool is_corrected(IN(vec3) p) {
-    vec3 center = vec3(params.corrected_x, params.corrected_y, params.corrected_z);
-    vec3 d = p - center;
-    return params.boundary_correction != 0u &&
-           dot3(d, d) <= params.corrected_distance * params.corrected_distance;
+    return params.boundary_correction != 0u && is_in_corrected_part(p);
 }
 
 // Photons cover only the part of the kernel's support that lies on surfaces. The area samples give

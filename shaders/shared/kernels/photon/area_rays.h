@@ -1,3 +1,5 @@
+#include "shared/kernels/photon/cover_ray.h"
+
 // Writes a short ray to each side of the area samples, against its normal, which finds what lies on
 // it: another surface, or the sample's own.
 FN void main() {
@@ -9,8 +11,5 @@ FN void main() {
     PhotonRecord place = photons[counters[counter_stored_slots] + side / 2u];
     vec3 front = unpack_photon_normal(place.normal);
     vec3 normal = side % 2u == 0u ? front : -front;
-    vec3 origin = vec3(place.x, place.y, place.z) + params.height * normal;
-    rays[i] = RayRecord(origin.x, origin.y, origin.z, params.height + params.error, -normal.x,
-                        -normal.y, -normal.z, 0u);
-    active_slots[i] = i;
+    leave_cover_ray(i, vec3(place.x, place.y, place.z), normal, params.height + params.error);
 }

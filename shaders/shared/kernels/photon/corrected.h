@@ -1,0 +1,5 @@
+// Whether area samples surround every query at p.
+FN bool is_in_corrected_part(IN(vec3) p) {
+    vec3 d = p - vec3(params.corrected_x, params.corrected_y, params.corrected_z);
+    return dot3(d, d) <= params.corrected_distance * params.corrected_distance;
+}
