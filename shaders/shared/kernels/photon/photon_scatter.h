@@ -433,6 +433,23 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
     return true;
 }
 
+// The differential of a photon that has flown `distance` along `direction`, at its arrival `a`;
+// `channels` is what disperse_photon returned. Undefined where photons have no extents.
+FN PhotonDifferential arriving_differential(uint slot, vec3 direction, real distance, Arrival a,
+                                            real channels) {
+    PhotonDifferential d;
+    if (extents == extents_differentials) {
+        d = load_differential(differentials[slot]);
+        transfer_differential(d, direction, distance, a.surface.geometric_normal);
+        if (has(MATERIAL_DISPERSION) && channels > real(1.0)) {
+            roulette_differential(d, real(1.0) / channels);
+        }
+    } else if (extents == extents_splats) {
+        d = splat_differential(direction, distance, a.surface.geometric_normal);
+    }
+    return d;
+}
+
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_active]) {
@@ -474,16 +491,7 @@ FN void main() {
     refer_index(a.solids, m);
     how.followed = followed_paths ? followed_lobes(m, scene[0].follow_roughness) : 0u;
     how.estimated = bsdf_lobes(m) & ~how.followed;
-    PhotonDifferential d;
-    if (extents == extents_differentials) {
-        d = load_differential(differentials[slot]);
-        transfer_differential(d, direction, hit.t, a.surface.geometric_normal);
-        if (has(MATERIAL_DISPERSION) && channels > real(1.0)) {
-            roulette_differential(d, real(1.0) / channels);
-        }
-    } else if (extents == extents_splats) {
-        d = splat_differential(direction, hit.t, a.surface.geometric_normal);
-    }
+    PhotonDifferential d = arriving_differential(slot, direction, hit.t, a, channels);
     how.only_followed = (path.state & photon_followed) != 0u;
     bool may_be_estimated = how.estimated != 0u || (m.textures & material_stores_everywhere) != 0u;
     // Seen from above the horizon of the shading normal, light from below it is not scattered.
