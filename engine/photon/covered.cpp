@@ -4,9 +4,11 @@
 #include "kernels/area_rays.hpp"
 #include "kernels/photon_cover.hpp"
 #include "kernels/photon_cover_rays.hpp"
+#include "parallel/compact.hpp"
 #include "shared/bsdf.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace argand {
 
@@ -14,7 +16,7 @@ namespace {
 
 /// Traces the short rays of `count` places in batches. write_rays and look: kernels that write a
 /// batch's rays, and that look at their hits, with its parameters; they hold what all batches
-/// share.
+/// share. Rays that go on behind a surface make up the next round.
 template <class Params, class WriteRays, class Look>
 void trace_to_places(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                      std::uint64_t count, Params params, const WriteRays& write_rays,
@@ -29,10 +31,18 @@ void trace_to_places(Device& device, const DeviceScene& scene, PhotonWorkspace& 
         params.first = static_cast<std::uint32_t>(first);
         params.count = static_cast<std::uint32_t>(std::min(w.slots, count - first));
         dispatch(device, write_rays(params), params.count);
+        params.counter = counter_active;
+        std::uint32_t next_counter = counter_next_active;
+        upload_word(device, w.counters, params.counter, params.count);
         for (int surface = 0; surface < surfaces; ++surface) {
-            trace_closest(device, scene.bvh, w.traversal,
-                          {w.rays, w.active, w.hits, Count(params.count)});
-            dispatch(device, look(params), params.count);
+            const Count rays(w.counters, params.counter, params.count);
+            trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, rays});
+            dispatch(device, look(params), rays);
+            if (surface + 1 < surfaces) {
+                compact(device, w.alive, w.active, w.next_active, {w.counters, next_counter}, rays);
+                std::swap(w.active, w.next_active);
+                std::swap(params.counter, next_counter);
+            }
         }
     }
 }
@@ -70,6 +80,8 @@ void drop_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspac
             .photons = w.photons,
             .positions = scene.positions,
             .rays = w.rays,
+            .active_slots = w.active,
+            .alive = w.alive,
             .params = params,
             .constants = {.material_features = scene.plan.material_features()}};
     };
@@ -90,6 +102,9 @@ void drop_covered_photons(Device& device, const DeviceScene& scene, PhotonWorksp
             .hits = w.hits,
             .photons = w.photons,
             .rays = w.rays,
+            .counters = w.counters,
+            .active_slots = w.active,
+            .alive = w.alive,
             .params = params,
             .constants = {.material_features = scene.plan.material_features()}};
     };

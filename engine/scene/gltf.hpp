@@ -12,6 +12,7 @@ struct LoadOptions {
     bool allow_external = false;   ///< read buffers and images outside the file's folder
     bool grey_for_missing = false; ///< where an image's file does not exist
     std::string scene;             ///< name or index of the file's scene; empty: its default
+    bool movable_nodes = false;    ///< keep what edits need to move nodes (scene/edits.hpp)
 };
 
 /// Loads a glTF 2.0 file (.gltf or .glb, told apart by content) and the buffers that it names.

@@ -1,11 +1,11 @@
 #include "scene/gltf_node.hpp"
 
 #include "scene/direction.hpp"
+#include "scene/find_named.hpp"
 #include "scene/gltf_instances.hpp"
 #include "scene/gltf_morph.hpp"
 #include "scene/pose.hpp"
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/ranges.h>
 #include <utility>
@@ -57,16 +57,8 @@ LocalTransform rest_transform(const GltfSource& source, int index) {
 /// The scene of this name or index.
 int find_scene(const GltfSource& source, const std::string& choice) {
     const std::vector<tinygltf::Scene>& scenes = source.model.scenes;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (scenes[i].name == choice) {
-            return static_cast<int>(i);
-        }
-    }
-    std::size_t index = 0;
-    const char* end = choice.data() + choice.size();
-    const auto [read, error] = std::from_chars(choice.data(), end, index);
-    if (error == std::errc() && read == end && index < scenes.size()) {
-        return static_cast<int>(index);
+    if (const std::optional<std::size_t> index = find_named(scenes, choice)) {
+        return static_cast<int>(*index);
     }
     std::vector<std::string> names;
     for (std::size_t i = 0; i < std::min<std::size_t>(scenes.size(), 8); ++i) {
@@ -147,14 +139,23 @@ std::vector<GltfNode> read_nodes(const GltfSource& source, const std::string& ch
         const auto number = static_cast<int>(flat.size());
         const NodeKeys of_instances{.weights = keys[std::size_t(index)].weights};
         flat.push_back({index, glm::dmat4(1), false, !places.empty()});
-        scene.motion.nodes.push_back({.parent = parent,
+        const std::string name = one_line(nodes[std::size_t(index)].name);
+        const bool movable = source.options.movable_nodes;
+        scene.motion.nodes.push_back({.index = static_cast<std::uint32_t>(index),
+                                      .name = name,
+                                      .parent = parent,
                                       .rest = rest_transform(source, index),
                                       .weights = weights,
-                                      .keys = std::move(keys[std::size_t(index)])});
+                                      .keys = std::move(keys[std::size_t(index)]),
+                                      .movable = movable});
         for (const LocalTransform& place : places) {
             flat.push_back({index, glm::dmat4(1), false, false, true});
-            scene.motion.nodes.push_back(
-                {.parent = number, .rest = place, .weights = weights, .keys = of_instances});
+            scene.motion.nodes.push_back({.index = static_cast<std::uint32_t>(index),
+                                          .name = name,
+                                          .parent = number,
+                                          .rest = place,
+                                          .weights = weights,
+                                          .keys = of_instances});
         }
     }
     const Pose rest = pose_at(scene.motion, {});

@@ -31,10 +31,13 @@ struct NodeKeys {
 
 /// A node of the file's hierarchy.
 struct MotionNode {
+    std::uint32_t index = 0; ///< in the file; instances of a mesh have that of their node
+    std::string name;
     int parent = -1;             ///< index of a node before this one; -1: none
     LocalTransform rest;         ///< as the file states it
     std::vector<double> weights; ///< of morph targets at rest
     NodeKeys keys;
+    bool movable = false; ///< its transform at rest may change (scene/edits.hpp)
 };
 
 /// Joints that carry a mesh's vertices (glTF 2.0, section 3.7.3).

@@ -91,12 +91,13 @@ void check_position(const glm::vec3& position, const char* what, const std::stri
 }
 
 /// Moves all but meshes.
-void move_the_rest(const Pose& pose, double seconds, Scene& scene) {
+void move_the_rest(const Pose& pose, std::optional<double> seconds, Scene& scene) {
     for (const MovingLight& moving : scene.motion.lights) {
         Light& light = scene.lights[moving.index] = moving.light;
         if (moving.keys >= 0) {
             const LightKeys& keys = scene.motion.light_keys[std::size_t(moving.keys)];
-            set_factors(factors_at(keys, moving.factors, seconds), light);
+            set_factors(seconds ? factors_at(keys, moving.factors, *seconds) : moving.factors,
+                        light);
         }
         if (!place(pose.world_from_node[moving.node], light)) {
             light.intensity = glm::vec3(0);
@@ -105,14 +106,15 @@ void move_the_rest(const Pose& pose, double seconds, Scene& scene) {
     }
     for (const MovingCamera& moving : scene.motion.cameras) {
         Camera& camera = scene.cameras[moving.index] = moving.camera;
-        if (moving.keys >= 0) {
-            set_view(scene.motion.camera_keys[std::size_t(moving.keys)], seconds, camera);
+        if (seconds && moving.keys >= 0) {
+            set_view(scene.motion.camera_keys[std::size_t(moving.keys)], *seconds, camera);
         }
         place(pose.world_from_node[moving.node], camera);
         check_position(camera.position, "camera", camera.name, scene);
     }
     for (const MovingMaterial& moving : scene.motion.materials) {
-        set_factors(factors_at(moving, seconds), scene.materials[moving.index]);
+        set_factors(seconds ? factors_at(moving, *seconds) : moving.factors,
+                    scene.materials[moving.index]);
     }
     scene.seconds = seconds;
 }
@@ -146,7 +148,7 @@ std::vector<bool> moving_nodes(const Motion& motion) {
     std::vector<bool> moves;
     moves.reserve(motion.nodes.size());
     for (const MotionNode& node : motion.nodes) {
-        moves.push_back(node.keys.moves_transform() ||
+        moves.push_back(node.movable || node.keys.moves_transform() ||
                         (node.parent >= 0 && moves[std::size_t(node.parent)]));
     }
     return moves;
@@ -173,7 +175,7 @@ void place(MovingMesh& mesh, const Pose& pose, Scene& scene) {
     orient(mesh, of_node, scene);
 }
 
-void move_to(double seconds, Scene& scene) {
+void move_to(std::optional<double> seconds, Scene& scene) {
     const Pose pose = pose_at(scene.motion, seconds);
     for (MovingMesh& mesh : scene.motion.meshes) {
         place(mesh, pose, scene);
@@ -181,7 +183,7 @@ void move_to(double seconds, Scene& scene) {
     move_the_rest(pose, seconds, scene);
 }
 
-void move_without_vertices(double seconds, Scene& scene) {
+void move_without_vertices(std::optional<double> seconds, Scene& scene) {
     const Pose pose = pose_at(scene.motion, seconds);
     for (MovingMesh& mesh : scene.motion.meshes) {
         orient(mesh, vertex_transform(pose.world_from_node[mesh.node]), scene);

@@ -1,5 +1,6 @@
 #include "scene/summary.hpp"
 
+#include "base/text.hpp"
 #include "scene/environment_summary.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/light_power.hpp"
@@ -352,6 +353,34 @@ std::string motion_line(const json& motion) {
         motion["cameras"].get<std::size_t>(), motion["materials"].get<std::size_t>());
 }
 
+/// The objects that edits can name (scene/edits.hpp).
+json objects_json(const Scene& scene) {
+    json objects = json::array();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
+        const std::size_t end = i + 1 < scene.objects.size() ? scene.objects[i + 1].first_triangle
+                                                             : scene.triangles.size();
+        objects.push_back({{"node", object.node},
+                           {"name", one_line(object.name)},
+                           {"triangles", end - object.first_triangle}});
+    }
+    return objects;
+}
+
+std::string objects_text(const json& objects) {
+    constexpr std::size_t most_listed = 12;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < std::min(objects.size(), most_listed); ++i) {
+        const std::string name = quoted_name(objects[i]);
+        names.push_back(objects[i]["name"].get<std::string>().empty()
+                            ? fmt::format("node {}", objects[i]["node"].get<std::uint32_t>())
+                            : name);
+    }
+    return objects.empty() ? "0"
+                           : fmt::format("{}: {}{}", objects.size(), fmt::join(names, ", "),
+                                         objects.size() > most_listed ? ", ..." : "");
+}
+
 template <class Line>
 void append_list(std::string& text, const char* title, const json& list, Line line) {
     fmt::format_to(std::back_inserter(text), "{:<12}{}\n", title, list.size());
@@ -410,6 +439,7 @@ json summary_json(const Scene& scene) {
             {"vertices", scene.positions.size()},
             {"area", surface_area(scene)},
             {"bounds", {{"low", numbers(box.low)}, {"high", numbers(box.high)}}},
+            {"objects", objects_json(scene)},
             {"materials", materials_json(scene)},
             {"solids", solids},
             {"lights", lights},
@@ -434,6 +464,7 @@ std::string summary_text(const Scene& scene) {
     line("area", fmt::format("{:.4g}", summary["area"].get<double>()));
     line("bounds", fmt::format("{} to {}", full_text(summary["bounds"]["low"]),
                                full_text(summary["bounds"]["high"])));
+    line("objects", objects_text(summary["objects"]));
     append_list(text, "materials", summary["materials"], material_line);
     if (summary["solids"].size() > 1) {
         std::vector<std::string> names;

@@ -9,6 +9,7 @@ ARGAND_SHARED_BEGIN
 // Short rays to photons.
 struct PhotonCoverParams {
     uint first, count; // slots of this batch
+    uint counter;      // that holds the number of active rays
     float32 height;    // at which the rays start
     float32 error;     // bound of the rounding errors of positions
     // Only photons within this distance of this point are tested: area samples surround them.

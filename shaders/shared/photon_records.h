@@ -110,6 +110,7 @@ struct AreaSampleParams {
 // Sides of area samples, 2 × sample + 1 for the back, to which short rays find what lies on them.
 struct AreaCoverParams {
     uint first, count; // sides of this batch
+    uint counter;      // that holds the number of active rays
     float32 height;    // at which the rays start
     float32 error;     // bound of the rounding errors of positions
 };

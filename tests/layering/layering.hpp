@@ -31,7 +31,7 @@ inline const std::vector<std::vector<std::string>> levels = {
     {"methods"},
     {"session"},
     {"autotune", "sweep", "compare"},
-    {"plot"},
+    {"plot", "interactive"},
 };
 
 /// An include line. `target` is the file that it names, "kernels/..." for a header generated from a

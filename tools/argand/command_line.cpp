@@ -59,7 +59,7 @@ bool validated() {
     return messages.empty();
 }
 
-int parse_and_run(int argc, const char* const* argv, MethodTable methods) {
+int parse_and_run(int argc, const char* const* argv, MethodTable methods, ShowInWindow window) {
     CLI::App app("Argand: a photon-mapping renderer for any Vulkan GPU. Reads glTF 2.0, writes PNG "
                  "and OpenEXR.");
     app.name("argand");
@@ -68,6 +68,7 @@ int parse_and_run(int argc, const char* const* argv, MethodTable methods) {
     app.footer("Example:\n  argand render assets/cornell_glass.glb -o picture.png\n\n"
                "`argand COMMAND --help` describes each command.");
     add_render_command(app, methods, command_text(argc, argv));
+    add_view_command(app, methods, {argv, static_cast<std::size_t>(argc)}, window);
     add_compare_command(app);
     add_compare_backends_command(app, methods);
     add_tradeoff_command(app, methods);
@@ -87,9 +88,10 @@ int parse_and_run(int argc, const char* const* argv, MethodTable methods) {
 }
 
 /// Returns the exit status, and in `output_error` the errno of a failure to print.
-int run(int argc, const char* const* argv, MethodTable methods, int& output_error) {
+int run(int argc, const char* const* argv, MethodTable methods, ShowInWindow window,
+        int& output_error) {
     try {
-        return parse_and_run(argc, argv, methods);
+        return parse_and_run(argc, argv, methods, window);
     } catch (const UsageError& error) {
         complain(error.what());
         return usage;
@@ -110,9 +112,9 @@ int run(int argc, const char* const* argv, MethodTable methods, int& output_erro
 
 } // namespace
 
-int run_command_line(int argc, const char* const* argv, MethodTable methods) {
+int run_command_line(int argc, const char* const* argv, MethodTable methods, ShowInWindow window) {
     int output_error = 0;
-    const int code = run(argc, argv, methods, output_error);
+    const int code = run(argc, argv, methods, window, output_error);
     const bool all_printed = printed(output_error);
     const bool is_valid = validated();
     return code == 0 && !(all_printed && is_valid) ? failure : code;

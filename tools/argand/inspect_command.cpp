@@ -96,7 +96,7 @@ void inspect(const InspectOptions& options) {
     if (!options.method.empty()) {
         check_methods({options.method}, options.methods);
     }
-    const Scene scene = load_scene(options.scene, options, options.seconds, options.load);
+    const Scene scene = load_scene(options, options.seconds);
     nlohmann::ordered_json summary = summary_json(scene);
     const nlohmann::ordered_json plan = plan_json(scene, options.method, options.methods);
     const std::string kept = kept_text(scene);

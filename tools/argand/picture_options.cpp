@@ -43,7 +43,7 @@ std::string read_layers(const std::string& names, FeatureLayers& layers) {
 
 } // namespace
 
-void add_picture_options(CLI::App& command, PictureOptions& options) {
+void add_display_options(CLI::App& command, PictureOptions& options) {
     command
         .add_option_function<std::string>(
             "--exposure",
@@ -68,6 +68,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->type_name("TEXT")
         ->default_str("linear")
         ->check(CLI::IsMember({"linear", "neutral", "filmic"}));
+}
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+    add_display_options(command, options);
     command
         .add_option_function<std::string>(
             "--aovs", [&options](const std::string& names) { read_layers(names, options.layers); },

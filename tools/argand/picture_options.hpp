@@ -21,7 +21,10 @@ struct PictureOptions {
     std::string command;  ///< that the user typed, for the files
 };
 
-/// Adds --exposure, --tone, --aovs and --crop.
+/// Adds --exposure and --tone.
+void add_display_options(CLI::App& command, PictureOptions& options);
+
+/// Adds these, --aovs and --crop.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
 /// The part of a picture of this size that the user asked for, if any. Throws UsageError unless it

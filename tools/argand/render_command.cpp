@@ -200,6 +200,9 @@ void check(const RenderOptions& options, const CLI::App& command) {
     if (!options.env.empty()) {
         files.push_back(options.env);
     }
+    if (!options.edits.empty()) {
+        files.push_back(options.edits);
+    }
     const std::vector<std::string> inputs = files;
     for (const std::string& checkpoint : {options.checkpoint, options.resume}) {
         if (!checkpoint.empty()) {

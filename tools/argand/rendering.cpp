@@ -9,7 +9,6 @@
 #include "image/files.hpp"
 #include "method_options.hpp"
 #include "methods/plan_render.hpp"
-#include "numbers.hpp"
 #include "overwriting.hpp"
 #include "picture_size.hpp"
 #include "session/checkpoint.hpp"
@@ -21,24 +20,6 @@
 namespace argand {
 
 namespace {
-
-std::size_t find_camera(const Scene& scene, const std::string& choice) {
-    if (choice.empty()) {
-        return 0;
-    }
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        if (scene.cameras[i].name == choice) {
-            return i;
-        }
-    }
-    const std::optional<std::size_t> index = parse_number<std::size_t>(choice);
-    if (index && *index < scene.cameras.size()) {
-        return *index;
-    }
-    fail("choosing camera '{}' of '{}': there is none of that name or index; `argand inspect` "
-         "lists its {} cameras",
-         choice, scene.name, scene.cameras.size());
-}
 
 /// Picks the method if it is left to Argand and is not autotuned. Options that the user has set and
 /// the method does not have keep the default method.
@@ -337,7 +318,7 @@ RenderJob open_job(const RenderOptions& options, const CLI::App& command,
     job.settings.height = size.height;
     job.settings.crop = parse_crop(options.picture.crop, size);
     const Clock::time_point start = Clock::now();
-    job.scene = load_scene(options.scene, options, seconds, options.load);
+    job.scene = load_scene(options, seconds);
     job.times.load = seconds_since(start);
     check_overwrites_no_file_of(job.scene, options.outputs);
     check_overwrites_no_file_of(job.scene, {options.report});

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 
 namespace argand::vulkan {
 
@@ -50,6 +51,21 @@ bool has_instance_extension(const char* name) {
 ValidationLog& process_log() {
     static ValidationLog log;
     return log;
+}
+
+bool surfaces_wanted = false;
+
+/// Adds those for the displays that there may be. Drivers complain about Wayland where it does not
+/// run.
+void add_surface_extensions(std::vector<const char*>& extensions) {
+    for (const char* extension : {"VK_KHR_surface", "VK_KHR_xcb_surface", "VK_KHR_xlib_surface",
+                                  "VK_KHR_wayland_surface"}) {
+        const bool is_absent = extension == std::string_view("VK_KHR_wayland_surface") &&
+                               environment("WAYLAND_DISPLAY").empty();
+        if (!is_absent && has_instance_extension(extension)) {
+            extensions.push_back(extension);
+        }
+    }
 }
 
 void append(ValidationLog& log, const char* message) {
@@ -115,6 +131,10 @@ Instance::Instance() {
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     }
 
+    if (surfaces_wanted) {
+        add_surface_extensions(extensions);
+    }
+
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "argand";
     application.apiVersion = VK_API_VERSION_1_2;
@@ -151,6 +171,8 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
     check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "listing Vulkan devices");
     return devices;
 }
+
+void want_surfaces() { surfaces_wanted = true; }
 
 std::shared_ptr<Instance> instance() {
     static std::mutex mutex;

@@ -36,6 +36,9 @@ private:
     ValidationLog validation_;
 };
 
+/// Lets instances that are made from now on draw on windows.
+void want_surfaces();
+
 /// The process's instance, created at the first call and destroyed with its last user.
 std::shared_ptr<Instance> instance();
 

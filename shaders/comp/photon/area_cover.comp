@@ -15,6 +15,8 @@ layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) buffer Photons { PhotonRecord photons[]; };
 layout(set = 0, binding = 5) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 6) buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 7) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 8) writeonly buffer Alive { uint alive[]; };
 layout(push_constant) uniform Push { AreaCoverParams params; };
 
 #include "shared/kernels/photon/area_cover.h"

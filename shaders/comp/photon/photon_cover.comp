@@ -14,6 +14,9 @@ layout(set = 0, binding = 1) readonly buffer Materials { MaterialRecord material
 layout(set = 0, binding = 2) readonly buffer Hits { HitRecord hits[]; };
 layout(set = 0, binding = 3) buffer Photons { PhotonRecord photons[]; };
 layout(set = 0, binding = 4) buffer Rays { RayRecord rays[]; };
+layout(set = 0, binding = 5) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 6) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 7) writeonly buffer Alive { uint alive[]; };
 layout(push_constant) uniform Push { PhotonCoverParams params; };
 
 #include "shared/kernels/photon/photon_cover.h"

@@ -24,9 +24,9 @@ struct Shi12Sizes {
                                         200'000, 500'000, 1'000'000};
     std::vector<double> in_discs{25, 50, 100, 200, 400};
     int size = 512;      ///< of pictures that measure search
-    int film_size = 128; ///< of frames
+    int film_size = 512; ///< of frames
     Shi12Load film{200'000, 4};
-    std::uint32_t reference_samples = 1024;
+    std::uint32_t reference_samples = 256;
 };
 
 Shi12Sizes sizes(bool quick) {

@@ -17,8 +17,13 @@ FN bool is_copy(HitRecord hit, uint packed_normal) {
 // Takes the area from those sides of area samples on which another surface lies through which no
 // light passes.
 FN void main() {
-    uint i = THREAD_INDEX;
-    if (i >= params.count || hits[i].triangle == no_triangle) {
+    uint thread = THREAD_INDEX;
+    if (thread >= counters[params.counter]) {
+        return;
+    }
+    alive[thread] = 0u;
+    uint i = active_slots[thread];
+    if (hits[i].triangle == no_triangle) {
         return;
     }
     uint side = params.first + i;
@@ -26,14 +31,15 @@ FN void main() {
     HitRecord hit = hits[i];
     real height = rays[i].t_max - params.error; // of the start over the sample
     bool is_above = !(hit.t > height - params.error);
-    rays[i].t_max = is_above ? rays[i].t_max : -real(1.0);
     if (hit.triangle == photons[slot].direction ||
         (!is_above && !is_copy(hit, photons[slot].normal))) {
         return;
     }
     MaterialRecord material = load_material(triangles[hit.triangle].w);
     if (passes_light(material)) {
-        go_on_behind(i, hit.t);
+        if (is_above) {
+            go_on_behind(thread, i, hit.t);
+        }
         return;
     }
     if (side % 2u == 0u) {

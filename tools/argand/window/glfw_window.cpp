@@ -1,0 +1,89 @@
+#include "glfw_window.hpp"
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace argand::window {
+
+namespace {
+
+std::string last_problem() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? one_line(text, 120) : "no reason is given";
+}
+
+} // namespace
+
+GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
+    if (glfwInit() != GLFW_TRUE) {
+        fail("opening a window: there is no display ({}); use --headless with --script FILE",
+             last_problem());
+    }
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (!window_) {
+        const std::string problem = last_problem();
+        glfwTerminate();
+        fail("opening a window: {}; use --headless with --script FILE", problem);
+    }
+    glfwSetWindowUserPointer(window_, this);
+    install_callbacks();
+}
+
+GlfwWindow::~GlfwWindow() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+/// Dear ImGui's own callbacks, which are installed later, call these.
+void GlfwWindow::install_callbacks() {
+    static constexpr auto of = [](GLFWwindow* window) {
+        return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+    };
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int, int, int, int) { of(w)->touched_ = true; });
+    glfwSetMouseButtonCallback(window_,
+                               [](GLFWwindow* w, int, int, int) { of(w)->touched_ = true; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w)->touched_ = true; });
+    // A pointer that only hovers must not end the passes of the picture at rest.
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) {
+        for (int button = GLFW_MOUSE_BUTTON_LEFT; button <= GLFW_MOUSE_BUTTON_MIDDLE; ++button) {
+            of(w)->touched_ |= glfwGetMouseButton(w, button) == GLFW_PRESS;
+        }
+    });
+    glfwSetFramebufferSizeCallback(window_,
+                                   [](GLFWwindow* w, int, int) { of(w)->touched_ = true; });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { of(w)->touched_ = true; });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
+        of(w)->touched_ = true;
+        of(w)->dropped_.assign(files, files + count);
+    });
+}
+
+VkSurfaceKHR GlfwWindow::make_surface(const vulkan::Instance& instance) const {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    if (glfwCreateWindowSurface(instance.handle(), window_, nullptr, &surface) != VK_SUCCESS) {
+        fail("opening a window: Vulkan cannot draw on this display ({}); use --headless with "
+             "--script FILE",
+             last_problem());
+    }
+    return surface;
+}
+
+VkExtent2D GlfwWindow::framebuffer() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+bool GlfwWindow::poll() {
+    glfwPollEvents();
+    return std::exchange(touched_, false);
+}
+
+bool GlfwWindow::wait(double seconds) {
+    glfwWaitEventsTimeout(seconds);
+    return std::exchange(touched_, false);
+}
+
+} // namespace argand::window

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "device/vulkan/instance.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <string>
+#include <utility>
+#include <vector>
+#include <volk.h>
+
+namespace argand::window {
+
+/// A window of the desktop.
+class GlfwWindow {
+public:
+    /// Throws Error if there is no display.
+    GlfwWindow(const std::string& title, int width, int height);
+    GlfwWindow(const GlfwWindow&) = delete;
+    GlfwWindow& operator=(const GlfwWindow&) = delete;
+    ~GlfwWindow();
+
+    GLFWwindow* handle() const { return window_; }
+    /// Throws Error if the instance cannot draw on it.
+    VkSurfaceKHR make_surface(const vulkan::Instance& instance) const;
+    /// In pixels, which may be smaller than the units of the desktop.
+    VkExtent2D framebuffer() const;
+    bool should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
+
+    /// Handles what the user has done. Returns whether there was anything since the last call.
+    bool poll();
+    /// The same, but waits until the user does something, for so many seconds at most.
+    bool wait(double seconds);
+    /// Files that were dropped on it since the last call.
+    std::vector<std::string> take_dropped() { return std::exchange(dropped_, {}); }
+
+private:
+    void install_callbacks();
+
+    GLFWwindow* window_ = nullptr;
+    bool touched_ = false;
+    std::vector<std::string> dropped_;
+};
+
+} // namespace argand::window

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "interactive/view.hpp"
+
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace argand::window {
+
+/// What the panel knows beside the view.
+struct PanelState {
+    ViewFrame frame;                 ///< the last one
+    std::string message;             ///< what went wrong last; empty: nothing
+    std::string command;             ///< that renders the picture at rest
+    bool plays = false;              ///< the animations run
+    std::deque<nlohmann::json> undo; ///< edits before each change
+};
+
+/// What the user asked for that is not the view's.
+struct PanelWishes {
+    bool screenshot = false, save_edits = false, close = false;
+    bool changing = false; ///< a value is being dragged
+};
+
+/// Draws the panel, and applies what is changed in it to the view.
+PanelWishes draw_panel(View& view, PanelState& state);
+
+/// Remembers the edits as they are, so that undo() returns to them.
+void remember(const View& view, PanelState& state);
+/// Returns to the edits before the last change.
+void undo(View& view, PanelState& state);
+
+/// Calls `change`; what it throws becomes the message.
+template <class Change> void attempt(PanelState& state, const Change& change) {
+    try {
+        change();
+        state.message.clear();
+    } catch (const Error& error) {
+        state.message = error.what();
+    }
+}
+
+} // namespace argand::window

@@ -1,0 +1,290 @@
+#include "run_window.hpp"
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/interrupt.hpp"
+#include "base/json.hpp"
+#include "glfw_window.hpp"
+#include "image/files.hpp"
+#include "image/png.hpp"
+#include "interactive/run_script.hpp"
+#include "navigation.hpp"
+#include "panel.hpp"
+#include "presenter.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <memory>
+#include <utility>
+
+namespace argand::window {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int panel_width = 340; ///< with its margins
+
+/// The picture as it is shown.
+ShownPicture shown(const Image& image, const Display& display) {
+    const std::vector<std::uint8_t> rgb = srgb_bytes(image, display);
+    ShownPicture picture{.width = image.width, .height = image.height, .texels = {}};
+    picture.texels.reserve(rgb.size() / 3 * 4);
+    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+        picture.texels.insert(picture.texels.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+    }
+    return picture;
+}
+
+/// Where the panel's layout is remembered; empty: nowhere.
+std::string settings_file() {
+    const char* config = std::getenv("XDG_CONFIG_HOME"); // NOLINT(concurrency-mt-unsafe)
+    const char* home = std::getenv("HOME");              // NOLINT(concurrency-mt-unsafe)
+    if (!config && !home) {
+        return "";
+    }
+    const fs::path folder = (config ? fs::path(config) : fs::path(home) / ".config") / "argand";
+    std::error_code problem; // then nothing is remembered
+    fs::create_directories(folder, problem);
+    return problem ? "" : (folder / "view.ini").string();
+}
+
+/// Dear ImGui, fed by a window.
+class Interface {
+public:
+    explicit Interface(const GlfwWindow& window) : settings_(settings_file()) {
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = settings_.empty() ? nullptr : settings_.c_str();
+        ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
+        ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
+    }
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+    ~Interface() {
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+
+    static ShownPicture font() {
+        unsigned char* texels = nullptr;
+        ShownPicture picture;
+        ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&texels, &picture.width, &picture.height);
+        picture.texels.assign(texels, texels + static_cast<std::ptrdiff_t>(4) * picture.width *
+                                                   picture.height);
+        return picture;
+    }
+
+private:
+    std::string settings_; ///< Dear ImGui keeps a pointer to it
+};
+
+/// The file's time of change, if it has one.
+fs::file_time_type time_of(const std::string& file) {
+    std::error_code problem;
+    const fs::file_time_type time = fs::last_write_time(file, problem);
+    return problem ? fs::file_time_type() : time;
+}
+
+class ViewWindow {
+public:
+    ViewWindow(View& view, const WindowStart& start)
+        : view_(view), start_(start),
+          window_("argand: " + view.file(), view.settings().width + panel_width,
+                  std::max(view.settings().height, 480)),
+          interface_(window_), instance_(vulkan::instance()),
+          changed_on_disk_(time_of(view.file())) {
+        open_presenter();
+    }
+
+    /// Until the user closes the window.
+    void run() {
+        while (!window_.should_close() && !interrupted()) {
+            follow_user();
+            const ViewFrame frame = view_.frame([&] { return !window_.poll(); });
+            // A picture that is complete only waits for the user.
+            if (!frame.moving && frame.passes == state_.frame.passes && !state_.frame.moving) {
+                window_.wait(0.05);
+            } else {
+                window_.poll();
+            }
+            show(frame);
+        }
+    }
+
+    void run(const Script& script) {
+        run_script(view_, script,
+                   {.screenshot = [&](View&, const std::string& file) { write_picture(file); },
+                    .on_frame =
+                        [&](const ViewFrame& frame, const std::string& error) {
+                            state_.message = error;
+                            window_.poll();
+                            show(frame);
+                        },
+                    .stops = [&] { return window_.should_close() || interrupted(); }});
+    }
+
+private:
+    void open_presenter() {
+        presenter_.reset();
+        presenter_ = std::make_unique<Presenter>(instance_, window_.make_surface(*instance_),
+                                                 Interface::font());
+        ImGui::GetIO().Fonts->SetTexID(presenter_->font());
+        shows_ = false;
+    }
+
+    void write_picture(const std::string& file) {
+        const std::vector<Layer> layers = view_.layers();
+        write_image(file, layers,
+                    picture_settings(start_.picture, view_.settings(), view_.picture()));
+    }
+
+    /// Files of a scene are named after it, with the first number that is free.
+    std::string free_name(const std::string& extension) const {
+        const std::string stem = fs::path(view_.file()).stem().string();
+        for (int i = 0;; ++i) {
+            std::string name = fmt::format("{}_{:03}{}", stem, i, extension);
+            if (!fs::exists(name)) {
+                return name;
+            }
+        }
+    }
+
+    /// Applies what the user did since the last frame.
+    void follow_user() {
+        for (const std::string& file : window_.take_dropped()) {
+            attempt(state_, [&] { view_.open(file); });
+            glfwSetWindowTitle(window_.handle(), ("argand: " + view_.file()).c_str());
+            navigation_.forget();
+            state_.undo.clear();
+            changed_on_disk_ = time_of(view_.file());
+        }
+        const fs::file_time_type changed = time_of(view_.file());
+        if (changed != changed_on_disk_ && changed != fs::file_time_type()) {
+            changed_on_disk_ = changed;
+            attempt(state_, [&] { view_.open(view_.file()); });
+        }
+        if (state_.plays) {
+            const double longest = longest_animation(view_.scene());
+            const double seconds = view_.time().value_or(0) + state_.frame.seconds;
+            attempt(state_,
+                    [&] { view_.set_time(longest > 0 ? std::fmod(seconds, longest) : seconds); });
+        }
+    }
+
+    void on_keys() {
+        const ImGuiIO& io = ImGui::GetIO();
+        if (io.WantCaptureKeyboard) {
+            return;
+        }
+        const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+        if (pressed(GLFW_KEY_SPACE)) {
+            state_.plays = !state_.plays;
+        }
+        if (pressed(GLFW_KEY_TAB)) {
+            shows_panel_ = !shows_panel_;
+        }
+        if (pressed(GLFW_KEY_F5)) {
+            attempt(state_, [&] { view_.open(view_.file()); });
+        }
+        if (io.KeyCtrl && pressed(GLFW_KEY_Z)) {
+            undo(view_, state_);
+            navigation_.forget();
+        }
+        if (pressed(GLFW_KEY_F2)) {
+            save_pictures();
+        }
+    }
+
+    void save_pictures() {
+        attempt(state_, [&] {
+            const std::string png = free_name(".png");
+            write_picture(png);
+            write_picture(fs::path(png).replace_extension(".exr").string());
+            state_.message = "saved " + png;
+        });
+    }
+
+    /// Draws the picture as large as fits, in the middle of what the panel leaves.
+    void draw_picture() const {
+        const ImVec2 window = ImGui::GetIO().DisplaySize;
+        const float left = shows_panel_ ? std::min(float(panel_width), window.x / 2) : 0;
+        const auto width = static_cast<float>(view_.picture().width);
+        const auto height = static_cast<float>(view_.picture().height);
+        const float scale = std::min((window.x - left) / width, window.y / height);
+        const ImVec2 low{left + (window.x - left - scale * width) / 2,
+                         (window.y - scale * height) / 2};
+        ImGui::GetBackgroundDrawList()->AddImage(presenter_->picture(), low,
+                                                 {low.x + scale * width, low.y + scale * height});
+    }
+
+    /// Shows a frame with the panel over it, which may change the view.
+    void show(const ViewFrame& frame) {
+        const bool is_new = !shows_ || frame.moving || frame.passes != state_.frame.passes;
+        state_.frame = frame;
+        state_.command = start_.command(view_);
+        if (is_new) {
+            presenter_->set_picture(
+                shown(view_.picture(),
+                      picture_settings(start_.picture, view_.settings(), view_.picture()).display));
+            shows_ = true;
+        }
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+        draw_picture();
+        PanelWishes wishes;
+        if (shows_panel_) {
+            wishes = draw_panel(view_, state_);
+        }
+        on_keys();
+        if (const std::optional<nlohmann::json> moved = navigation_.move(view_)) {
+            if (navigation_.begins()) {
+                remember(view_, state_);
+            }
+            attempt(state_, [&] { view_.edit(*moved); });
+        }
+        if (wishes.screenshot) {
+            save_pictures();
+        }
+        if (wishes.save_edits) {
+            attempt(state_, [&] {
+                const std::string file = fs::path(view_.file()).stem().string() + ".edits.json";
+                write_json(file, view_.edits());
+                state_.message = "saved " + file;
+            });
+        }
+        ImGui::Render();
+        try {
+            presenter_->present(*ImGui::GetDrawData(), window_.framebuffer());
+        } catch (const Error&) {
+            open_presenter(); // the surface or the device was lost; the picture is not
+            presenter_->present(*ImGui::GetDrawData(), window_.framebuffer());
+        }
+    }
+
+    View& view_;
+    const WindowStart& start_;
+    GlfwWindow window_;
+    Interface interface_;
+    std::shared_ptr<vulkan::Instance> instance_;
+    std::unique_ptr<Presenter> presenter_;
+    Navigation navigation_;
+    PanelState state_;
+    fs::file_time_type changed_on_disk_;
+    bool shows_ = false; ///< the presenter has the view's picture
+    bool shows_panel_ = true;
+};
+
+} // namespace
+
+void run_window(View& view, const WindowStart& start) {
+    ViewWindow window(view, start);
+    if (start.script) {
+        window.run(*start.script);
+    } else {
+        window.run();
+    }
+}
+
+} // namespace argand::window
