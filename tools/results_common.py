@@ -81,6 +81,7 @@ PAGES = [
     ("Scenes unlike a box of two metres", "hard_scenes.md", "tools/results_hard_scenes"),
     ("Films: time and error by frame", "dynamic.md", "tools/results_dynamic, tools/results_queue"),
     ("Frames of films", "frames.md", "argand render --frames, argand bench rays, tools/results_frames, tools/results_refit"),
+    ("Previews of a view", "view.md", "tools/results_view"),
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
     ("Loading textured scenes, and what textures cost", "loading.md", "tools/results_loading"),
     ("What was wrong outside the Cornell box", "rooms.md", "argand render, argand compare, test_methods, tools/results_rooms"),

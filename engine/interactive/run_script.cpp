@@ -39,6 +39,18 @@ std::string change(View& view, const ScriptEvent& event) {
     return "";
 }
 
+/// Renders a frame: if what is asked for cannot be rendered, one of what was there before.
+ViewFrame render(View& view, std::string& failure) {
+    try {
+        return view.frame();
+    } catch (const DeviceFault&) {
+        throw;
+    } catch (const Error& error) {
+        failure = error.what();
+        return view.frame();
+    }
+}
+
 void check(const Expectation& expected, const ViewFrame& frame) {
     if (expected.moving && *expected.moving != frame.moving) {
         fail("running a script: frame {} shows {}, but the script expects otherwise", frame.number,
@@ -76,7 +88,14 @@ void run_script(View& view, const Script& script, const ScriptCalls& calls) {
         for (; next != script.events.end() && next->frame == number; ++next) {
             errors.push_back(change(view, *next));
         }
-        const ViewFrame frame = view.frame();
+        std::string failure;
+        const ViewFrame frame = render(view, failure);
+        if (!failure.empty() && errors.empty()) {
+            fail("running a script: at frame {}, {}", number, failure);
+        }
+        if (!failure.empty() && errors.back().empty()) {
+            errors.back() = failure;
+        }
         const auto refused = std::find_if(errors.begin(), errors.end(),
                                           [](const std::string& error) { return !error.empty(); });
         calls.on_frame(frame, refused == errors.end() ? "" : *refused);

@@ -39,6 +39,19 @@ PreviewTime time_of(Device& device, double seconds, bool has_photons) {
     return time;
 }
 
+/// The scene as it was, once these edits were seen to apply to it. Throws Error if they do not.
+Scene tried(Scene scene, const Edits& edits) {
+    SceneEditor editor(scene);
+    editor.apply(edits, scene);
+    editor.apply({}, scene);
+    return scene;
+}
+
+bool same(const SolidRanks& a, const SolidRanks& b) {
+    return a.materials == b.materials && a.of_material == b.of_material &&
+           a.overlapping == b.overlapping;
+}
+
 /// Throws UsageError unless the option takes the value.
 void check_range(const Option& option, const std::string& value) {
     const auto complain = [&](const std::string& expected) {
@@ -76,8 +89,12 @@ void View::show(Scene scene) {
     scene_ = std::make_unique<Scene>(std::move(scene));
     editor_.emplace(*scene_);
     applied_ = {};
+    if (settings_.still.camera >= scene_->cameras.size()) {
+        settings_.still.camera = 0;
+    }
     shows_still_ = false;
     changed_ = true;
+    is_warm_ = false;
 }
 
 void View::apply(const Edits& edits) {
@@ -93,18 +110,14 @@ void View::apply(const Edits& edits) {
 
 void View::open(const std::string& file) {
     const bool again = file == file_;
-    Scene scene = load_(file, scene_->seconds, again && movable_nodes_);
     const Edits edits = again ? applied_ : Edits();
-    SceneEditor editor(scene);
-    editor.apply(edits, scene); // throws if the file has changed, and lacks what was edited
-    editor.apply({}, scene);
-    show(std::move(scene));
+    const std::optional<double> seconds = again ? scene_->seconds : std::nullopt;
+    show(tried(load_(file, seconds, again && movable_nodes_), edits));
     apply(edits);
     if (!again) {
         file_ = file;
         movable_nodes_ = false;
         edits_ = nlohmann::json::object();
-        settings_.still.camera = 0;
     }
 }
 
@@ -115,27 +128,38 @@ void View::edit(const nlohmann::json& patch) {
 }
 
 void View::set_edits(nlohmann::json all) {
-    const Edits edits = parse_edits(all, "edits");
-    if (!edits.nodes.empty() && !movable_nodes_) {
-        const Edits before = applied_;
-        show(load_(file_, scene_->seconds, true));
+    Edits edits = parse_edits(all, "edits");
+    if (edits.has_nodes && !movable_nodes_) {
+        show(tried(load_(file_, scene_->seconds, true), edits));
         movable_nodes_ = true;
-        apply(before);
+    }
+    if (movable_nodes_ && !edits.has_nodes) { // a render of these edits must load the same scene
+        all["nodes"] = nlohmann::json::object();
+        edits.has_nodes = true;
     }
     apply(edits);
     edits_ = std::move(all);
 }
 
 void View::set_time(std::optional<double> seconds) {
-    scene_->seconds = seconds;
-    apply(applied_);
+    const std::optional<double> before = std::exchange(scene_->seconds, seconds);
+    try {
+        editor_->apply(applied_, *scene_);
+    } catch (const Error&) {
+        scene_->seconds = before;
+        editor_->apply(applied_, *scene_);
+        throw;
+    }
+    changed_ = true;
 }
 
 void View::change_settings(RenderSettings settings) {
     settings_.still = std::move(settings);
     preview_.reset();
     still_.reset();
+    shows_still_ = false;
     changed_ = true;
+    is_warm_ = false;
     restart_frame_time();
 }
 
@@ -155,6 +179,10 @@ void View::set_option(const std::string& name, const std::string& value) {
     check_range(*option, value);
     RenderSettings settings = settings_.still;
     option->set(settings, value);
+    if (option->ends_render) { // how many passes there are, which the view decides
+        settings_.passes = std::max(settings.progressive.passes, 1u);
+        settings.progressive.passes = 1;
+    }
     change_settings(std::move(settings));
 }
 
@@ -190,19 +218,22 @@ RenderSettings View::repeated(std::uint32_t passes) const {
         settings.progressive.on = true;
         settings.progressive.passes = passes;
     } else if (!has_photons()) {
-        settings.samples *= passes;
+        constexpr std::uint64_t most = numbers_of_seed;
+        settings.samples =
+            static_cast<std::uint32_t>(std::min(std::uint64_t(settings.samples) * passes, most));
     }
     return settings;
 }
 
 RenderSettings View::equivalent() const {
-    return repeated(static_cast<std::uint32_t>(std::max<std::uint64_t>(still_passes_, 1)));
+    return repeated(static_cast<std::uint32_t>(std::max<std::uint64_t>(picture_passes_, 1)));
 }
 
 void View::follow_scene() {
-    if (world_ && known_solid_ranks(*scene_).materials != world_->surfaces().solids.materials) {
+    if (world_ && !same(known_solid_ranks(*scene_), world_->surfaces().solids)) {
         preview_.reset();
         still_.reset();
+        shows_still_ = false;
         world_.reset();
     }
     if (world_) {
@@ -212,7 +243,7 @@ void View::follow_scene() {
     }
 }
 
-void View::preview(ViewFrame& frame) {
+void View::preview(ViewFrame& frame, Clock::time_point start) {
     const PreviewSize size = frame_time_->next();
     RenderSettings settings = settings_.still;
     const auto scaled = [&](int side) {
@@ -221,6 +252,9 @@ void View::preview(ViewFrame& frame) {
     settings.width = scaled(settings.width);
     settings.height = scaled(settings.height);
     settings.samples = 1;
+    // Paths that go on where estimates are poor take a third of so short a time, in many rounds of
+    // few paths.
+    settings.least_coverage = 0;
     if (size.photons > 0) {
         settings.photons = size.photons;
     }
@@ -231,12 +265,13 @@ void View::preview(ViewFrame& frame) {
     }
     device_.wait();
     device_.reset_stage_times();
-    const Clock::time_point start = Clock::now();
     preview_->begin_frame(settings.seed);
     finish(*preview_, [](double) { return !interrupted(); });
     const Image small = std::move(preview_->layers().front().image);
-    picture_ = upsampled(small, settings_.still.width, settings_.still.height);
-    frame_time_->add(time_of(device_, seconds_since(start), size.photons > 0));
+    set_picture(upsampled(small, settings_.still.width, settings_.still.height), 0);
+    if (std::exchange(is_warm_, true)) {
+        frame_time_->add(time_of(device_, seconds_since(start), size.photons > 0));
+    }
     frame.width = settings.width;
     frame.height = settings.height;
     frame.photons = size.photons;
@@ -250,8 +285,9 @@ void View::refine(ViewFrame& frame, const std::function<bool()>& keep_going) {
     if (!still_) {
         still_ = std::make_unique<Session>(*world_, *scene_, settings, methods_);
     }
-    if (!std::exchange(still_begun_, true)) {
+    if (!still_begun_) {
         still_->begin_frame(settings.seed);
+        still_begun_ = true;
     }
     std::optional<PassPlan> plan = still_->next_pass();
     if (!plan && !still_->is_current(settings.seed)) { // it keeps photons, and has not enough yet
@@ -262,15 +298,16 @@ void View::refine(ViewFrame& frame, const std::function<bool()>& keep_going) {
         // Photons and samples that are too many for one pass of the session are spread over some.
         const bool repeats = is_progressive_method() || !has_photons();
         const std::uint64_t passes = repeats ? settings_.passes : 1;
-        const auto parts = static_cast<std::uint64_t>(plan->expected) / passes;
+        const auto parts =
+            std::max<std::uint64_t>(static_cast<std::uint64_t>(plan->expected) / passes, 1);
         bool whole = true;
         do {
             whole = still_->step(*plan, [&](double) { return !interrupted() && keep_going(); });
             plan = still_->next_pass();
         } while (whole && plan && still_->passes() % parts != 0);
         if (whole) {
-            picture_ = std::move(still_->layers().front().image);
             still_passes_ = still_->passes() / parts;
+            set_picture(std::move(still_->layers().front().image), still_passes_);
         } else { // a part of a pass would count as a whole one
             still_begun_ = false;
             still_passes_ = 0;
@@ -281,20 +318,66 @@ void View::refine(ViewFrame& frame, const std::function<bool()>& keep_going) {
     frame.photons = has_photons() ? settings.photons : 0;
 }
 
+void View::set_picture(Image picture, std::uint64_t passes) {
+    picture_ = std::move(picture);
+    picture_passes_ = passes;
+    ++pictures_;
+}
+
+/// Returns to what was last shown at rest.
+void View::go_back() {
+    preview_.reset();
+    still_.reset();
+    world_.reset();
+    shows_still_ = false;
+    changed_ = true;
+    is_warm_ = false;
+    if (!shown_) {
+        return;
+    }
+    const Shown before = *shown_;
+    settings_.still = before.still;
+    restart_frame_time();
+    if (file_ != before.file || movable_nodes_ != before.movable_nodes) {
+        show(load_(before.file, before.seconds, before.movable_nodes));
+        file_ = before.file;
+        movable_nodes_ = before.movable_nodes;
+    }
+    scene_->seconds = before.seconds;
+    apply(parse_edits(before.edits, "edits"));
+    edits_ = before.edits;
+}
+
 ViewFrame View::frame(const std::function<bool()>& keep_going) {
+    try {
+        return render(keep_going);
+    } catch (const DeviceFault&) {
+        throw;
+    } catch (const Error&) {
+        go_back();
+        throw;
+    }
+}
+
+ViewFrame View::render(const std::function<bool()>& keep_going) {
     const Clock::time_point start = Clock::now();
-    ViewFrame frame{.number = frames_++, .moving = changed_};
+    ViewFrame frame{.number = frames_, .moving = changed_};
     if (changed_) {
-        follow_scene();
         still_begun_ = false;
         still_passes_ = 0;
-        preview(frame);
+        follow_scene();
+        preview(frame, start);
         changed_ = false;
     } else {
         refine(frame, keep_going);
         frame.passes = still_passes_;
     }
+    if (!frame.moving || !shown_) {
+        shown_ = {file_, movable_nodes_, edits_, scene_->seconds, settings_.still};
+    }
+    ++frames_;
     shows_still_ = !frame.moving && still_passes_ > 0;
+    frame.picture = pictures_;
     frame.seconds = seconds_since(start);
     return frame;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/clock.hpp"
 #include "interactive/frame_time.hpp"
 #include "scene/scene_editor.hpp"
 #include "session/session.hpp"
@@ -28,6 +29,7 @@ struct ViewFrame {
     int width = 0, height = 0; ///< in which it was rendered
     std::uint64_t photons = 0; ///< of its pass
     double seconds = 0;        ///< that it took
+    std::uint64_t picture = 0; ///< counts pictures: equal numbers, the same picture
 };
 
 /// A scene that a user looks at and changes. Each frame after a change is a preview, of such a size
@@ -61,7 +63,8 @@ public:
     void resize(int width, int height);
 
     /// Renders a frame. keep_going: asked now and then; once it returns false, a frame at rest is
-    /// given up, and the picture stays as it was. Throws Error if the device cannot do it.
+    /// given up, and the picture stays as it was. Throws Error if the device cannot do it; the view
+    /// is then as it was last shown at rest.
     ViewFrame frame(const std::function<bool()>& keep_going = [] { return true; });
 
     /// The last frame's picture, in full size.
@@ -71,6 +74,8 @@ public:
 
     const nlohmann::json& edits() const { return edits_; }
     const Scene& scene() const { return *scene_; }
+    /// The scene's nodes (Motion::nodes) without edits.
+    const std::vector<MotionNode>& unedited_nodes() const { return editor_->unedited_nodes(); }
     const std::string& file() const { return file_; }
     std::optional<double> time() const { return scene_->seconds; }
     MethodTable methods() const { return methods_; }
@@ -87,7 +92,10 @@ private:
     bool is_progressive_method() const; ///< passes can be repeated without end
     RenderSettings repeated(std::uint32_t passes) const;
     void follow_scene();
-    void preview(ViewFrame& frame);
+    void set_picture(Image picture, std::uint64_t passes);
+    void go_back();
+    ViewFrame render(const std::function<bool()>& keep_going);
+    void preview(ViewFrame& frame, Clock::time_point start);
     void refine(ViewFrame& frame, const std::function<bool()>& keep_going);
     void restart_frame_time();
 
@@ -107,10 +115,21 @@ private:
     PreviewSize preview_size_;                 ///< of preview_
     std::optional<FrameTime> frame_time_;
     bool changed_ = true;      ///< since the last frame
+    bool is_warm_ = false;     ///< a preview with these settings has compiled its kernels
     bool still_begun_ = false; ///< still_ shows the scene as it is
     bool shows_still_ = false; ///< picture_ is of still_
     std::uint64_t still_passes_ = 0;
-    std::uint64_t frames_ = 0;
+    std::uint64_t picture_passes_ = 0; ///< of picture_; 0: it is a preview
+    std::uint64_t frames_ = 0, pictures_ = 0;
+    /// What was last shown at rest, or first of all.
+    struct Shown {
+        std::string file;
+        bool movable_nodes = false;
+        nlohmann::json edits;
+        std::optional<double> seconds;
+        RenderSettings still;
+    };
+    std::optional<Shown> shown_;
     Image picture_;
 };
 

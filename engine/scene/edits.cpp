@@ -188,6 +188,7 @@ SunPosition read_sun(Members& members) {
 Edits parse_edits(const nlohmann::json& json, const std::string& source) {
     Edits edits;
     Members all(json, "the text", source);
+    edits.has_nodes = json.contains("nodes");
     all.for_each("nodes", [&](const std::string& name, Members& members) {
         edits.nodes[name] = read_node(members);
     });

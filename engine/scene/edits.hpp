@@ -42,6 +42,7 @@ struct CameraEdit {
 };
 
 struct Edits {
+    bool has_nodes = false; ///< there is a member "nodes", maybe an empty one: nodes can be moved
     std::map<std::string, NodeEdit> nodes;
     std::map<std::string, LightEdit> lights;
     std::map<std::string, MaterialEdit> materials;

@@ -41,6 +41,7 @@ LocalTransform rest_transform(const GltfSource& source, int index) {
             (*local.matrix)[i / 4][i % 4] =
                 node.matrix[std::size_t(i)]; // column-major, in glTF as in GLM
         }
+        local.translation = glm::dvec3((*local.matrix)[3]); // which edits may replace
     }
     if (!node.rotation.empty()) {
         const std::vector<double>& r = node.rotation;

@@ -31,19 +31,23 @@ std::size_t find(const Range& objects, const std::string& choice, const char* ki
 
 MotionNode& find_node(Scene& scene, const std::string& choice) {
     std::vector<MotionNode>& nodes = scene.motion.nodes;
-    const auto named = std::find_if(nodes.begin(), nodes.end(), [&](const MotionNode& node) {
-        return node.name == choice || std::to_string(node.index) == choice;
-    });
-    if (named == nodes.end()) {
+    auto found = std::find_if(nodes.begin(), nodes.end(),
+                              [&](const MotionNode& node) { return node.name == choice; });
+    if (found == nodes.end()) {
+        found = std::find_if(nodes.begin(), nodes.end(), [&](const MotionNode& node) {
+            return std::to_string(node.index) == choice;
+        });
+    }
+    if (found == nodes.end()) {
         fail("editing '{}': there is no node of the name or index '{}'; `argand inspect` lists "
              "those that show something",
              scene.name, one_line(choice, 60));
     }
-    if (!named->movable) {
+    if (!found->movable) {
         fail("editing '{}': node '{}' cannot be moved; load the scene with movable nodes",
              scene.name, one_line(choice, 60));
     }
-    return *named;
+    return *found;
 }
 
 /// Takes the object of this index from those that move, after it has come to rest.
@@ -85,7 +89,7 @@ void edit_material(const MaterialEdit& edit, std::size_t index, Scene& scene) {
             material.base_color = glm::min(material.base_color, 1.0f - material.phong->specular);
         }
     }
-    if (edit.emission) {
+    if (edit.emission && !material.unlit) { // of which only the base colour counts
         material.emission = glm::vec3(*edit.emission) * material.coverage;
     }
     set(material.metallic, edit.metallic);
@@ -176,23 +180,33 @@ void SceneEditor::edit_nodes(const Edits& edits, Scene& scene) const {
     }
 }
 
+/// Ranks of the solids of the edited materials, in the places that the file gives them: as after
+/// loading, they depend neither on the moment nor on where nodes have been moved.
+SolidRanks SceneEditor::ranks_at_rest(const Scene& scene) const {
+    Scene at_rest = scene;
+    at_rest.motion.nodes = nodes_;
+    move_to({}, at_rest);
+    return solid_ranks(at_rest);
+}
+
 void SceneEditor::apply(const Edits& edits, Scene& scene) {
     restore(scene);
     edit_nodes(edits, scene);
     move_without_vertices(scene.seconds, scene);
     const Pose rest = pose_at(scene.motion, {});
-    bool bounds_change = false;
     for (const auto& [choice, edit] : edits.lights) {
         edit_light(edit, find(scene.lights, choice, "light", scene), rest, scene);
     }
+    bool bounds_change = false;
     for (const auto& [choice, edit] : edits.materials) {
         const std::size_t index = find(scene.materials, choice, "material", scene);
-        const bool was_clear = scene.materials[index].transmission > 0;
         edit_material(edit, index, scene);
-        bounds_change |= was_clear != (scene.materials[index].transmission > 0);
+        const Material &before = materials_[index], &now = scene.materials[index];
+        bounds_change |= before.transmission != now.transmission ||
+                         before.metallic != now.metallic || before.ior != now.ior;
     }
-    if (bounds_change) { // the vertices are where they were loaded, whatever edits there were
-        scene.solids = solid_ranks(scene);
+    if (bounds_change) {
+        scene.solids = ranks_at_rest(scene);
     }
     for (const auto& [choice, edit] : edits.cameras) {
         edit_camera(edit, find(scene.cameras, choice, "camera", scene), rest, scene);

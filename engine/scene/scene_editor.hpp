@@ -22,9 +22,12 @@ public:
     /// edits again then.
     void apply(const Edits& edits, Scene& scene);
 
+    const std::vector<MotionNode>& unedited_nodes() const { return nodes_; }
+
 private:
     void restore(Scene& scene) const;
     void edit_nodes(const Edits& edits, Scene& scene) const;
+    SolidRanks ranks_at_rest(const Scene& scene) const;
 
     // As the scene was.
     std::vector<Light> lights_;

@@ -80,6 +80,9 @@ TEST_F(ViewCommand, RefusesBadInput) {
     write("format.json", R"({"frames": 1, "events": [{"frame": 0, "screenshot": "a.gif"}]})");
     write("itself.json", R"({"frames": 1, "events": [{"frame": 0, "save_edits": "itself.json"}]})");
     write("edits.json", R"({"lamps": {}})");
+    write("deep.json",
+          R"({"frames": )" + std::string(100'000, '[') + std::string(100'000, ']') + "}");
+    expect_failure(view("--script deep.json"), failure, "64 levels", on_host);
     expect_failure(view(""), usage, "--script");
     expect_failure(view("--script missing.json"), failure, "missing.json", on_host);
     expect_failure(view("--script none.json"), failure, "at least 1", on_host);

@@ -15,6 +15,9 @@ protected:
                                      "argand-view")) {
             GTEST_SKIP() << "this build has no window: GLFW or Dear ImGui is missing";
         }
+        if (std::system("command -v xvfb-run >/dev/null") != 0) {
+            GTEST_SKIP() << "there is no xvfb-run, which has displays that nobody sees";
+        }
     }
 
     /// On a display of its own, with a configuration folder of its own.

@@ -4,6 +4,7 @@
 #include "scene/gltf.hpp"
 #include "session/render.hpp"
 #include "support/expect_error.hpp"
+#include "support/scratch_directory.hpp"
 #include "world/world.hpp"
 
 #include <filesystem>
@@ -47,7 +48,7 @@ protected:
     /// The picture of `argand render` with the view's settings, edits and moment.
     Image rendered(const View& view) {
         const Edits edits = parse_edits(view.edits(), "edits");
-        Scene scene = load(view.file(), view.time(), !edits.nodes.empty());
+        Scene scene = load(view.file(), view.time(), edits.has_nodes);
         SceneEditor(scene).apply(edits, scene);
         return render(open(), scene, view.equivalent(), [](double) { return true; })
             .layers.front()
@@ -221,6 +222,86 @@ TEST_F(Views, NeedNoMoreMemoryInTheLongRun) {
         change(i);
     }
     EXPECT_EQ(open().memory().current, settled);
+}
+
+TEST_F(Views, HaveTheBitsOfRenderWhenEditsOfNodesAreTakenBack) {
+    View shown = view("smooth_sphere.glb");
+    const std::string node = shown.scene().objects.at(0).name;
+    shown.edit({{"nodes", {{node, {{"translation", {0, 0.1, 0}}}}}}});
+    shown.frame();
+    shown.edit({{"nodes", nullptr}});
+    EXPECT_TRUE(shown.frame().moving);
+    shown.frame();
+    EXPECT_EQ(shown.picture().pixels, rendered(shown).pixels);
+}
+
+TEST_F(Views, HaveLayersAfterEveryChange) {
+    View shown = view();
+    refine(shown, 1);
+    EXPECT_GT(shown.layers().size(), 1u);
+    shown.set_method("knn");
+    ASSERT_EQ(shown.layers().size(), 1u); // the picture that is still shown
+    EXPECT_EQ(shown.layers()[0].image.pixels, shown.picture().pixels);
+}
+
+TEST_F(Views, GoBackWhereAChangeCannotBeRendered) {
+    View shown = view();
+    shown.edit({{"lights", {{"point", {{"position", {0.2, 1, 0}}}}}}});
+    refine(shown, 2);
+    const json edits = shown.edits();
+    const std::vector<glm::vec3> before = shown.picture().pixels;
+    shown.edit({{"nodes", {{"tall box", {{"scale", {3e38, 3e38, 3e38}}}}}}});
+    EXPECT_THAT(error_of([&] { shown.frame(); }), HasSubstr("not finite"));
+    EXPECT_EQ(shown.edits(), edits);
+    EXPECT_TRUE(shown.frame().moving);
+    refine(shown, 2);
+    EXPECT_EQ(shown.picture().pixels, before);
+}
+
+TEST_F(Views, KeepTheirTimeWhereAnotherIsRefused) {
+    View shown = view("moving_light.glb");
+    shown.set_time(0.5);
+    EXPECT_THAT(error_of([&] {
+                    shown.edit({{"lights", {{"moon", json::object()}}}});
+                }),
+                HasSubstr("moon"));
+    EXPECT_EQ(shown.time(), 0.5);
+}
+
+TEST_F(Views, LookFromTheFirstCameraOfAFileThatHasFewer) {
+    const testing::ScratchDirectory directory;
+    const std::string file = (directory / "scene.glb").string();
+    std::filesystem::copy_file(asset("cornell_point.glb"), file);
+    Scene scene = load(file, {}, false);
+    scene.cameras.push_back(scene.cameras.front());
+    ViewSettings second = settings();
+    second.still.camera = 1;
+    View shown(open(), std::move(scene), file, load, second);
+    shown.frame();
+    shown.open(file);
+    EXPECT_EQ(shown.settings().camera, 0u);
+    EXPECT_TRUE(shown.frame().moving);
+}
+
+TEST_F(Views, RefineOnlyAsFarAsAsked) {
+    View shown = view();
+    shown.set_option("passes", "2");
+    shown.frame();
+    EXPECT_EQ(shown.frame().passes, 1u);
+    const ViewFrame last = shown.frame();
+    EXPECT_EQ(last.passes, 2u);
+    EXPECT_EQ(shown.frame().picture, last.picture);
+    EXPECT_EQ(shown.picture().pixels, rendered(shown).pixels);
+}
+
+TEST_F(Views, AreGivenUpWhereTheUserActs) {
+    View shown = view();
+    shown.frame();
+    const std::vector<glm::vec3> preview = shown.picture().pixels;
+    EXPECT_EQ(shown.frame([] { return false; }).passes, 0u);
+    EXPECT_EQ(shown.picture().pixels, preview);
+    refine(shown, 2);
+    EXPECT_EQ(shown.picture().pixels, rendered(shown).pixels);
 }
 
 class ViewScripts : public Views {

@@ -201,17 +201,47 @@ TEST(Edits, OfTheSunReplaceTheSky) {
     EXPECT_FALSE(scene.environment);
 }
 
-TEST(Edits, OfTransmissionMakeSolids) {
+TEST(Edits, OfMaterialsMakeSolids) {
     Animated thick = file();
-    thick.builder.root["materials"][0]["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1;
-    Scene scene = load(thick, {});
+    json& paint = thick.builder.root["materials"][0]["extensions"];
+    paint["KHR_materials_volume"]["thicknessFactor"] = 1;
+    paint["KHR_materials_transmission"]["transmissionFactor"] = 1; // of which metal has none
+    Scene scene = load(thick, {}, true);
     SceneEditor editor(scene);
     EXPECT_TRUE(scene.solids.value().materials.empty());
-    editor.apply(edits_of(R"({"materials": {"paint": {"transmission": 1, "metallic": 0}}})"),
+    // Whatever moves at the same time, and whichever way it faces.
+    for (
+        const char* edits :
+        {R"({"materials": {"paint": {"metallic": 0}}})",
+         R"({"materials": {"paint": {"metallic": 0}}, "nodes": {"body": {"scale": [-1, 1, 1]}}})"}) {
+        editor.apply(edits_of(edits), scene);
+        EXPECT_EQ(scene.solids.value().materials, std::vector<std::uint32_t>{0});
+        EXPECT_EQ(scene.solids.value().of_material[0], 1u);
+    }
+    editor.apply(edits_of(R"({"materials": {"paint": {"metallic": 0, "transmission": 0}}})"),
                  scene);
-    EXPECT_EQ(scene.solids.value().materials, std::vector<std::uint32_t>{0});
+    EXPECT_TRUE(scene.solids.value().materials.empty());
     editor.apply({}, scene);
     EXPECT_TRUE(scene.solids.value().materials.empty());
+}
+
+TEST(Edits, OfANodeThatMirrorsTurnTriangles) {
+    Scene scene = load(file(), {}, true);
+    const std::vector<glm::uvec3> before = scene.triangles;
+    SceneEditor editor(scene);
+    editor.apply(edits_of(R"({"nodes": {"body": {"scale": [1, -1, 1]}}})"), scene);
+    EXPECT_EQ(scene.triangles.at(0), glm::uvec3(before[0].x, before[0].z, before[0].y));
+    editor.apply({}, scene);
+    EXPECT_EQ(scene.triangles, before);
+}
+
+TEST(Edits, LeaveUnlitMaterialsDark) {
+    Animated unlit = file();
+    unlit.builder.root["materials"][0]["extensions"]["KHR_materials_unlit"] = json::object();
+    Scene scene = load(unlit, {});
+    SceneEditor(scene).apply(edits_of(R"({"materials": {"paint": {"emission": [1, 1, 1]}}})"),
+                             scene);
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0));
 }
 
 } // namespace

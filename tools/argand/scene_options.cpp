@@ -43,7 +43,7 @@ Scene load_scene(const SceneOptions& options, std::optional<double> seconds) {
     }
     const Edits edits = parse_edits(read_json(options.edits), options.edits);
     LoadOptions load = options.load;
-    load.movable_nodes = !edits.nodes.empty();
+    load.movable_nodes = edits.has_nodes;
     Scene scene = load_scene(options.scene, options, seconds, load);
     SceneEditor(scene).apply(edits, scene);
     move_to(seconds, scene);

@@ -110,10 +110,25 @@ std::string equivalent_command(const View& view, const ViewOptions& options,
     if (settings.seed != 0) {
         add("seed", std::to_string(settings.seed));
     }
-    for (const auto& [option, value] : {std::pair{"env", options.env}, {"sun", options.sun}}) {
+    for (const auto& [option, value] :
+         {std::pair{"env", options.env}, {"sun", options.sun}, {"scene", options.load.scene}}) {
         if (!value.empty()) {
             add(option, value);
         }
+    }
+    if (options.load.allow_external) {
+        words.emplace_back("--allow-external");
+    }
+    if (options.load.grey_for_missing) {
+        add("missing-textures", "grey");
+    }
+    if (options.picture.automatic) {
+        add("exposure", "auto");
+    } else if (options.picture.exposure != 0) {
+        add("exposure", fmt::format("{}", options.picture.exposure));
+    }
+    if (options.picture.tone != Tone::linear) {
+        add("tone", std::string(name_of(options.picture.tone)));
     }
     for (const auto& [option, value] :
          {std::pair{"env-rotation", options.rotation}, {"env-strength", options.strength}}) {
@@ -157,6 +172,7 @@ public:
         json_ += json_text(frame_json(frame, error), one_line_of_json);
     }
 
+    std::uint64_t frames() const { return frames_.size(); }
     const std::string& json() const { return json_; }
 
     std::string text() const {
@@ -265,20 +281,6 @@ void run(const ViewOptions& options, const CLI::App& command,
         view.edit(read_json(options.edits));
         saved = options.edits;
     }
-    const auto edits_file = [&] {
-        std::string file = saved;
-        for (const ScriptEvent& event : script.value_or(Script()).events) {
-            file = event.save_edits.value_or(file);
-        }
-        return file;
-    };
-    if (!options.headless) {
-        window(view,
-               {.picture = options.picture, .script = script, .command = [&](const View& shown) {
-                    return equivalent_command(shown, options, edits_file());
-                }});
-        return;
-    }
     Summary summary;
     const auto report = [&] {
         if (!options.report.empty()) {
@@ -286,18 +288,37 @@ void run(const ViewOptions& options, const CLI::App& command,
         }
     };
     try {
-        run_headless(view, options, *script, summary);
+        if (options.headless) {
+            run_headless(view, options, *script, summary);
+        } else {
+            window(view, {.picture = options.picture,
+                          .script = script,
+                          .command =
+                              [&](const View& shown, const std::string& edits) {
+                                  return equivalent_command(shown, options, edits);
+                              },
+                          .on_frame =
+                              [&](const ViewFrame& frame, const std::string& error) {
+                                  if (script || !options.report.empty()) {
+                                      summary.add(frame, error);
+                                  }
+                              }});
+        }
     } catch (const Error&) {
         report(); // tells what led there
         throw;
     }
     report();
-    if (interrupted()) {
-        fail("viewing '{}': interrupted; the script is not at its end", options.scene);
+    if (script && summary.frames() < script->frames) {
+        fail("viewing '{}': interrupted after {} of {} frames; the script is not at its end",
+             options.scene, summary.frames(), script->frames);
     }
-    if (!options.quiet) {
+    if (script && !options.quiet) {
+        for (const ScriptEvent& event : script->events) {
+            saved = event.save_edits.value_or(saved);
+        }
         fmt::print("{}: {}\n{}\n", options.scene, summary.text(),
-                   equivalent_command(view, options, edits_file()));
+                   equivalent_command(view, options, saved));
     }
 }
 

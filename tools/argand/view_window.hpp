@@ -13,8 +13,11 @@ namespace argand {
 /// What a window is told of the view that it shows.
 struct WindowStart {
     const PictureOptions& picture;
-    std::optional<Script> script;                    ///< that runs in it, and then closes it
-    std::function<std::string(const View&)> command; ///< that renders the picture at rest
+    std::optional<Script> script; ///< that runs in it, and then closes it
+    /// The command that renders the picture at rest, whose edits are in a file of this name.
+    std::function<std::string(const View&, const std::string& edits)> command;
+    /// Told of each frame, and of what went wrong with the changes before it; empty: nothing.
+    std::function<void(const ViewFrame& frame, const std::string& error)> on_frame;
 };
 
 /// Shows a view until the user closes the window, or its script ends. Null in `argand` itself,

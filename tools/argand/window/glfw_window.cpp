@@ -3,6 +3,9 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 
+#include <algorithm>
+#include <imgui.h>
+
 namespace argand::window {
 
 namespace {
@@ -21,6 +24,12 @@ GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
              last_problem());
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+        int x = 0, y = 0, most_width = 0, most_height = 0;
+        glfwGetMonitorWorkarea(monitor, &x, &y, &most_width, &most_height);
+        width = most_width > 0 ? std::min(width, most_width) : width;
+        height = most_height > 0 ? std::min(height, most_height) : height;
+    }
     window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
     if (!window_) {
         const std::string problem = last_problem();
@@ -36,23 +45,30 @@ GlfwWindow::~GlfwWindow() {
     glfwTerminate();
 }
 
-/// Dear ImGui's own callbacks, which are installed later, call these.
+/// Dear ImGui's own callbacks, which are installed later, call these. What goes to the panel waits
+/// for the end of a pass, which it need not spoil.
 void GlfwWindow::install_callbacks() {
     static constexpr auto of = [](GLFWwindow* window) {
         return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
     };
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int, int, int, int) { of(w)->touched_ = true; });
-    glfwSetMouseButtonCallback(window_,
-                               [](GLFWwindow* w, int, int, int) { of(w)->touched_ = true; });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w)->touched_ = true; });
+    static constexpr auto is_for_picture = [] { return !ImGui::GetIO().WantCaptureMouse; };
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+        if (action == GLFW_PRESS) {
+            of(w)->pressed_.emplace_back(key, modifiers);
+        }
+        of(w)->touched_ |= !ImGui::GetIO().WantCaptureKeyboard;
+    });
+    glfwSetMouseButtonCallback(
+        window_, [](GLFWwindow* w, int, int, int) { of(w)->touched_ |= is_for_picture(); });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* w, double, double) { of(w)->touched_ |= is_for_picture(); });
     // A pointer that only hovers must not end the passes of the picture at rest.
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) {
         for (int button = GLFW_MOUSE_BUTTON_LEFT; button <= GLFW_MOUSE_BUTTON_MIDDLE; ++button) {
-            of(w)->touched_ |= glfwGetMouseButton(w, button) == GLFW_PRESS;
+            of(w)->touched_ |= glfwGetMouseButton(w, button) == GLFW_PRESS &&
+                               (is_for_picture() || ImGui::IsAnyItemActive());
         }
     });
-    glfwSetFramebufferSizeCallback(window_,
-                                   [](GLFWwindow* w, int, int) { of(w)->touched_ = true; });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { of(w)->touched_ = true; });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
         of(w)->touched_ = true;

@@ -27,10 +27,13 @@ public:
     VkExtent2D framebuffer() const;
     bool should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 
-    /// Handles what the user has done. Returns whether there was anything since the last call.
+    /// Handles what the user has done. Returns whether any of it, since the last call, is likely to
+    /// change the scene.
     bool poll();
     /// The same, but waits until the user does something, for so many seconds at most.
     bool wait(double seconds);
+    /// Keys that were pressed since the last call, with their modifiers, however short.
+    std::vector<std::pair<int, int>> take_pressed() { return std::exchange(pressed_, {}); }
     /// Files that were dropped on it since the last call.
     std::vector<std::string> take_dropped() { return std::exchange(dropped_, {}); }
 
@@ -39,6 +42,7 @@ private:
 
     GLFWwindow* window_ = nullptr;
     bool touched_ = false;
+    std::vector<std::pair<int, int>> pressed_;
     std::vector<std::string> dropped_;
 };
 

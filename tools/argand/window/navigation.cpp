@@ -1,5 +1,6 @@
 #include "navigation.hpp"
 
+#include "keys.hpp"
 #include "scene/scene.hpp"
 
 #include <algorithm>
@@ -41,15 +42,21 @@ glm::dvec3 keys() {
 
 } // namespace
 
-std::optional<nlohmann::json> Navigation::move(const View& view) {
+CameraPlace Navigation::begin(const View& view) const {
+    return place_of(view.scene().cameras[view.settings().camera],
+                    place_ ? glm::length(place_->target - place_->position)
+                           : distance_to_scene(view));
+}
+
+std::optional<nlohmann::json> Navigation::move(const View& view, bool pointer_is_free) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (!place_) {
-        place_ = place_of(view.scene().cameras[view.settings().camera], distance_to_scene(view));
-    }
-    CameraPlace place = *place_;
+    // Between motions others may have moved it: an undo, a script, an animation.
+    CameraPlace place = place_ && active_ ? *place_ : begin(view);
     const double distance = glm::length(place.target - place.position);
     bool moves = false;
-    const glm::dvec2 drag = io.WantCaptureMouse
+    // In the frame of a click the pointer came from elsewhere.
+    const bool clicked = io.MouseClicked[0] || io.MouseClicked[1] || io.MouseClicked[2];
+    const glm::dvec2 drag = io.WantCaptureMouse || !pointer_is_free || clicked
                                 ? glm::dvec2(0)
                                 : radians_per_pixel * glm::dvec2(io.MouseDelta.x, io.MouseDelta.y);
     if (drag != glm::dvec2(0) && io.MouseDown[0]) {
@@ -72,13 +79,18 @@ std::optional<nlohmann::json> Navigation::move(const View& view) {
         place = shifted(place, flight * distance * std::min(double(io.DeltaTime), 0.25) * flown);
         moves = true;
     }
-    begins_ = moves && !moves_;
-    moves_ = moves;
+    // A pointer that rests while its button is down has not ended its motion.
+    const bool held = io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2];
+    begins_ = moves && !active_;
+    active_ = moves || (active_ && held);
     if (!moves) {
         return {};
     }
     place_ = place;
-    return nlohmann::json{{"cameras", {{std::to_string(view.settings().camera), edit_of(place)}}}};
+    return nlohmann::json{
+        {"cameras",
+         {{key_in(view.edits(), "cameras", view.scene().cameras, view.settings().camera),
+           edit_of(place)}}}};
 }
 
 } // namespace argand::window

@@ -12,16 +12,19 @@ class Navigation {
 public:
     /// Call once a frame, after Dear ImGui has begun it. Returns the edit of the camera, if the
     /// user has moved it.
-    std::optional<nlohmann::json> move(const View& view);
+    /// pointer_is_free: it drags nothing else.
+    std::optional<nlohmann::json> move(const View& view, bool pointer_is_free);
 
     /// Whether the user has begun to move it in this frame.
     bool begins() const { return begins_; }
-    /// Forgets where the camera is: another scene is shown, or edits were undone.
+    /// Forgets how far away what it looks at is: another scene is shown.
     void forget() { place_.reset(); }
 
 private:
-    std::optional<CameraPlace> place_;
-    bool moves_ = false, begins_ = false;
+    CameraPlace begin(const View& view) const;
+
+    std::optional<CameraPlace> place_; ///< during a motion and after it, until the next one
+    bool active_ = false, begins_ = false;
 };
 
 } // namespace argand::window

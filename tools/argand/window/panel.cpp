@@ -1,6 +1,7 @@
 #include "panel.hpp"
 #include "base/error.hpp"
 
+#include "keys.hpp"
 #include "methods/method_info.hpp"
 
 #include <algorithm>
@@ -42,15 +43,6 @@ private:
     PanelState& state_;
     bool changing_ = false;
 };
-
-/// The key of an object in edits: its name, if no earlier one has it, else its index.
-template <class Range> std::string key_of(const Range& objects, std::size_t index) {
-    const auto first = std::find_if(objects.begin(), objects.end(), [&](const auto& object) {
-        return object.name == objects[index].name;
-    });
-    const bool is_first = first - objects.begin() == static_cast<std::ptrdiff_t>(index);
-    return is_first && !objects[index].name.empty() ? objects[index].name : std::to_string(index);
-}
 
 void draw_method(View& view, PanelState& state) {
     const RenderSettings settings = view.settings();
@@ -112,7 +104,7 @@ void draw_lights(View& view, Changes& changes) {
     }
     const std::vector<Light> lights = view.scene().lights;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const std::string key = key_of(lights, i);
+        const std::string key = key_in(view.edits(), "lights", lights, i);
         ImGui::PushID(static_cast<int>(i));
         ImGui::TextUnformatted(key.c_str());
         const auto edit = [&](const char* member, const std::array<float, 3>& value) {
@@ -158,7 +150,7 @@ void draw_materials(View& view, Changes& changes) {
     const std::vector<Material> materials = view.scene().materials;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const Material& material = materials[i];
-        const std::string key = key_of(materials, i);
+        const std::string key = key_in(view.edits(), "materials", materials, i);
         if (!ImGui::TreeNode(reinterpret_cast<void*>(i), "%s", key.c_str())) {
             continue;
         }
@@ -169,7 +161,9 @@ void draw_materials(View& view, Changes& changes) {
         const bool colored =
             ImGui::ColorEdit3("base colour", color.data(), ImGuiColorEditFlags_Float);
         changes.after(colored, [&] { return edit("base_color", numbers(color)); });
-        std::array<float, 3> emission = floats(material.emission);
+        // The scene's is that of the part of the surface that is there.
+        std::array<float, 3> emission = floats(
+            material.coverage > 0 ? material.emission / material.coverage : material.emission);
         const bool shines = ImGui::DragFloat3("emission", emission.data(), 0.05f, 0, 1e6f);
         changes.after(shines, [&] { return edit("emission", numbers(emission)); });
         for (const auto& [member, value] :
@@ -190,7 +184,8 @@ void draw_objects(View& view, Changes& changes) {
     const std::vector<SceneObject> objects = view.scene().objects;
     const std::vector<MotionNode> nodes = view.scene().motion.nodes;
     for (const SceneObject& object : objects) {
-        const std::string key = object.name.empty() ? std::to_string(object.node) : object.name;
+        const std::string key = key_of_object(view.edits(), object);
+        const std::string label = object.name.empty() ? "node " + key : object.name;
         const auto node =
             std::find_if(nodes.begin(), nodes.end(), [&](const MotionNode& candidate) {
                 return candidate.index == object.node && candidate.movable;
@@ -200,10 +195,10 @@ void draw_objects(View& view, Changes& changes) {
             const bool asked = ImGui::Button("move");
             changes.after(asked, [&] { return json{{"nodes", {{key, json::object()}}}}; });
             ImGui::SameLine();
-            ImGui::TextUnformatted(key.c_str());
+            ImGui::TextUnformatted(label.c_str());
         } else {
             std::array<float, 3> to = floats(glm::vec3(node->rest.translation));
-            const bool moved = ImGui::DragFloat3(key.c_str(), to.data(), 0.01f);
+            const bool moved = ImGui::DragFloat3(label.c_str(), to.data(), 0.01f);
             changes.after(moved, [&] {
                 return json{{"nodes", {{key, {{"translation", numbers(to)}}}}}};
             });
@@ -227,7 +222,7 @@ void draw_time(View& view, PanelState& state) {
 
 void draw_help() {
     if (ImGui::CollapsingHeader("keys")) {
-        ImGui::TextUnformatted("drag             orbit\n"
+        ImGui::TextUnformatted("drag             orbit; a circle: what it is on\n"
                                "right drag       look around\n"
                                "middle drag      shift\n"
                                "wheel            nearer, farther\n"
@@ -244,6 +239,7 @@ void draw_help() {
 } // namespace
 
 void remember(const View& view, PanelState& state) {
+    state.message.clear(); // of what the user did before
     state.undo.push_back(view.edits());
     if (state.undo.size() > most_undone) {
         state.undo.pop_front();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/error.hpp"
 #include "interactive/view.hpp"
 
 #include <deque>
@@ -31,13 +32,16 @@ void remember(const View& view, PanelState& state);
 /// Returns to the edits before the last change.
 void undo(View& view, PanelState& state);
 
-/// Calls `change`; what it throws becomes the message.
-template <class Change> void attempt(PanelState& state, const Change& change) {
+/// Calls `change`; what it throws becomes the message. Returns whether it threw nothing.
+template <class Change> bool attempt(PanelState& state, const Change& change) {
     try {
         change();
-        state.message.clear();
+        return true;
+    } catch (const DeviceFault&) {
+        throw;
     } catch (const Error& error) {
         state.message = error.what();
+        return false;
     }
 }
 

@@ -22,6 +22,9 @@ Presenter::Presenter(std::shared_ptr<vulkan::Instance> instance, VkSurfaceKHR su
       swapchain_(device_, surface), pipeline_(device_, swapchain_.pass()),
       font_(std::make_unique<Texture>(device_, font.width, font.height)),
       font_set_(pipeline_.make_set()), font_texels_(font) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device_.physical, &properties);
+    most_side_ = static_cast<int>(properties.limits.maxImageDimension2D);
     pipeline_.show(font_set_, font_->view());
     for (Frame& frame : frames_) {
         make_frame(frame);

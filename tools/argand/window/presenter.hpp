@@ -32,6 +32,8 @@ public:
     /// The texture of the font, and of the picture in the next frame.
     ImTextureID font() const { return font_set_; }
     ImTextureID picture() const { return frames_[next_].picture_set; }
+    /// The most pixels on a side of a picture.
+    int most_side() const { return most_side_; }
     /// Another picture, from the next frame on.
     void set_picture(ShownPicture picture);
 
@@ -67,6 +69,7 @@ private:
     std::unique_ptr<Texture> font_;
     VkDescriptorSet font_set_ = VK_NULL_HANDLE;
     ShownPicture font_texels_; ///< empty once they are uploaded
+    int most_side_ = 1;
     ShownPicture picture_;
     std::uint64_t picture_version_ = 0;
     std::array<Frame, 2> frames_;

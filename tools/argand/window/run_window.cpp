@@ -5,6 +5,7 @@
 #include "base/interrupt.hpp"
 #include "base/json.hpp"
 #include "glfw_window.hpp"
+#include "handles.hpp"
 #include "image/files.hpp"
 #include "image/png.hpp"
 #include "interactive/run_script.hpp"
@@ -12,6 +13,8 @@
 #include "panel.hpp"
 #include "presenter.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <imgui.h>
@@ -27,13 +30,22 @@ namespace fs = std::filesystem;
 
 constexpr int panel_width = 340; ///< with its margins
 
-/// The picture as it is shown.
-ShownPicture shown(const Image& image, const Display& display) {
+/// The picture as it is shown: of a side longer than this, only every second texel, or fewer.
+ShownPicture shown(const Image& image, const Display& display, int most_side) {
     const std::vector<std::uint8_t> rgb = srgb_bytes(image, display);
-    ShownPicture picture{.width = image.width, .height = image.height, .texels = {}};
-    picture.texels.reserve(rgb.size() / 3 * 4);
-    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-        picture.texels.insert(picture.texels.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+    const int step = (std::max(image.width, image.height) + most_side - 1) / most_side;
+    ShownPicture picture{.width = (image.width + step - 1) / step,
+                         .height = (image.height + step - 1) / step,
+                         .texels = {}};
+    picture.texels.reserve(4 * static_cast<std::size_t>(picture.width) *
+                           static_cast<std::size_t>(picture.height));
+    for (int y = 0; y < image.height; y += step) {
+        for (int x = 0; x < image.width; x += step) {
+            const auto i =
+                3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                     static_cast<std::size_t>(x));
+            picture.texels.insert(picture.texels.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+        }
     }
     return picture;
 }
@@ -102,9 +114,13 @@ public:
     void run() {
         while (!window_.should_close() && !interrupted()) {
             follow_user();
-            const ViewFrame frame = view_.frame([&] { return !window_.poll(); });
+            ViewFrame frame;
+            if (!attempt(state_, [&] { frame = view_.frame([&] { return !window_.poll(); }); })) {
+                frame = view_.frame(); // of what was there before
+            }
+            start_.on_frame(frame, "");
             // A picture that is complete only waits for the user.
-            if (!frame.moving && frame.passes == state_.frame.passes && !state_.frame.moving) {
+            if (frame.picture == state_.frame.picture) {
                 window_.wait(0.05);
             } else {
                 window_.poll();
@@ -119,6 +135,7 @@ public:
                     .on_frame =
                         [&](const ViewFrame& frame, const std::string& error) {
                             state_.message = error;
+                            start_.on_frame(frame, error);
                             window_.poll();
                             show(frame);
                         },
@@ -151,83 +168,123 @@ private:
         }
     }
 
+    std::string edits_file() const {
+        return fs::path(view_.file()).stem().string() + ".edits.json";
+    }
+
+    /// Shows another file, or the same one as it is now.
+    void open(const std::string& file) {
+        state_.message.clear();
+        const bool is_other = file != view_.file();
+        if (!attempt(state_, [&] { view_.open(file); })) {
+            return;
+        }
+        changed_on_disk_ = time_of(file);
+        handles_.forget();
+        if (is_other) {
+            glfwSetWindowTitle(window_.handle(), ("argand: " + file).c_str());
+            navigation_.forget();
+            state_.undo.clear();
+            state_.plays = false;
+        }
+    }
+
     /// Applies what the user did since the last frame.
     void follow_user() {
         for (const std::string& file : window_.take_dropped()) {
-            attempt(state_, [&] { view_.open(file); });
-            glfwSetWindowTitle(window_.handle(), ("argand: " + view_.file()).c_str());
-            navigation_.forget();
-            state_.undo.clear();
-            changed_on_disk_ = time_of(view_.file());
+            open(file);
         }
         const fs::file_time_type changed = time_of(view_.file());
         if (changed != changed_on_disk_ && changed != fs::file_time_type()) {
-            changed_on_disk_ = changed;
-            attempt(state_, [&] { view_.open(view_.file()); });
+            changed_on_disk_ = changed; // tried once, even if it cannot be read
+            open(view_.file());
         }
-        if (state_.plays) {
-            const double longest = longest_animation(view_.scene());
-            const double seconds = view_.time().value_or(0) + state_.frame.seconds;
-            attempt(state_,
-                    [&] { view_.set_time(longest > 0 ? std::fmod(seconds, longest) : seconds); });
+        if (const double longest = longest_animation(view_.scene()); state_.plays && longest > 0) {
+            const double seconds = view_.time().value_or(0) + double(ImGui::GetIO().DeltaTime);
+            attempt(state_, [&] { view_.set_time(std::fmod(seconds, longest)); });
         }
     }
 
     void on_keys() {
-        const ImGuiIO& io = ImGui::GetIO();
-        if (io.WantCaptureKeyboard) {
-            return;
+        const bool typing = ImGui::GetIO().WantCaptureKeyboard;
+        for (const auto& [key, modifiers] : window_.take_pressed()) {
+            if (!typing) {
+                on_key(key, modifiers);
+            }
         }
-        const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-        if (pressed(GLFW_KEY_SPACE)) {
-            state_.plays = !state_.plays;
-        }
-        if (pressed(GLFW_KEY_TAB)) {
+    }
+
+    void on_key(int key, int modifiers) {
+        if (key == GLFW_KEY_SPACE) {
+            state_.plays = !state_.plays && longest_animation(view_.scene()) > 0;
+        } else if (key == GLFW_KEY_TAB) {
             shows_panel_ = !shows_panel_;
-        }
-        if (pressed(GLFW_KEY_F5)) {
-            attempt(state_, [&] { view_.open(view_.file()); });
-        }
-        if (io.KeyCtrl && pressed(GLFW_KEY_Z)) {
+        } else if (key == GLFW_KEY_F5) {
+            open(view_.file());
+        } else if (key == GLFW_KEY_Z && (modifiers & GLFW_MOD_CONTROL) != 0) {
             undo(view_, state_);
-            navigation_.forget();
-        }
-        if (pressed(GLFW_KEY_F2)) {
+        } else if (key == GLFW_KEY_F2) {
             save_pictures();
         }
     }
 
     void save_pictures() {
-        attempt(state_, [&] {
-            const std::string png = free_name(".png");
-            write_picture(png);
-            write_picture(fs::path(png).replace_extension(".exr").string());
-            state_.message = "saved " + png;
-        });
+        const std::string png = free_name(".png");
+        if (attempt(state_, [&] {
+                write_picture(png);
+                write_picture(fs::path(png).replace_extension(".exr").string());
+            })) {
+            state_.message = "saved " + png + " and .exr";
+        }
+    }
+
+    void save_edits() {
+        if (attempt(state_, [&] { write_json(edits_file(), view_.edits()); })) {
+            state_.message = "saved " + edits_file();
+        }
     }
 
     /// Draws the picture as large as fits, in the middle of what the panel leaves.
-    void draw_picture() const {
+    void draw_picture() {
         const ImVec2 window = ImGui::GetIO().DisplaySize;
         const float left = shows_panel_ ? std::min(float(panel_width), window.x / 2) : 0;
         const auto width = static_cast<float>(view_.picture().width);
         const auto height = static_cast<float>(view_.picture().height);
         const float scale = std::min((window.x - left) / width, window.y / height);
-        const ImVec2 low{left + (window.x - left - scale * width) / 2,
-                         (window.y - scale * height) / 2};
-        ImGui::GetBackgroundDrawList()->AddImage(presenter_->picture(), low,
-                                                 {low.x + scale * width, low.y + scale * height});
+        low_ = {left + (window.x - left - scale * width) / 2, (window.y - scale * height) / 2};
+        high_ = {low_.x + scale * width, low_.y + scale * height};
+        ImGui::GetBackgroundDrawList()->AddImage(presenter_->picture(), low_, high_);
+    }
+
+    /// Applies what the user drags in the picture: objects, else the camera.
+    void follow_pointer() {
+        const std::optional<nlohmann::json> dragged =
+            shows_panel_ ? handles_.drag(view_, low_, high_) : std::nullopt;
+        if (handles_.begins()) {
+            remember(view_, state_);
+        }
+        if (dragged) {
+            attempt(state_, [&] { view_.edit(*dragged); });
+        }
+        const std::optional<nlohmann::json> moved = navigation_.move(view_, !handles_.drags());
+        if (moved && navigation_.begins()) {
+            remember(view_, state_);
+        }
+        if (moved) {
+            attempt(state_, [&] { view_.edit(*moved); });
+        }
     }
 
     /// Shows a frame with the panel over it, which may change the view.
     void show(const ViewFrame& frame) {
-        const bool is_new = !shows_ || frame.moving || frame.passes != state_.frame.passes;
+        const bool is_new = !shows_ || frame.picture != state_.frame.picture;
         state_.frame = frame;
-        state_.command = start_.command(view_);
+        state_.command = start_.command(view_, edits_file());
         if (is_new) {
             presenter_->set_picture(
                 shown(view_.picture(),
-                      picture_settings(start_.picture, view_.settings(), view_.picture()).display));
+                      picture_settings(start_.picture, view_.settings(), view_.picture()).display,
+                      presenter_->most_side()));
             shows_ = true;
         }
         ImGui_ImplGlfw_NewFrame();
@@ -238,28 +295,19 @@ private:
             wishes = draw_panel(view_, state_);
         }
         on_keys();
-        if (const std::optional<nlohmann::json> moved = navigation_.move(view_)) {
-            if (navigation_.begins()) {
-                remember(view_, state_);
-            }
-            attempt(state_, [&] { view_.edit(*moved); });
-        }
+        follow_pointer();
         if (wishes.screenshot) {
             save_pictures();
         }
         if (wishes.save_edits) {
-            attempt(state_, [&] {
-                const std::string file = fs::path(view_.file()).stem().string() + ".edits.json";
-                write_json(file, view_.edits());
-                state_.message = "saved " + file;
-            });
+            save_edits();
         }
         ImGui::Render();
         try {
             presenter_->present(*ImGui::GetDrawData(), window_.framebuffer());
         } catch (const Error&) {
-            open_presenter(); // the surface or the device was lost; the picture is not
-            presenter_->present(*ImGui::GetDrawData(), window_.framebuffer());
+            // The surface or the device was lost; the picture is not, and the next frame shows it.
+            open_presenter();
         }
     }
 
@@ -270,6 +318,8 @@ private:
     std::shared_ptr<vulkan::Instance> instance_;
     std::unique_ptr<Presenter> presenter_;
     Navigation navigation_;
+    Handles handles_;
+    ImVec2 low_{}, high_{}; ///< corners of the picture in the window
     PanelState state_;
     fs::file_time_type changed_on_disk_;
     bool shows_ = false; ///< the presenter has the view's picture
