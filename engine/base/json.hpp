@@ -14,8 +14,8 @@ inline constexpr int one_line_of_json = -1;
 /// U+FFFD.
 std::string json_text(const nlohmann::ordered_json& value, int indent = 2);
 
-/// Reads a file of JSON. Throws Error, which says where, if it cannot be read, is none, or is nested
-/// more than 64 levels deep.
+/// Reads a file of JSON. Throws Error, which says where, if it cannot be read, is none, or is
+/// nested more than 64 levels deep.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 /// Writes `json_text` to a file in one step (base/atomic_write.hpp).

@@ -18,12 +18,8 @@ FN bool is_copy(HitRecord hit, uint packed_normal) {
 // light passes.
 FN void main() {
     uint thread = THREAD_INDEX;
-    if (thread >= counters[params.counter]) {
-        return;
-    }
-    alive[thread] = 0u;
-    uint i = active_slots[thread];
-    if (hits[i].triangle == no_triangle) {
+    uint i;
+    if (!find_hit(thread, i)) {
         return;
     }
     uint side = params.first + i;

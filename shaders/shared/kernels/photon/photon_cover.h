@@ -4,12 +4,8 @@
 // not count either (area_cover).
 FN void main() {
     uint thread = THREAD_INDEX;
-    if (thread >= counters[params.counter]) {
-        return;
-    }
-    alive[thread] = 0u;
-    uint i = active_slots[thread];
-    if (hits[i].triangle == no_triangle) {
+    uint i;
+    if (!find_hit(thread, i)) {
         return;
     }
     MaterialRecord material = load_material(triangles[hits[i].triangle].w);
