@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -99,8 +100,8 @@ std::optional<std::optional<double>> read_time(Event& event) {
     if (member->is_null()) {
         return std::optional<double>();
     }
-    if (!member->is_number()) {
-        event.complain("time", "a number of seconds, or null");
+    if (!member->is_number() || !(std::abs(member->get<double>()) <= 1e9)) {
+        event.complain("time", "a number of seconds from -1e9 to 1e9, or null");
     }
     return std::optional(member->get<double>());
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -336,7 +337,7 @@ void View::go_back() {
         return;
     }
     const Shown before = *shown_;
-    settings_.still = before.still;
+    settings_ = before.settings;
     restart_frame_time();
     if (file_ != before.file || movable_nodes_ != before.movable_nodes) {
         show(load_(before.file, before.seconds, before.movable_nodes));
@@ -356,6 +357,11 @@ ViewFrame View::frame(const std::function<bool()>& keep_going) {
     } catch (const Error&) {
         go_back();
         throw;
+    } catch (const std::bad_alloc&) {
+        go_back();
+        fail("showing '{}': the machine is out of memory; ask for a smaller picture or fewer "
+             "photons",
+             scene_->name);
     }
 }
 
@@ -365,6 +371,10 @@ ViewFrame View::render(const std::function<bool()>& keep_going) {
     if (changed_) {
         still_begun_ = false;
         still_passes_ = 0;
+        if (methods_.at(settings_.still.method).abilities.keeps_photons) {
+            still_.reset(); // a render of this moment has none from before
+            shows_still_ = false;
+        }
         follow_scene();
         preview(frame, start);
         changed_ = false;
@@ -373,7 +383,7 @@ ViewFrame View::render(const std::function<bool()>& keep_going) {
         frame.passes = still_passes_;
     }
     if (!frame.moving || !shown_) {
-        shown_ = {file_, movable_nodes_, edits_, scene_->seconds, settings_.still};
+        shown_ = {file_, movable_nodes_, edits_, scene_->seconds, settings_};
     }
     ++frames_;
     shows_still_ = !frame.moving && still_passes_ > 0;

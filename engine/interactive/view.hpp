@@ -127,7 +127,7 @@ private:
         bool movable_nodes = false;
         nlohmann::json edits;
         std::optional<double> seconds;
-        RenderSettings still;
+        ViewSettings settings;
     };
     std::optional<Shown> shown_;
     Image picture_;

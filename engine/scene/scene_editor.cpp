@@ -70,6 +70,11 @@ void edit_light(const LightEdit& edit, std::size_t index, const Pose& rest, Scen
             light.intensity = glm::vec3(0);
         }
     });
+    if ((edit.position && light.kind == LightKind::directional) ||
+        (edit.direction && light.kind == LightKind::point)) {
+        fail("editing '{}': light '{}' has no {}; leave that out", scene.name, light.name,
+             edit.position ? "position, as it is infinitely far away" : "direction");
+    }
     light.position = edit.position.value_or(light.position);
     light.direction = edit.direction.value_or(light.direction);
     light.intensity = edit.intensity.value_or(light.intensity);
@@ -122,6 +127,10 @@ void edit_camera(const CameraEdit& edit, std::size_t index, const Pose& rest, Sc
         camera.forward = forward;
         camera.right = right;
         camera.up = glm::cross(right, forward);
+    }
+    if (edit.vertical_angle && camera.kind == CameraKind::orthographic) {
+        fail("editing '{}': camera '{}' is orthographic and has no vertical_angle; leave that out",
+             scene.name, camera.name);
     }
     if (edit.vertical_angle) {
         camera.vertical_angle = static_cast<float>(glm::radians(*edit.vertical_angle));

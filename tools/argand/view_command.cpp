@@ -46,6 +46,11 @@ void check_outputs(const ViewOptions& options, const Script& script) {
         }
     }
     for (const ScriptEvent& event : script.events) {
+        if (event.open) {
+            inputs.push_back(*event.open);
+        }
+    }
+    for (const ScriptEvent& event : script.events) {
         if (event.screenshot) {
             check_overwrites_none(*event.screenshot, inputs);
             check_image_writable(*event.screenshot);
@@ -85,7 +90,7 @@ ViewSettings view_settings(const ViewOptions& options, const CLI::App& command,
 /// The command that renders the picture at rest as it is now. edits: the file that holds the
 /// view's.
 std::string equivalent_command(const View& view, const ViewOptions& options,
-                               const std::string& edits) {
+                               const std::string& edits, const PictureOptions& picture) {
     const RenderSettings settings = view.equivalent();
     std::vector<std::string> words{"argand",
                                    "render",
@@ -122,13 +127,13 @@ std::string equivalent_command(const View& view, const ViewOptions& options,
     if (options.load.grey_for_missing) {
         add("missing-textures", "grey");
     }
-    if (options.picture.automatic) {
+    if (picture.automatic) {
         add("exposure", "auto");
-    } else if (options.picture.exposure != 0) {
-        add("exposure", fmt::format("{}", options.picture.exposure));
+    } else if (picture.exposure != 0) {
+        add("exposure", fmt::format("{}", picture.exposure));
     }
-    if (options.picture.tone != Tone::linear) {
-        add("tone", std::string(name_of(options.picture.tone)));
+    if (picture.tone != Tone::linear) {
+        add("tone", std::string(name_of(picture.tone)));
     }
     for (const auto& [option, value] :
          {std::pair{"env-rotation", options.rotation}, {"env-strength", options.strength}}) {
@@ -151,6 +156,19 @@ std::string equivalent_command(const View& view, const ViewOptions& options,
         arguments.push_back(word.c_str());
     }
     return command_text(static_cast<int>(arguments.size()), arguments.data());
+}
+
+/// The file that holds the view's edits as they are now: one that the script wrote, or that was
+/// given. "EDITS.json" if there is none.
+std::string file_of_edits(const View& view, const ViewOptions& options, const Script& script) {
+    std::vector<std::string> files{options.edits};
+    for (const ScriptEvent& event : script.events) {
+        files.push_back(event.save_edits.value_or(""));
+    }
+    const auto found = std::find_if(files.rbegin(), files.rend(), [&](const std::string& file) {
+        return !file.empty() && read_json(file) == view.edits();
+    });
+    return found == files.rend() ? "EDITS.json" : *found;
 }
 
 nlohmann::ordered_json frame_json(const ViewFrame& frame, const std::string& error) {
@@ -276,10 +294,8 @@ void run(const ViewOptions& options, const CLI::App& command,
     const std::unique_ptr<Device> device =
         open_backend(options.backend, options.device, options.quiet);
     View view(*device, std::move(scene), options.scene, load, settings, options.methods);
-    std::string saved = "EDITS.json"; // unless they are in a file
     if (!options.edits.empty()) {
-        view.edit(read_json(options.edits));
-        saved = options.edits;
+        view.set_edits(read_json(options.edits));
     }
     Summary summary;
     const auto report = [&] {
@@ -294,8 +310,9 @@ void run(const ViewOptions& options, const CLI::App& command,
             window(view, {.picture = options.picture,
                           .script = script,
                           .command =
-                              [&](const View& shown, const std::string& edits) {
-                                  return equivalent_command(shown, options, edits);
+                              [&](const View& shown, const std::string& edits,
+                                  const PictureOptions& picture) {
+                                  return equivalent_command(shown, options, edits, picture);
                               },
                           .on_frame =
                               [&](const ViewFrame& frame, const std::string& error) {
@@ -304,7 +321,7 @@ void run(const ViewOptions& options, const CLI::App& command,
                                   }
                               }});
         }
-    } catch (const Error&) {
+    } catch (...) {
         report(); // tells what led there
         throw;
     }
@@ -314,11 +331,9 @@ void run(const ViewOptions& options, const CLI::App& command,
              options.scene, summary.frames(), script->frames);
     }
     if (script && !options.quiet) {
-        for (const ScriptEvent& event : script->events) {
-            saved = event.save_edits.value_or(saved);
-        }
         fmt::print("{}: {}\n{}\n", options.scene, summary.text(),
-                   equivalent_command(view, options, saved));
+                   equivalent_command(view, options, file_of_edits(view, options, *script),
+                                      options.picture));
     }
 }
 

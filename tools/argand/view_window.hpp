@@ -14,8 +14,10 @@ namespace argand {
 struct WindowStart {
     const PictureOptions& picture;
     std::optional<Script> script; ///< that runs in it, and then closes it
-    /// The command that renders the picture at rest, whose edits are in a file of this name.
-    std::function<std::string(const View&, const std::string& edits)> command;
+    /// The command that renders the picture at rest, whose edits are in a file of this name,
+    /// as it is displayed.
+    std::function<std::string(const View&, const std::string& edits, const PictureOptions&)>
+        command;
     /// Told of each frame, and of what went wrong with the changes before it; empty: nothing.
     std::function<void(const ViewFrame& frame, const std::string& error)> on_frame;
 };

@@ -16,6 +16,13 @@ std::string last_problem() {
     return text ? one_line(text, 120) : "no reason is given";
 }
 
+bool changes_view(int key) {
+    constexpr std::array keys{GLFW_KEY_W,     GLFW_KEY_A,  GLFW_KEY_S,  GLFW_KEY_D,
+                              GLFW_KEY_Q,     GLFW_KEY_E,  GLFW_KEY_UP, GLFW_KEY_DOWN,
+                              GLFW_KEY_SPACE, GLFW_KEY_F5, GLFW_KEY_Z};
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 } // namespace
 
 GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
@@ -45,28 +52,35 @@ GlfwWindow::~GlfwWindow() {
     glfwTerminate();
 }
 
-/// Dear ImGui's own callbacks, which are installed later, call these. What goes to the panel waits
-/// for the end of a pass, which it need not spoil.
+bool GlfwWindow::pointer_is_on_panel() const {
+    double x = 0, y = 0;
+    glfwGetCursorPos(window_, &x, &y);
+    return x >= panel_[0] && y >= panel_[1] && x < panel_[2] && y < panel_[3];
+}
+
+/// Dear ImGui's own callbacks, which are installed later, call these. What goes to the panel, and
+/// keys that do not change the view, wait for the end of a pass, which they need not spoil.
 void GlfwWindow::install_callbacks() {
     static constexpr auto of = [](GLFWwindow* window) {
         return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
     };
-    static constexpr auto is_for_picture = [] { return !ImGui::GetIO().WantCaptureMouse; };
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
         if (action == GLFW_PRESS) {
             of(w)->pressed_.emplace_back(key, modifiers);
+            of(w)->touched_ |= changes_view(key) && !ImGui::GetIO().WantCaptureKeyboard;
         }
-        of(w)->touched_ |= !ImGui::GetIO().WantCaptureKeyboard;
     });
-    glfwSetMouseButtonCallback(
-        window_, [](GLFWwindow* w, int, int, int) { of(w)->touched_ |= is_for_picture(); });
-    glfwSetScrollCallback(
-        window_, [](GLFWwindow* w, double, double) { of(w)->touched_ |= is_for_picture(); });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int action, int) {
+        of(w)->touched_ |= action == GLFW_PRESS && !of(w)->pointer_is_on_panel();
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) {
+        of(w)->touched_ |= !of(w)->pointer_is_on_panel();
+    });
     // A pointer that only hovers must not end the passes of the picture at rest.
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) {
         for (int button = GLFW_MOUSE_BUTTON_LEFT; button <= GLFW_MOUSE_BUTTON_MIDDLE; ++button) {
             of(w)->touched_ |= glfwGetMouseButton(w, button) == GLFW_PRESS &&
-                               (is_for_picture() || ImGui::IsAnyItemActive());
+                               (!of(w)->pointer_is_on_panel() || ImGui::IsAnyItemActive());
         }
     });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { of(w)->touched_ = true; });

@@ -4,6 +4,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,13 +35,17 @@ public:
     bool wait(double seconds);
     /// Keys that were pressed since the last call, with their modifiers, however short.
     std::vector<std::pair<int, int>> take_pressed() { return std::exchange(pressed_, {}); }
+    /// Tells which part of the window, in its units, belongs to the panel.
+    void set_panel(double x0, double y0, double x1, double y1) { panel_ = {x0, y0, x1, y1}; }
     /// Files that were dropped on it since the last call.
     std::vector<std::string> take_dropped() { return std::exchange(dropped_, {}); }
 
 private:
     void install_callbacks();
+    bool pointer_is_on_panel() const;
 
     GLFWwindow* window_ = nullptr;
+    std::array<double, 4> panel_{};
     bool touched_ = false;
     std::vector<std::pair<int, int>> pressed_;
     std::vector<std::string> dropped_;

@@ -65,6 +65,8 @@ void Handles::add_objects(const View& view, std::vector<Handle>& handles) {
         handles.push_back(
             {.kind = "nodes",
              .key = key_of_object(view.edits(), scene.objects[object]),
+             .label = scene.objects[object].name.empty() ? "node " + std::to_string(index)
+                                                         : scene.objects[object].name,
              .place = glm::dvec3(now.world_from_node[number] * glm::dvec4(anchors_[index], 1)),
              .value =
                  node->rest.matrix ? glm::dvec3((*node->rest.matrix)[3]) : node->rest.translation,
@@ -80,6 +82,7 @@ std::vector<Handles::Handle> Handles::find(const View& view) {
             const glm::dvec3 place(lights[i].position);
             handles.push_back({.kind = "lights",
                                .key = key_in(view.edits(), "lights", lights, i),
+                               .label = lights[i].name,
                                .place = place,
                                .value = place});
         }
@@ -119,7 +122,7 @@ std::optional<json> Handles::drag(const View& view, ImVec2 low, ImVec2 high) {
         over->AddCircle(middle, radius, IM_COL32(0, 0, 0, 160), 0, 3);
         over->AddCircle(middle, radius, is_dragged || is_near ? lit : plain, 0, 1.5f);
         if (is_near && !io.WantCaptureMouse) {
-            over->AddText({middle.x + radius + 4, middle.y - radius}, lit, handle.key.c_str());
+            over->AddText({middle.x + radius + 4, middle.y - radius}, lit, handle.label.c_str());
         }
         const glm::dvec2 by = glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / size;
         if (is_dragged && !begins_ && by != glm::dvec2(0)) {

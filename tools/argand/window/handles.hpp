@@ -22,6 +22,11 @@ public:
     /// Whether something is dragged, and whether that begins in this frame.
     bool drags() const { return !dragged_.empty(); }
     bool begins() const { return begins_; }
+    /// Lets go of what is dragged.
+    void release() {
+        dragged_.clear();
+        begins_ = false;
+    }
     /// Forgets where objects are: another scene is shown.
     void forget() {
         anchors_.clear();
@@ -31,8 +36,9 @@ public:
 private:
     struct Handle {
         std::string kind, key; ///< as in edits
-        glm::dvec3 place{0};   ///< in world space
-        glm::dvec3 value{0};   ///< that the edit replaces
+        std::string label;
+        glm::dvec3 place{0}; ///< in world space
+        glm::dvec3 value{0}; ///< that the edit replaces
         glm::dmat3 value_from_world{1};
     };
     std::vector<Handle> find(const View& view);

@@ -30,18 +30,14 @@ public:
         if (ImGui::IsItemActivated()) {
             remember(view_, state_);
         }
-        changing_ |= ImGui::IsItemActive();
         if (changed) {
             attempt(state_, [&] { view_.edit(patch()); });
         }
     }
 
-    bool changing() const { return changing_; }
-
 private:
     View& view_;
     PanelState& state_;
-    bool changing_ = false;
 };
 
 void draw_method(View& view, PanelState& state) {
@@ -220,6 +216,27 @@ void draw_time(View& view, PanelState& state) {
     ImGui::Checkbox("play", &state.plays);
 }
 
+/// Returns whether anything has changed.
+bool draw_display(PictureOptions& picture) {
+    if (!ImGui::CollapsingHeader("display")) {
+        return false;
+    }
+    bool changed = ImGui::Checkbox("automatic", &picture.automatic);
+    ImGui::SameLine();
+    changed |= ImGui::SliderFloat("exposure", &picture.exposure, -16, 16, "%.1f stops");
+    const std::string tone(name_of(picture.tone));
+    if (ImGui::BeginCombo("tone", tone.c_str())) {
+        for (const Tone choice : {Tone::linear, Tone::neutral, Tone::filmic}) {
+            if (ImGui::Selectable(std::string(name_of(choice)).c_str(), choice == picture.tone)) {
+                picture.tone = choice;
+                changed = true;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return changed;
+}
+
 void draw_help() {
     if (ImGui::CollapsingHeader("keys")) {
         ImGui::TextUnformatted("drag             orbit; a circle: what it is on\n"
@@ -291,8 +308,10 @@ PanelWishes draw_panel(View& view, PanelState& state) {
     draw_materials(view, changes);
     draw_sun(view, changes);
     draw_help();
+    wishes.changes_display = draw_display(state.picture);
+    const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    wishes.rectangle = {corner.x, corner.y, corner.x + size.x, corner.y + size.y};
     ImGui::End();
-    wishes.changing = changes.changing();
     return wishes;
 }
 

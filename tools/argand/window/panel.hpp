@@ -1,8 +1,10 @@
 #pragma once
 
+#include "../picture_options.hpp"
 #include "base/error.hpp"
 #include "interactive/view.hpp"
 
+#include <array>
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +16,7 @@ struct PanelState {
     ViewFrame frame;                 ///< the last one
     std::string message;             ///< what went wrong last; empty: nothing
     std::string command;             ///< that renders the picture at rest
+    PictureOptions picture;          ///< exposure and tone
     bool plays = false;              ///< the animations run
     std::deque<nlohmann::json> undo; ///< edits before each change
 };
@@ -21,7 +24,8 @@ struct PanelState {
 /// What the user asked for that is not the view's.
 struct PanelWishes {
     bool screenshot = false, save_edits = false, close = false;
-    bool changing = false; ///< a value is being dragged
+    bool changes_display = false;     ///< exposure or tone
+    std::array<float, 4> rectangle{}; ///< of the panel: left, top, right, bottom
 };
 
 /// Draws the panel, and applies what is changed in it to the view.

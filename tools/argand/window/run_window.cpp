@@ -103,10 +103,11 @@ class ViewWindow {
 public:
     ViewWindow(View& view, const WindowStart& start)
         : view_(view), start_(start),
-          window_("argand: " + view.file(), view.settings().width + panel_width,
+          window_("argand: " + view.file(), std::max(view.settings().width, 320) + panel_width,
                   std::max(view.settings().height, 480)),
           interface_(window_), instance_(vulkan::instance()),
           changed_on_disk_(time_of(view.file())) {
+        state_.picture = start.picture;
         open_presenter();
     }
 
@@ -118,7 +119,9 @@ public:
             if (!attempt(state_, [&] { frame = view_.frame([&] { return !window_.poll(); }); })) {
                 frame = view_.frame(); // of what was there before
             }
-            start_.on_frame(frame, "");
+            if (frame.picture != state_.frame.picture) {
+                start_.on_frame(frame, "");
+            }
             // A picture that is complete only waits for the user.
             if (frame.picture == state_.frame.picture) {
                 window_.wait(0.05);
@@ -154,7 +157,7 @@ private:
     void write_picture(const std::string& file) {
         const std::vector<Layer> layers = view_.layers();
         write_image(file, layers,
-                    picture_settings(start_.picture, view_.settings(), view_.picture()));
+                    picture_settings(state_.picture, view_.settings(), view_.picture()));
     }
 
     /// Files of a scene are named after it, with the first number that is free.
@@ -258,8 +261,12 @@ private:
 
     /// Applies what the user drags in the picture: objects, else the camera.
     void follow_pointer() {
-        const std::optional<nlohmann::json> dragged =
-            shows_panel_ ? handles_.drag(view_, low_, high_) : std::nullopt;
+        std::optional<nlohmann::json> dragged;
+        if (shows_panel_) {
+            dragged = handles_.drag(view_, low_, high_);
+        } else {
+            handles_.release();
+        }
         if (handles_.begins()) {
             remember(view_, state_);
         }
@@ -279,11 +286,11 @@ private:
     void show(const ViewFrame& frame) {
         const bool is_new = !shows_ || frame.picture != state_.frame.picture;
         state_.frame = frame;
-        state_.command = start_.command(view_, edits_file());
+        state_.command = start_.command(view_, edits_file(), state_.picture);
         if (is_new) {
             presenter_->set_picture(
                 shown(view_.picture(),
-                      picture_settings(start_.picture, view_.settings(), view_.picture()).display,
+                      picture_settings(state_.picture, view_.settings(), view_.picture()).display,
                       presenter_->most_side()));
             shows_ = true;
         }
@@ -294,6 +301,9 @@ private:
         if (shows_panel_) {
             wishes = draw_panel(view_, state_);
         }
+        const std::array<float, 4> panel = wishes.rectangle;
+        window_.set_panel(panel[0], panel[1], panel[2], panel[3]);
+        shows_ = shows_ && !wishes.changes_display;
         on_keys();
         follow_pointer();
         if (wishes.screenshot) {
