@@ -11,8 +11,8 @@ namespace argand {
 
 namespace {
 
-constexpr double least = 1e-6;
-constexpr double most = 1e6;
+constexpr double smallest_value = 1e-6;
+constexpr double largest_value = 1e6;
 
 bool matters_to_splats(const Variation& variation) {
     const auto estimate = variation.changed.own.find("estimate");
@@ -26,14 +26,15 @@ Option size_option() {
         "Radius of splats of density 1, C0 in the paper: in the square root of the "
         "surfaces' area over the photons of a pass (default: the radius over "
         "which discs would estimate)",
-        OptionKind::number, "auto", least, most);
+        OptionKind::number, "auto", smallest_value, largest_value);
     option.sweep.matters = matters_to_splats;
     return option;
 }
 
 Option density_option(const std::string& name, const std::string& help,
                       const std::string& initially) {
-    Option option = own_number_option(name, help, OptionKind::number, initially, least, most);
+    Option option =
+        own_number_option(name, help, OptionKind::number, initially, smallest_value, largest_value);
     option.sweep.matters = matters_to_splats;
     return option;
 }
