@@ -13,8 +13,8 @@ struct CameraPlace {
     glm::dvec3 up{0, 1, 0}; ///< unit; the axis about which it orbits, not along the line of sight
 };
 
-/// The place of a camera that looks at a point at this distance, and of those axes that are nearest
-/// to its own the upright one: +Y unless it looks along that.
+/// The place of a camera that looks at a point at this distance. It orbits about +Y, or about its
+/// own upward axis where it looks along +Y.
 CameraPlace place_of(const Camera& camera, double distance);
 
 /// Orbits about the target by angles [rad]: to the right about `up`, and upwards, no further than a

@@ -1,12 +1,11 @@
 #include "interactive/script.hpp"
 
-#include "base/error.hpp"
-#include "base/text.hpp"
+#include "base/json_members.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <string_view>
+#include <fmt/format.h>
+#include <utility>
 
 namespace argand {
 
@@ -15,24 +14,9 @@ namespace {
 using nlohmann::json;
 
 /// An event's members, or those of what it expects.
-class Event {
+class Event : public JsonMembers {
 public:
-    Event(const json& object, std::string where, const std::string& source)
-        : object_(object), where_(std::move(where)), source_(source) {
-        if (!object.is_object()) {
-            fail("reading script '{}': {} is no JSON object", source_, where_);
-        }
-    }
-
-    const json* find(const char* key) {
-        known_.insert(key);
-        const auto found = object_.find(key);
-        return found == object_.end() ? nullptr : &*found;
-    }
-
-    [[noreturn]] void complain(const char* key, std::string_view expected) const {
-        fail("reading script '{}': '{}' of {} is not {}", source_, key, where_, expected);
-    }
+    using JsonMembers::JsonMembers;
 
     /// The member of that name, which must be a T where there is one.
     template <class T>
@@ -60,21 +44,6 @@ public:
         }
         return member->get<std::uint64_t>();
     }
-
-    void end() const {
-        for (const auto& [name, value] : object_.items()) {
-            if (!known_.contains(name)) {
-                fail("reading script '{}': {} has a member '{}', which there is not; there are {}",
-                     source_, where_, one_line(name, 60), fmt::join(known_, ", "));
-            }
-        }
-    }
-
-private:
-    const json& object_;
-    std::string where_;
-    const std::string& source_;
-    std::set<std::string> known_;
 };
 
 std::optional<std::pair<int, int>> read_size(Event& event) {
@@ -124,13 +93,12 @@ std::vector<std::pair<std::string, std::string>> read_options(Event& event) {
     return options;
 }
 
-std::optional<Expectation> read_expectation(Event& event, const std::string& where,
-                                            const std::string& source) {
+std::optional<Expectation> read_expectation(Event& event, const std::string& where) {
     const json* member = event.find("expect");
     if (!member) {
         return {};
     }
-    Event expected(*member, "'expect' of " + where, source);
+    Event expected(*member, "'expect' of " + where, event.doing());
     Expectation result;
     result.moving = expected.get<bool>("moving", &json::is_boolean, "true or false");
     result.passes = expected.count("passes");
@@ -141,9 +109,9 @@ std::optional<Expectation> read_expectation(Event& event, const std::string& whe
 }
 
 ScriptEvent read_event(const json& object, std::size_t index, std::uint64_t frames,
-                       const std::string& source) {
+                       const std::string& doing) {
     const std::string where = fmt::format("event {}", index);
-    Event event(object, where, source);
+    Event event(object, where, doing);
     ScriptEvent read;
     const std::optional<std::uint64_t> frame = event.count("frame");
     if (!frame || *frame >= frames) {
@@ -158,7 +126,7 @@ ScriptEvent read_event(const json& object, std::size_t index, std::uint64_t fram
     read.edits = event.get<json>("edits", &json::is_object, "an object of edits");
     read.screenshot = event.text("screenshot");
     read.save_edits = event.text("save_edits");
-    read.expect = read_expectation(event, where, source);
+    read.expect = read_expectation(event, where);
     event.end();
     return read;
 }
@@ -166,7 +134,7 @@ ScriptEvent read_event(const json& object, std::size_t index, std::uint64_t fram
 } // namespace
 
 Script parse_script(const nlohmann::json& json, const std::string& source) {
-    Event all(json, "the text", source);
+    Event all(json, "the text", fmt::format("reading script '{}'", source));
     Script script;
     script.frames = all.count("frames").value_or(0);
     if (script.frames == 0) {
@@ -177,7 +145,7 @@ Script parse_script(const nlohmann::json& json, const std::string& source) {
             all.complain("events", "a list of events");
         }
         for (std::size_t i = 0; i < events->size(); ++i) {
-            script.events.push_back(read_event((*events)[i], i, script.frames, source));
+            script.events.push_back(read_event((*events)[i], i, script.frames, all.doing()));
         }
     }
     all.end();

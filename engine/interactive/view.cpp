@@ -93,7 +93,6 @@ void View::show(Scene scene) {
     if (settings_.still.camera >= scene_->cameras.size()) {
         settings_.still.camera = 0;
     }
-    shows_still_ = false;
     changed_ = true;
     is_warm_ = false;
 }
@@ -158,7 +157,6 @@ void View::change_settings(RenderSettings settings) {
     settings_.still = std::move(settings);
     preview_.reset();
     still_.reset();
-    shows_still_ = false;
     changed_ = true;
     is_warm_ = false;
     restart_frame_time();
@@ -234,7 +232,6 @@ void View::follow_scene() {
     if (world_ && !same(known_solid_ranks(*scene_), world_->surfaces().solids)) {
         preview_.reset();
         still_.reset();
-        shows_still_ = false;
         world_.reset();
     }
     if (world_) {
@@ -330,7 +327,6 @@ void View::go_back() {
     preview_.reset();
     still_.reset();
     world_.reset();
-    shows_still_ = false;
     changed_ = true;
     is_warm_ = false;
     if (!shown_) {
@@ -373,7 +369,6 @@ ViewFrame View::render(const std::function<bool()>& keep_going) {
         still_passes_ = 0;
         if (methods_.at(settings_.still.method).abilities.keeps_photons) {
             still_.reset(); // a render of this moment has none from before
-            shows_still_ = false;
         }
         follow_scene();
         preview(frame, start);
@@ -386,14 +381,14 @@ ViewFrame View::render(const std::function<bool()>& keep_going) {
         shown_ = {file_, movable_nodes_, edits_, scene_->seconds, settings_};
     }
     ++frames_;
-    shows_still_ = !frame.moving && still_passes_ > 0;
     frame.picture = pictures_;
     frame.seconds = seconds_since(start);
     return frame;
 }
 
 std::vector<Layer> View::layers() {
-    return shows_still_ ? still_->layers() : std::vector<Layer>{{"", picture_}};
+    return still_ && still_begun_ && still_passes_ > 0 ? still_->layers()
+                                                       : std::vector<Layer>{{"", picture_}};
 }
 
 } // namespace argand

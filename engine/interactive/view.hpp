@@ -117,7 +117,6 @@ private:
     bool changed_ = true;      ///< since the last frame
     bool is_warm_ = false;     ///< a preview with these settings has compiled its kernels
     bool still_begun_ = false; ///< still_ shows the scene as it is
-    bool shows_still_ = false; ///< picture_ is of still_
     std::uint64_t still_passes_ = 0;
     std::uint64_t picture_passes_ = 0; ///< of picture_; 0: it is a preview
     std::uint64_t frames_ = 0, pictures_ = 0;

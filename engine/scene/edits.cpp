@@ -1,13 +1,12 @@
 #include "scene/edits.hpp"
 
-#include "base/error.hpp"
+#include "base/json_members.hpp"
 #include "base/text.hpp"
 #include "scene/direction.hpp"
 
+#include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,15 +18,10 @@ using Json = nlohmann::json;
 
 constexpr double largest_number = std::numeric_limits<float>::max();
 
-/// The members of an object of the edits. Each is read once; what nobody reads is an error.
-class Members {
+/// The members of an object of the edits.
+class Members : public JsonMembers {
 public:
-    Members(const Json& object, std::string where, const std::string& source)
-        : object_(object), where_(std::move(where)), source_(source) {
-        if (!object.is_object()) {
-            fail("reading edits '{}': {} is no JSON object; write {{...}} there", source_, where_);
-        }
-    }
+    using JsonMembers::JsonMembers;
 
     void read(const char* key, std::optional<double>& value, double low, double high) {
         if (const Json* member = find(key)) {
@@ -74,7 +68,7 @@ public:
                 complain(key, "an object of edits by name");
             }
             for (const auto& [name, object] : objects->items()) {
-                Members members(object, fmt::format("{} '{}'", key, one_line(name, 60)), source_);
+                Members members(object, fmt::format("{} '{}'", key, one_line(name, 60)), doing());
                 add(name, members);
                 members.end();
             }
@@ -83,25 +77,10 @@ public:
 
     std::optional<Members> object(const char* key) {
         const Json* member = find(key);
-        return member ? std::optional(Members(*member, key, source_)) : std::nullopt;
-    }
-
-    void end() const {
-        for (const auto& [name, value] : object_.items()) {
-            if (!read_.contains(name)) {
-                fail("reading edits '{}': {} has a member '{}', which there is not; there are {}",
-                     source_, where_, one_line(name, 60), fmt::join(read_, ", "));
-            }
-        }
+        return member ? std::optional(Members(*member, key, doing())) : std::nullopt;
     }
 
 private:
-    const Json* find(const char* key) {
-        read_.insert(key);
-        const auto found = object_.find(key);
-        return found == object_.end() ? nullptr : &*found;
-    }
-
     std::optional<std::vector<double>> read_numbers(const char* key, std::size_t count, double low,
                                                     double high) {
         const Json* member = find(key);
@@ -121,15 +100,6 @@ private:
         }
         return numbers;
     }
-
-    [[noreturn]] void complain(const char* key, const std::string& expected) const {
-        fail("reading edits '{}': '{}' of {} is not {}", source_, key, where_, expected);
-    }
-
-    const Json& object_;
-    std::string where_;
-    const std::string& source_;
-    std::set<std::string> read_;
 };
 
 NodeEdit read_node(Members& members) {
@@ -187,7 +157,7 @@ SunPosition read_sun(Members& members) {
 
 Edits parse_edits(const nlohmann::json& json, const std::string& source) {
     Edits edits;
-    Members all(json, "the text", source);
+    Members all(json, "the text", fmt::format("reading edits '{}'", source));
     edits.has_nodes = json.contains("nodes");
     all.for_each("nodes", [&](const std::string& name, Members& members) {
         edits.nodes[name] = read_node(members);

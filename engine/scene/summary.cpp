@@ -4,6 +4,7 @@
 #include "scene/environment_summary.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/light_power.hpp"
+#include "scene/objects.hpp"
 #include "scene/solids.hpp"
 #include "shared/texture_record.h"
 #include <algorithm>
@@ -358,11 +359,9 @@ json objects_json(const Scene& scene) {
     json objects = json::array();
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
-        const std::size_t end = i + 1 < scene.objects.size() ? scene.objects[i + 1].first_triangle
-                                                             : scene.triangles.size();
         objects.push_back({{"node", object.node},
                            {"name", one_line(object.name)},
-                           {"triangles", end - object.first_triangle}});
+                           {"triangles", end_of_object(scene, i) - object.first_triangle}});
     }
     return objects;
 }

@@ -1,6 +1,7 @@
 #include "handles.hpp"
 
 #include "keys.hpp"
+#include "scene/objects.hpp"
 #include "scene/pose.hpp"
 
 #include <algorithm>
@@ -16,9 +17,7 @@ constexpr ImU32 plain = IM_COL32(255, 255, 255, 180), lit = IM_COL32(255, 200, 6
 
 /// The middle of the bounding box of an object's triangles, where the host has them.
 glm::dvec3 middle_of(const Scene& scene, std::size_t object) {
-    const std::size_t end = object + 1 < scene.objects.size()
-                                ? scene.objects[object + 1].first_triangle
-                                : scene.triangles.size();
+    const std::size_t end = end_of_object(scene, object);
     Bounds box;
     for (std::size_t i = scene.objects[object].first_triangle; i < end; ++i) {
         for (int corner = 0; corner < 3; ++corner) {

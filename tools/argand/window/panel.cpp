@@ -1,5 +1,4 @@
 #include "panel.hpp"
-#include "base/error.hpp"
 
 #include "keys.hpp"
 #include "methods/method_info.hpp"
@@ -17,10 +16,9 @@ using nlohmann::json;
 
 constexpr std::size_t most_undone = 200;
 
-json numbers(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 std::array<float, 3> floats(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-/// A widget has just changed a value: edits that begin with it can be undone together.
+/// Applies what widgets change. What one widget changes while it is held is undone together.
 class Changes {
 public:
     Changes(View& view, PanelState& state) : view_(view), state_(state) {}
@@ -104,7 +102,7 @@ void draw_lights(View& view, Changes& changes) {
         ImGui::PushID(static_cast<int>(i));
         ImGui::TextUnformatted(key.c_str());
         const auto edit = [&](const char* member, const std::array<float, 3>& value) {
-            return json{{"lights", {{key, {{member, numbers(value)}}}}}};
+            return json{{"lights", {{key, {{member, value}}}}}};
         };
         if (lights[i].kind != LightKind::directional) {
             std::array<float, 3> position = floats(lights[i].position);
@@ -156,12 +154,12 @@ void draw_materials(View& view, Changes& changes) {
         std::array<float, 3> color = floats(material.base_color);
         const bool colored =
             ImGui::ColorEdit3("base colour", color.data(), ImGuiColorEditFlags_Float);
-        changes.after(colored, [&] { return edit("base_color", numbers(color)); });
+        changes.after(colored, [&] { return edit("base_color", color); });
         // The scene's is that of the part of the surface that is there.
         std::array<float, 3> emission = floats(
             material.coverage > 0 ? material.emission / material.coverage : material.emission);
         const bool shines = ImGui::DragFloat3("emission", emission.data(), 0.05f, 0, 1e6f);
-        changes.after(shines, [&] { return edit("emission", numbers(emission)); });
+        changes.after(shines, [&] { return edit("emission", emission); });
         for (const auto& [member, value] :
              {std::pair{"metallic", material.metallic}, std::pair{"roughness", material.roughness},
               std::pair{"transmission", material.transmission}}) {
@@ -195,9 +193,7 @@ void draw_objects(View& view, Changes& changes) {
         } else {
             std::array<float, 3> to = floats(glm::vec3(node->rest.translation));
             const bool moved = ImGui::DragFloat3(label.c_str(), to.data(), 0.01f);
-            changes.after(moved, [&] {
-                return json{{"nodes", {{key, {{"translation", numbers(to)}}}}}};
-            });
+            changes.after(moved, [&] { return json{{"nodes", {{key, {{"translation", to}}}}}}; });
         }
         ImGui::PopID();
     }
@@ -298,9 +294,7 @@ PanelWishes draw_panel(View& view, PanelState& state) {
         undo(view, state);
     }
     ImGui::SameLine();
-    if (ImGui::Button("copy command")) {
-        ImGui::SetClipboardText(state.command.c_str());
-    }
+    wishes.copy_command = ImGui::Button("copy command");
     draw_time(view, state);
     draw_method(view, state);
     draw_lights(view, changes);

@@ -15,7 +15,6 @@ namespace argand::window {
 struct PanelState {
     ViewFrame frame;                 ///< the last one
     std::string message;             ///< what went wrong last; empty: nothing
-    std::string command;             ///< that renders the picture at rest
     PictureOptions picture;          ///< exposure and tone
     bool plays = false;              ///< the animations run
     std::deque<nlohmann::json> undo; ///< edits before each change
@@ -23,7 +22,7 @@ struct PanelState {
 
 /// What the user asked for that is not the view's.
 struct PanelWishes {
-    bool screenshot = false, save_edits = false, close = false;
+    bool screenshot = false, save_edits = false, copy_command = false;
     bool changes_display = false;     ///< exposure or tone
     std::array<float, 4> rectangle{}; ///< of the panel: left, top, right, bottom
 };

@@ -286,7 +286,6 @@ private:
     void show(const ViewFrame& frame) {
         const bool is_new = !shows_ || frame.picture != state_.frame.picture;
         state_.frame = frame;
-        state_.command = start_.command(view_, edits_file(), state_.picture);
         if (is_new) {
             presenter_->set_picture(
                 shown(view_.picture(),
@@ -311,6 +310,9 @@ private:
         }
         if (wishes.save_edits) {
             save_edits();
+        }
+        if (wishes.copy_command) {
+            ImGui::SetClipboardText(start_.command(view_, edits_file(), state_.picture).c_str());
         }
         ImGui::Render();
         try {
