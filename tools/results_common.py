@@ -70,6 +70,7 @@ PAGES = [
     ("Footprints: choices", "footprints.md", "argand render, argand compare"),
     ("Widths that fall from pass to pass", "progressive.md", "tools/results_progressive"),
     ("Error over time", "over_time.md", "tools/results_over_time"),
+    ("Eye paths and light paths", "bidirectional.md", "tools/results_bidirectional"),
     ("Final gather", "final_gather.md", "argand render, argand compare"),
     ("Quasi-random photons", "quasi_random.md", "argand render, argand compare"),
     ("Smaller records, faster arithmetic", "precision.md", "argand render, changed builds"),

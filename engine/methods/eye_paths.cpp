@@ -8,6 +8,7 @@
 #include "parallel/compact.hpp"
 #include "shared/alpha.h"
 #include "shared/geometry_records.h"
+#include "shared/light_path_records.h"
 #include "shared/random.h"
 
 #include <algorithm>
@@ -46,13 +47,22 @@ void start_paths(Device& device, EyeWorkspace& w, const Buffer& camera, const Ey
                                   .paths = w.paths,
                                   .layers = w.layers,
                                   .active_slots = w.active,
+                                  .eye_weights = w.weights,
                                   .batch = batch,
                                   .constants = {.lattice = w.lattice,
                                                 .cones = w.cones,
                                                 .cropped = w.cropped,
-                                                .filtered = w.filtered}},
+                                                .filtered = w.filtered,
+                                                .weighed = batch.light_paths > 0}},
              slots);
     upload_word(device, w.counts, 0, slots);
+}
+
+/// variant_* of shared/path_records.h.
+std::uint32_t variant_of(const EyeWorkspace& w, const EyeBatch& batch) {
+    return w.queries.final_gather  ? variant_final_gather
+           : batch.light_paths > 0 ? variant_light_paths
+                                   : variant_plain;
 }
 
 /// Shades the vertices that the active paths have reached: leaves shadow rays, queries, and the
@@ -78,9 +88,10 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
                             .query_kinds = w.queries.kinds,
                             .query_bsdfs = w.queries.bsdfs,
                             .sky = scene.sky,
+                            .eye_weights = w.weights,
                             .batch = batch,
                             .constants = {.photon_map = photon_map,
-                                          .final_gather = w.queries.final_gather,
+                                          .variant = variant_of(w, batch),
                                           .followed_paths = plan.needs(Feature::followed_paths),
                                           .direct_light = plan.needs(Feature::direct_light),
                                           .glossy_estimates = plan.needs(Feature::glossy_estimates),
@@ -235,6 +246,7 @@ EyeBatch make_batch(const EyeWorkspace& w, const EyePass& pass, const Batching& 
     batch.crop_y = static_cast<std::uint32_t>(w.crop.y0);
     batch.crop_width = static_cast<std::uint32_t>(w.crop.width());
     batch.bounces = pass.bounces;
+    batch.light_paths = static_cast<float>(pass.light_paths);
     batch.shares_queries = w.queries.sharing.cell > 0 ? 1 : 0;
     batch.untaken = untaken;
     // The noise of a final gather is that of the scattered directions, so all samples have queries.
@@ -375,6 +387,8 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     w.shadows = per_slot_if(direct, "shadow contributions", sizeof(ShadowRecord));
     w.occluded = per_slot_if(direct, "shadow ray flags", 4);
     w.counts = device.allocate("eye path counts", 16);
+    w.weights = per_slot_if(plan.needs(Feature::light_paths), "weights of eye paths",
+                            sizeof(EyeWeightRecord));
     w.queries = make_eye_queries(device, plan, w.slots, camera);
     w.queries.least_coverage = settings.least_coverage;
     w.traversal = make_traversal(device, w.slots);
@@ -468,8 +482,8 @@ FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace
     constexpr std::uint64_t least_paths = 1024, most_paths = 16384;
     const std::vector<LightRecord>& lights = scene.light_table.lights;
     // Where photons start and in which directions is more to learn than how to choose lights.
-    const bool aims = scene.plan.needs(Feature::photon_map) &&
-                      std::any_of(lights.begin(), lights.end(), is_from_outside);
+    const bool aims =
+        scene.plan.needs_photons() && std::any_of(lights.begin(), lights.end(), is_from_outside);
     const std::uint64_t share_of_image = aims ? 4 : 16;
     EyeBatch batch = batch_of_small_image(w, settings, 32);
     // These paths must not be the image's own: a choice that depends on them would bias it.

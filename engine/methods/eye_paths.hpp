@@ -21,6 +21,7 @@ struct EyeWorkspace {
     Buffer camera, rays, hits, paths, layers, active, next_active, alive, shadow_rays, shadows,
         occluded;
     Buffer counts;
+    Buffer weights; ///< EyeWeightRecord, if there are light paths
     EyeQueries queries;
     Traversal traversal;
     Film film;
@@ -46,6 +47,9 @@ struct EyePass {
     /// If this is one of several passes that query one map (SampleParts), the samples of all: paths
     /// are traced together, and share estimates, as in one pass. Else 0.
     std::uint32_t samples_of_all = 0;
+    /// Photons whose light paths find the same light (trace_light_paths()), for each sample of a
+    /// pixel; 0: there are none.
+    double light_paths = 0;
 };
 
 /// Traces paths for the pass's samples of every pixel and adds them to the film. Without `lookup`

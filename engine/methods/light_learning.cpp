@@ -114,7 +114,7 @@ void persist_lights(Archive& archive, RenderContext& context) {
 void learn_lights(RenderContext& context) {
     DeviceScene& scene = context.on_device;
     const LightTable& table = scene.light_table;
-    const bool photons = scene.plan.needs(Feature::photon_map) && context.settings.bounces > 0;
+    const bool photons = scene.plan.needs_photons() && context.settings.bounces > 0;
     const auto outside = std::count_if(table.lights.begin(), table.lights.end(), is_from_outside);
     const std::size_t emitters = table.emitter_weights.size();
     if (emitters == 0 || (emitters == 1 && !(photons && outside > 0))) {
@@ -126,7 +126,8 @@ void learn_lights(RenderContext& context) {
     make_relative(found);
     // Where photons account for reflected light, shadow rays look for direct light only, but for
     // those of paths that go on where an estimate is not taken or surfaces are near.
-    const bool direct_only = photons && !context.settings.final_gather;
+    const bool direct_only =
+        photons && scene.plan.needs(Feature::photon_map) && !context.settings.final_gather;
     FoundShares for_rays{.light = std::vector<double>(emitters, 0.0)};
     FoundShares for_photons = for_rays;
     for (const FoundLight& f : found.lights) {

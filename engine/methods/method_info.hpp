@@ -18,6 +18,7 @@ struct RenderContext;
 struct Abilities {
     bool unbiased = false; ///< the mean of its images is the truth, so that it serves as reference
     bool photon_map = false;    ///< it estimates radiance from photons
+    bool light_paths = false;   ///< it connects the hits of photons with the eye
     bool footprints = false;    ///< its photons carry ray differentials
     bool progressive = false;   ///< its widths fall from pass to pass, without an option for that
     bool keeps_photons = false; ///< images depend on those before them in the same session

@@ -1,7 +1,6 @@
 #include "methods/method.hpp"
 #include "methods/render_options.hpp"
-
-#include <algorithm>
+#include "methods/sample_passes.hpp"
 
 namespace argand {
 
@@ -13,36 +12,24 @@ class PathTracing : public Method {
 public:
     explicit PathTracing(RenderContext& context) : c_(context) {}
 
-    std::uint64_t passes() const override {
-        return (samples() + samples_of_pass() - 1) / samples_of_pass();
-    }
+    std::uint64_t passes() const override { return split().count(); }
 
     bool pass(const Pass& pass, const OnProgress& on_part) override {
-        const std::uint64_t round = pass.numbers.index / passes();
-        const std::uint64_t in_round = pass.numbers.index % passes() * samples_of_pass();
         const EyePass eye{.seed = pass.numbers.seed,
-                          .first_sample = static_cast<std::uint32_t>(round * samples() + in_round),
-                          .samples = static_cast<std::uint32_t>(
-                              std::min(samples_of_pass(), samples() - in_round)),
+                          .first_sample =
+                              static_cast<std::uint32_t>(split().first_sample(pass.numbers.index)),
+                          .samples = split().samples_of(pass.numbers.index),
                           .bounces = c_.settings.bounces};
         return trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, nullptr, on_part);
     }
 
-    std::uint64_t passes_per_seed() const override {
-        return numbers_of_seed / samples() * passes();
-    }
+    std::uint64_t passes_per_seed() const override { return split().per_seed(); }
 
     void persist(Archive&) override {}
     void report(RenderStatistics&) const override {}
 
 private:
-    std::uint64_t samples() const { return std::max(c_.settings.samples, 1u); }
-    /// Of all passes but a last, smaller one.
-    std::uint64_t samples_of_pass() const {
-        const std::uint64_t spread =
-            std::max<std::uint64_t>(samples() / std::max(c_.settings.least_passes, 1u), 1);
-        return std::min<std::uint64_t>(spread, std::max(c_.settings.samples_per_pass, 1u));
-    }
+    SamplePasses split() const { return sample_passes(c_.settings, numbers_of_seed); }
 
     RenderContext& c_;
 };

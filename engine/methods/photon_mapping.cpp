@@ -236,8 +236,9 @@ void PhotonMapping::make_room(std::uint64_t photons) {
     }
     const Buffer sums = photons_.flux_sums;
     photons_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
-    photons_ = make_photon_workspace(
-        c_.device, room, strategy_->splats() ? extents_splats : extents_of(c_.on_device.plan));
+    const std::uint32_t extents =
+        strategy_->splats() ? extents_splats : extents_of(c_.on_device.plan);
+    photons_ = make_photon_workspace(c_.device, room, {.extents = extents});
     photons_.numbers = kind_of_photon_numbers(c_.settings);
     photons_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     if (tracing_) {

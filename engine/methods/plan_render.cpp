@@ -2,6 +2,8 @@
 
 #include "methods/method_info.hpp"
 
+#include <algorithm>
+
 namespace argand {
 
 namespace {
@@ -12,11 +14,22 @@ PlanRequest request_of(const RenderSettings& settings, MethodTable methods) {
     return {.follow_roughness = settings.follow_roughness,
             .cull_back_faces = settings.cull_back_faces,
             .photon_map = abilities.photon_map,
+            .light_paths = abilities.light_paths,
             .footprints =
                 method.wants_footprints ? method.wants_footprints(settings) : abilities.footprints,
             .cube_maps = abilities.approximate_hits,
             .final_gather = settings.final_gather,
             .everything = settings.everything};
+}
+
+/// Whether the scene has caustics at any time, of which this method would need photons: one method
+/// serves for all frames of a film, and for --at.
+bool may_have_caustics(const Scene& scene, RenderSettings settings, const MethodInfo& method,
+                       MethodTable methods) {
+    settings.method = method.name;
+    PlanRequest request = request_of(settings, methods);
+    request.at_any_time = true;
+    return make_plan(scene, request).needs(Feature::caustics);
 }
 
 } // namespace
@@ -37,11 +50,20 @@ const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
     if (!other) {
         return *first;
     }
-    RenderSettings by_other = settings;
-    by_other.method = other->name;
-    PlanRequest request = request_of(by_other, methods);
-    request.at_any_time = true; // one method for all frames of a film, and for --at
-    return make_plan(scene, request).needs(Feature::caustics) ? *first : *other;
+    return may_have_caustics(scene, settings, *other, methods) ? *first : *other;
+}
+
+const MethodInfo* reference_method(const Scene& scene, const RenderSettings& settings,
+                                   MethodTable methods) {
+    const MethodInfo* first = methods.unbiased();
+    const MethodInfo* connects =
+        std::find_if(methods.begin(), methods.end(), [](const MethodInfo& method) {
+            return method.abilities.unbiased && method.abilities.light_paths;
+        });
+    return first != nullptr && connects != methods.end() &&
+                   may_have_caustics(scene, settings, *connects, methods)
+               ? connects
+               : first;
 }
 
 } // namespace argand

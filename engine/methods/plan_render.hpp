@@ -19,4 +19,10 @@ Plan plan_render(const Scene& scene, const SurfaceUse& use, const RenderSettings
 const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
                              MethodTable methods = builtin_methods());
 
+/// The method without bias whose pictures of a scene count as true: one with light paths where
+/// there may be caustics, which eye paths find rarely or not at all, else the table's first. Null
+/// if no method is unbiased.
+const MethodInfo* reference_method(const Scene& scene, const RenderSettings& settings,
+                                   MethodTable methods = builtin_methods());
+
 } // namespace argand

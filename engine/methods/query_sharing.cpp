@@ -109,7 +109,9 @@ void answer_round(Device& device, const EyeQueries& queries, const ActivePaths& 
 EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slots,
                             const CameraRecord& view) {
     EyeQueries q{.view = view, .final_gather = plan.needs(Feature::final_gather)};
-    const bool needed = plan.needs(Feature::photon_map);
+    // Light paths are aimed at casters of caustics near such points.
+    const bool needed = plan.needs(Feature::photon_map) ||
+                        (plan.needs(Feature::light_paths) && plan.needs(Feature::caustics));
     // A kernel takes at least an element of each of its buffers.
     const auto per_slot = [&](const char* name, std::uint64_t bytes, bool all = true) {
         return device.allocate(name, (all ? slots : 1) * bytes);

@@ -36,8 +36,9 @@ void QueuePhotons::make_room() {
     }
     const Buffer sums = workspace_.flux_sums;
     workspace_ = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
-    workspace_ = make_photon_workspace(c_.device, room, extents_of(c_.on_device.plan), keeps_lights,
-                                       keeps_paths());
+    workspace_ = make_photon_workspace(
+        c_.device, room,
+        {.extents = extents_of(c_.on_device.plan), .lights = keeps_lights, .paths = keeps_paths()});
     workspace_.numbers = kind_of_photon_numbers(c_.settings);
     workspace_.reemission = c_.settings.footprints.paper_reemission ? REEMIT_PAPER : REEMIT_COSINE;
     if (sums) {

@@ -16,7 +16,8 @@
     METHOD(progressive)                                                                            \
     METHOD(photon_queue)                                                                           \
     METHOD(image_space)                                                                            \
-    METHOD(path)
+    METHOD(path)                                                                                   \
+    METHOD(bidirectional)
 
 namespace argand {
 

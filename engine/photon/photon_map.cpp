@@ -33,6 +33,8 @@ constexpr std::uint64_t slots_on_cpu = 1u << 18;
 constexpr std::uint64_t slots_on_gpu = 1u << 20;
 // Initial room for stored photons, per emitted photon.
 constexpr std::uint64_t stored_per_emitted = 3;
+// PhotonBatch::least_scatterings if no photon is stored.
+constexpr std::uint32_t unstored = 0xffffffff;
 constexpr int bounces_between_checks = 4;
 constexpr std::uint32_t ledgers_per_thread = 64;
 // T_auto of Fabianowski and Dingliana 2009 (§5.3), who have it grow with the number of footprints
@@ -160,7 +162,9 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
     for (std::uint32_t bounce = 0;; ++bounce) {
         const bool last = bounce >= batch.bounces;
         batch.has_slots =
-            bounce >= batch.least_scatterings && (any_round || bounce <= batch.bounces) ? 1 : 0;
+            w.stores && bounce >= batch.least_scatterings && (any_round || bounce <= batch.bounces)
+                ? 1
+                : 0;
         const Count active(w.counters, counter_active, batch.count);
         {
             const StageScope stage(device, "trace photons");
@@ -170,6 +174,9 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
             } else {
                 trace_closest(device, scene.bvh, w.traversal, rays);
             }
+        }
+        if (w.on_hits) {
+            w.on_hits(batch, active);
         }
         scatter_photons(device, scene, w, batch, active);
         device.submit();
@@ -276,11 +283,12 @@ std::uint64_t max_photons_per_pass(const Device& device) {
 }
 
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      std::uint32_t extents, bool keeps_lights, bool keeps_paths) {
+                                      const KeptOfPhotons& kept) {
     PhotonWorkspace w;
-    w.extents = extents;
-    w.keeps_lights = keeps_lights;
-    w.keeps_paths = keeps_paths;
+    w.extents = kept.extents;
+    w.stores = kept.stores;
+    w.keeps_lights = kept.lights;
+    w.keeps_paths = kept.paths;
     w.most_paths = photons_per_pass;
     w.slots = std::min(device.info().lane_serial() ? slots_on_cpu : slots_on_gpu,
                        std::max<std::uint64_t>(photons_per_pass, 1));
@@ -296,15 +304,17 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
     w.next_active = per_slot("active photons", 4);
     w.alive = per_slot("photon flags", 4);
     w.differentials =
-        device.allocate("photon differentials", (extents == extents_differentials ? w.slots : 1) *
+        device.allocate("photon differentials", (w.extents == extents_differentials ? w.slots : 1) *
                                                     sizeof(DifferentialRecord));
-    w.path_lights = device.allocate("photon paths' lights", (keeps_lights ? w.slots : 1) * 4);
-    w.path_vertices = device.allocate("photon paths' vertices", (keeps_paths ? w.slots : 1) * 4);
+    w.path_lights = device.allocate("photon paths' lights", (w.keeps_lights ? w.slots : 1) * 4);
+    w.path_vertices = device.allocate("photon paths' vertices", (w.keeps_paths ? w.slots : 1) * 4);
     w.counters = device.allocate("photon counters", counter_count * 4);
     w.flux_sums = device.allocate("flux sums", flux_words * sizeof(std::int64_t));
     device.fill(w.flux_sums, 0);
     w.traversal = make_traversal(device, w.slots);
-    allocate_stored(device, w, std::max<std::uint64_t>(photons_per_pass * stored_per_emitted, 8));
+    allocate_stored(
+        device, w,
+        std::max<std::uint64_t>(w.stores ? photons_per_pass * stored_per_emitted : 0, 8));
     return w;
 }
 
@@ -324,7 +334,8 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
                                    ? static_cast<float>(1.0 / static_cast<double>(pass.spread))
                                    : batch.inverse_total;
         batch.bounces = pass.bounces;
-        batch.least_scatterings = pass.first_hits ? 0 : 1;
+        // Without slots no number of scatterings is enough.
+        batch.least_scatterings = !w.stores ? unstored : pass.first_hits ? 0 : 1;
         batch.flux_unit = flux_unit;
         for (;;) {
             batch.capacity = static_cast<std::uint32_t>(w.capacity);

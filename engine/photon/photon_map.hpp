@@ -56,6 +56,9 @@ struct StoredPhotons {
 /// rays leave, and start_of_path as t where they leave lights.
 using PhotonTracer = std::function<void(const RayBatch& batch)>;
 
+/// Told of the hits of a batch's active photons, before they scatter there.
+using OnPhotonHits = std::function<void(const PhotonBatch& batch, const Count& active)>;
+
 /// Sums of PhotonWorkspace::flux_sums: those of a FluxLedger, of three channels.
 inline constexpr std::size_t flux_words = 15;
 
@@ -71,6 +74,7 @@ struct PhotonWorkspace {
     Buffer differentials; ///< DifferentialRecord per slot
     Buffer offsets;       ///< uvec4 per stored photon: its positional differentials, or its splat's
                           ///< size, pack_dual of shared/footprint.h
+    bool stores = true;   ///< whether photons are stored at estimated lobes
     bool keeps_lights = false;    ///< whether photons keep the indices of their lights
     Buffer path_lights;           ///< uint per slot: the photon's light
     Buffer lights;                ///< uint per stored photon: its light
@@ -82,13 +86,21 @@ struct PhotonWorkspace {
                       ///< of three channels each
     Traversal traversal;
     PhotonTracer tracer;                 ///< none: rays go through the scene's tree
+    OnPhotonHits on_hits;                ///< none: nothing else is done with them
     Buffer last_sorted, last_footprints; ///< of the map that was built last: the next map takes
                                          ///< this memory if nobody holds that map any more
 };
 
+/// What is kept of photons.
+struct KeptOfPhotons {
+    std::uint32_t extents = extents_none; ///< extents_* of shared/photon_records.h
+    bool lights = false;                  ///< PhotonWorkspace::keeps_lights
+    bool paths = false;                   ///< PhotonWorkspace::keeps_paths
+    bool stores = true;                   ///< PhotonWorkspace::stores
+};
+
 PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_pass,
-                                      std::uint32_t extents = extents_none,
-                                      bool keeps_lights = false, bool keeps_paths = false);
+                                      const KeptOfPhotons& kept = {});
 
 /// What photons need for footprints if the plan has them.
 std::uint32_t extents_of(const Plan& plan);

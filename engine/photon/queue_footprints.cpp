@@ -48,7 +48,7 @@ void copy_to_workspace(Device& device, const PhotonQueue& q, const Buffer& photo
     if (w.capacity < q.entries || (w.extents != extents_none) != q.footprints) {
         w = PhotonWorkspace(); // frees the old one's memory before the new one takes its own
         w = make_photon_workspace(device, q.entries,
-                                  q.footprints ? extents_differentials : extents_none);
+                                  {.extents = q.footprints ? extents_differentials : extents_none});
     }
     copy_elements(device, photons, 0, w.photons, 0, q.entries, sizeof(PhotonRecord));
     if (q.footprints) {

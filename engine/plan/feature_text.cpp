@@ -2,6 +2,7 @@
 
 #include "shared/differential_record.h"
 #include "shared/geometry_records.h"
+#include "shared/light_path_records.h"
 #include "shared/path_records.h"
 #include "shared/photon_records.h"
 #include "shared/query_record.h"
@@ -123,6 +124,13 @@ FeatureText text_of(Feature feature) {
                             2 * sizeof(PhotonRecord) + 3 * word,
                             sizeof(QueryRecord) + sizeof(EstimateRecord) + sizeof(GatherRecord) +
                                 4 * word)};
+    case Feature::light_paths:
+        return {"light_paths", "light paths",
+                fmt::format("a shadow ray for every hit of a photon; {} bytes per traced photon, "
+                            "{} per eye path",
+                            sizeof(LightPathRecord) + sizeof(RayRecord) + sizeof(SplatRecord) +
+                                3 * word,
+                            sizeof(EyeWeightRecord))};
     case Feature::differentials:
         return {"differentials", "photon differentials",
                 fmt::format("{} bytes per traced photon, {} per stored photon",

@@ -218,8 +218,11 @@ std::uint32_t bits_of(const Plan& plan, std::span<const Bit> bits) {
 bool allows(const PlanRequest& request, Feature feature) {
     switch (feature) {
     case Feature::photon_map:
-    case Feature::caustics:
         return request.photon_map;
+    case Feature::light_paths:
+        return request.light_paths;
+    case Feature::caustics:
+        return request.photon_map || request.light_paths;
     case Feature::differentials:
         return request.photon_map && request.footprints;
     case Feature::cube_maps:
@@ -252,6 +255,7 @@ Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& req
                        has(Feature::rough_glass) || has(Feature::rough_coat);
     found.add(Feature::direct_light, light, !light.empty() && rough);
     found.add(Feature::photon_map, "the method");
+    found.add(Feature::light_paths, "the method");
     found.add(Feature::differentials, "the method");
     found.add(Feature::caustics, found.by(Feature::followed_paths),
               has(Feature::followed_paths) && estimated);

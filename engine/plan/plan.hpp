@@ -53,6 +53,7 @@ enum class Feature : std::uint8_t {
     direct_light,     ///< shadow rays
     // Request.
     photon_map,
+    light_paths,   ///< photons whose hits are connected with the eye
     differentials, ///< photon differentials
     caustics,      ///< photons that only followed lobes have scattered
     cube_maps,     ///< of the surfaces, in which photons find their hits
@@ -64,8 +65,9 @@ struct PlanRequest {
     float follow_roughness = 0.25f; ///< glossy lobes of at most this roughness are followed
     bool cull_back_faces = false;   ///< eye paths go through those of one-sided surfaces
     bool photon_map = true;
-    bool footprints = true; ///< photons have footprints
-    bool cube_maps = false; ///< photons find their hits in cube maps
+    bool light_paths = false; ///< photons' hits are connected with the eye
+    bool footprints = true;   ///< photons have footprints
+    bool cube_maps = false;   ///< photons find their hits in cube maps
     bool final_gather = false;
     /// Count what materials require at rest and at their keys, instead of now, so that it is the
     /// same at all times.
@@ -82,6 +84,8 @@ struct Plan {
     std::map<Feature, std::string> required;
 
     bool needs(Feature feature) const { return required.contains(feature); }
+    /// Whether lights emit photons.
+    bool needs_photons() const { return needs(Feature::photon_map) || needs(Feature::light_paths); }
     /// LOBE_* and MATERIAL_* bits of shared/bsdf.h.
     std::uint32_t material_features() const;
     /// Bits of the light kinds: 1 << light_* of shared/light_record.h.

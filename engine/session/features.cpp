@@ -129,6 +129,7 @@ private:
                                  .paths = paths_,
                                  .layers = layers_,
                                  .active_slots = active_,
+                                 .eye_weights = unneeded(device_),
                                  .batch = batch,
                                  .constants = {.lattice = settings_.deterministic,
                                                .cones = scene_.plan.needs(Feature::mip_maps),

@@ -60,15 +60,11 @@ double least_error_of(const Reference& reference) {
 
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
                                           std::span<const Image> pilots, double seconds,
-                                          MethodTable methods) {
-    const MethodInfo* unbiased = methods.unbiased();
-    if (!unbiased) {
-        fail("rendering a reference: no method is unbiased; give a picture with --reference");
-    }
+                                          const MethodInfo& method) {
     const Clock::time_point start = Clock::now();
     Reference reference;
     RenderSettings settings = base;
-    settings.method = unbiased->name;
+    settings.method = method.name;
     double samples = first_samples, done = 0;
     for (std::uint32_t round = 0;; ++round) {
         settings.samples = static_cast<std::uint32_t>(samples);

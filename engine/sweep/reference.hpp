@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/method_info.hpp"
 #include "sweep/trials.hpp"
 
 #include <filesystem>
@@ -37,12 +38,12 @@ double least_error_of(const Reference& reference);
 /// A reference is good enough once its own error is this share of the least error of the pilots.
 inline constexpr double reference_share = 0.1;
 
-/// Renders a pair with the first unbiased method. Adds samples until its own error is
-/// `reference_share` of the least relMSE of `pilots`, images about as good as the best that will be
-/// measured, or until `seconds` are over. Nothing if it was interrupted.
+/// Renders a pair with a method without bias (reference_method()). Adds samples until its own error
+/// is `reference_share` of the least relMSE of `pilots`, images about as good as the best that will
+/// be measured, or until `seconds` are over. Nothing if it was interrupted.
 std::optional<Reference> render_reference(const RenderTrials& render, const RenderSettings& base,
                                           std::span<const Image> pilots, double seconds,
-                                          MethodTable methods = builtin_methods());
+                                          const MethodInfo& method);
 
 /// Reads a reference from one image file, or from a pair with independent noise. Throws Error if an
 /// image has another size.

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "image/exr.hpp"
 #include "methods/method_info.hpp"
+#include "methods/plan_render.hpp"
 #include "sweep/parameters.hpp"
 
 #include <algorithm>
@@ -142,13 +143,17 @@ std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& sett
     return pictures;
 }
 
-std::optional<Reference> make_reference(const TradeoffRequest& request,
+std::optional<Reference> make_reference(const TradeoffRequest& request, const Scene& scene,
                                         const std::vector<Setting>& settings,
                                         const RenderTrials& render) {
+    const MethodInfo* method = reference_method(scene, request.base, request.table);
+    if (!method) {
+        fail("rendering a reference: no method is unbiased; give a picture with --reference");
+    }
     const std::optional<std::vector<Image>> pilots = render_pilots(settings, render);
-    return pilots ? render_reference(render, request.base, *pilots, request.reference_seconds,
-                                     request.table)
-                  : std::nullopt;
+    return pilots
+               ? render_reference(render, request.base, *pilots, request.reference_seconds, *method)
+               : std::nullopt;
 }
 
 /// File name of a setting's picture, which tells users the setting.
@@ -258,7 +263,7 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
     const std::vector<Setting> settings =
         sweep(scene, request.base, request.methods, results.learnt, request.extent, request.table);
     if (!reference) {
-        reference = make_reference(request, settings, render);
+        reference = make_reference(request, scene, settings, render);
     }
     if (!reference) {
         return results;

@@ -331,7 +331,7 @@ void World::add_sky(const Scene& scene, DeviceScene& on_device) {
 
 void World::add_casters(const Scene& scene, DeviceScene& on_device) {
     const Plan& plan = on_device.plan;
-    if (!plan.needs(Feature::photon_map) || !plan.needs(Feature::followed_paths)) {
+    if (!plan.needs_photons() || !plan.needs(Feature::followed_paths)) {
         return;
     }
     std::vector<bool> followed = are_followed(scene, plan.request.follow_roughness);

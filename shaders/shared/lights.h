@@ -339,12 +339,31 @@ FN real aimed_density(vec4 sphere, real share, IN(EmittedPhoton) p, bool is_aime
     return inside ? share / cone_solid_angle(c) : real(0.0);
 }
 
+// At what a photon is aimed: the index of a target, what is in view, or nothing.
+CONSTANT uint at_view = most_targets;
+CONSTANT uint at_nothing = most_targets + 1u;
+
+// Sets the concentration of photons with this origin and direction where photons are aimed. even:
+// solid-angle density without aiming; aimed: at what the photon is aimed.
+FN void concentrate(IN(Targets) targets, real even, uint aimed, INOUT(EmittedPhoton) p) {
+    real at_targets = real(targets.count) * targets.share;
+    real density = even * (real(1.0) - at_targets - targets.view_share);
+    p.for_view = real(1.0);
+    if (targets.view_share > real(0.0)) {
+        density += aimed_density(targets.view, targets.view_share, p, aimed == at_view, even);
+        p.for_view = density / (even * (real(1.0) - at_targets));
+    }
+    for (uint i = 0u; i < targets.count; ++i) {
+        density += aimed_density(targets.spheres[i], targets.share, p, i == aimed, even);
+    }
+    p.concentration = density / even;
+    p.for_targets = p.concentration / p.for_view;
+}
+
 // Aims a photon from inside the scene at the targets and at what is in view, in proportion to their
 // shares. Returns false if the light does not shine in the direction chosen.
 FN bool aim_at_targets(IN(LightRecord) l, uint kinds, IN(Targets) targets, vec2 u, real choice,
                        INOUT(EmittedPhoton) p) {
-    const uint at_view = most_targets;
-    const uint at_nothing = most_targets + 1u;
     real at_targets = real(targets.count) * targets.share;
     uint aimed = choice < at_targets + targets.view_share ? at_view : at_nothing;
     if (choice < at_targets) {
@@ -369,16 +388,7 @@ FN bool aim_at_targets(IN(LightRecord) l, uint kinds, IN(Targets) targets, vec2 
         }
     }
     real even = emission_density(l, kinds, front, p.direction);
-    real density = even * (real(1.0) - at_targets - targets.view_share);
-    if (targets.view_share > real(0.0)) {
-        density += aimed_density(targets.view, targets.view_share, p, aimed == at_view, even);
-        p.for_view = density / (even * (real(1.0) - at_targets));
-    }
-    for (uint i = 0u; i < targets.count; ++i) {
-        density += aimed_density(targets.spheres[i], targets.share, p, i == aimed, even);
-    }
-    p.concentration = density / even;
-    p.for_targets = p.concentration / p.for_view;
+    concentrate(targets, even, aimed, p);
     return even > real(0.0) && is_finite(p.concentration);
 }
 

@@ -88,7 +88,15 @@ struct EyeBatch {
     // The film is this part of the image: pixels above are numbered in the film, and random numbers
     // are those of the pixel in the image.
     uint crop_x, crop_y, crop_width;
+    float32 light_paths; // photons whose paths find the same light, for each sample of a pixel
 };
+
+// What shares the work of eye paths beside the photon map.
+CONSTANT uint variant_plain = 0u;
+// Paths query the map one scattering later, except for caustics.
+CONSTANT uint variant_final_gather = 1u;
+// Paths of a path tracer, beside light paths.
+CONSTANT uint variant_light_paths = 2u;
 
 ARGAND_SHARED_END
 

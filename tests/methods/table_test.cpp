@@ -13,8 +13,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(MethodTable, UsersKnowTheBuiltInMethodsByTheseNames) {
-    EXPECT_THAT(method_names(), ElementsAre("footprints", "photons", "knn", "progressive",
-                                            "photon-queue", "image-space", "path"));
+    EXPECT_THAT(method_names(),
+                ElementsAre("footprints", "photons", "knn", "progressive", "photon-queue",
+                            "image-space", "path", "bidirectional"));
     EXPECT_EQ(RenderSettings().method, "footprints");
 }
 
@@ -23,7 +24,7 @@ TEST(MethodTable, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
     const std::string message = error_of([] { builtin_methods().at("rays"); });
     EXPECT_THAT(message, HasSubstr("'rays'"));
     EXPECT_THAT(message, HasSubstr("footprints, photons, knn, progressive, photon-queue, "
-                                   "image-space, path"));
+                                   "image-space, path, bidirectional"));
 }
 
 TEST(MethodTable, EveryMethodDescribesItself) {

@@ -53,7 +53,8 @@ Sums gather(Device& device, const std::vector<Splat>& splats, const std::vector<
     const DeviceScene scene =
         upload_scene(device, floor_scene(lambertian(glm::vec3(floor_albedo)), 1),
                      make_plan({}, {.everything = true}));
-    PhotonWorkspace workspace = make_photon_workspace(device, splats.size(), extents_differentials);
+    PhotonWorkspace workspace =
+        make_photon_workspace(device, splats.size(), {.extents = extents_differentials});
     std::vector<PhotonRecord> photons;
     std::vector<glm::uvec4> offsets;
     std::size_t stored = 0;

@@ -27,7 +27,8 @@ protected:
                               std::uint32_t reemission = REEMIT_COSINE) {
         const DeviceScene on_device =
             upload_scene(device(), scene, make_plan(scene, {.follow_roughness = 0.25f}));
-        PhotonWorkspace workspace = make_photon_workspace(device(), count, extents_differentials);
+        PhotonWorkspace workspace =
+            make_photon_workspace(device(), count, {.extents = extents_differentials});
         workspace.reemission = reemission;
         const auto stored = trace_photons(device(), on_device, workspace,
                                           {.seed = 5, .count = count, .bounces = bounces}, 1e-9f);
@@ -200,7 +201,8 @@ TEST_F(FootprintTrace, EstimateIntegratesToTheStoredFlux) {
     const DeviceScene scene =
         upload_scene(device(), box, make_plan(box, {.follow_roughness = 0.25f}));
     constexpr std::uint64_t count = 50'000;
-    PhotonWorkspace workspace = make_photon_workspace(device(), count, extents_differentials);
+    PhotonWorkspace workspace =
+        make_photon_workspace(device(), count, {.extents = extents_differentials});
     const auto stored = trace_photons(device(), scene, workspace,
                                       {.seed = 5, .count = count, .bounces = 0xffff}, 1e-9f);
     ASSERT_TRUE(stored.has_value());

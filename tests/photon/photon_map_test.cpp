@@ -184,7 +184,8 @@ TEST_P(PhotonMapTree, AMapStaysAsItIsWhenAnotherIsBuilt) {
     const uvec2 axis = pack_dual({0.01f, 0, 0});
     const uvec2 other_axis = pack_dual({0, 0, 0.02f});
     const std::vector<glm::uvec4> offsets(count, {axis.x, axis.y, other_axis.x, other_axis.y});
-    PhotonWorkspace workspace = make_photon_workspace(device, count, extents_differentials);
+    PhotonWorkspace workspace =
+        make_photon_workspace(device, count, {.extents = extents_differentials});
     PhotonMapSettings settings{.leaf_size = 8};
     settings.footprints = make_footprint_scale(count, count, 1, {10, 1, 0.1f, 0.3f, 0.5f});
     const auto build = [&](std::size_t some) {

@@ -67,8 +67,9 @@ using Smoothing = RenderTest;
 
 double smoothing_of(Device& device, const Stored& stored, double on_point,
                     const std::vector<glm::vec4>& points = points_in_the_middle()) {
-    PhotonWorkspace workspace = make_photon_workspace(
-        device, std::max<std::size_t>(stored.photons.size(), 1), extents_differentials);
+    PhotonWorkspace workspace =
+        make_photon_workspace(device, std::max<std::size_t>(stored.photons.size(), 1),
+                              {.extents = extents_differentials});
     const StoredPhotons on_device = store(device, workspace, stored.photons, stored.offsets);
     SortedPhotons sorted = sort_photons(device, workspace, on_device);
     add_footprints(device, workspace, unit_scale(), sorted);

@@ -203,7 +203,8 @@ TEST_P(VolumeHeuristicMap, GathersWhatTheLinearBuildDoes) {
         const glm::uvec2 b = pack_dual(glm::vec3(0.3f * u.z, 0, 0.05f));
         offsets.emplace_back(a.x, a.y, b.x, b.y);
     }
-    PhotonWorkspace workspace = make_photon_workspace(device, count, extents_differentials);
+    PhotonWorkspace workspace =
+        make_photon_workspace(device, count, {.extents = extents_differentials});
     const FootprintScale scale = make_footprint_scale(count, count, 1, {10, 1, 0.1f, 0.3f, 0.5f});
     const PhotonMap linear =
         build_photon_map(device, scene, workspace, store(device, workspace, photons, offsets),

@@ -14,8 +14,9 @@ inline bool has_map(std::string_view method) {
 }
 
 /// Whether its paths come from the eye alone, which cannot hit delta lights.
-inline bool is_unbiased(std::string_view method) {
-    return builtin_methods().at(method).abilities.unbiased;
+inline bool has_eye_paths_only(std::string_view method) {
+    const Abilities& abilities = builtin_methods().at(method).abilities;
+    return !abilities.photon_map && !abilities.light_paths;
 }
 
 /// Whether its images depend on those before them in the same session.

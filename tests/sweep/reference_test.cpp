@@ -14,10 +14,12 @@ RenderSettings small() {
     return settings;
 }
 
+const MethodInfo& path() { return builtin_methods().at("path"); }
+
 TEST(Reference, AddsSamplesUntilItsErrorIsFarBelowThePilots) {
     FakeRenderer renderer;
     const std::array pilots{noisy(32, 32, 0, 0.2, 5), noisy(32, 32, 0, 0.06, 6)};
-    const auto reference = render_reference(renderer.trials(), small(), pilots, 1e6);
+    const auto reference = render_reference(renderer.trials(), small(), pilots, 1e6, path());
     ASSERT_TRUE(reference);
     const double least = 0.06 * 0.06 / (1.01 * true_radiance * true_radiance);
     EXPECT_LT(*reference->own_error, 1.1 * reference_share * least);
@@ -32,7 +34,7 @@ TEST(Reference, AddsSamplesUntilItsErrorIsFarBelowThePilots) {
 TEST(Reference, KeepsItsTimeLimit) {
     FakeRenderer renderer;
     const std::array pilots{noisy(32, 32, 0, 0, 5)}; // no reference is accurate enough for this
-    const auto reference = render_reference(renderer.trials(), small(), pilots, 0);
+    const auto reference = render_reference(renderer.trials(), small(), pilots, 0, path());
     ASSERT_TRUE(reference);
     EXPECT_EQ(renderer.keys.size(), 1u);
     EXPECT_GT(*reference->own_error, 0);
@@ -91,7 +93,7 @@ TEST(Reference, LeastErrorIsAtMostItsOwnError) {
 
 TEST(Reference, CanBeInterrupted) {
     FakeRenderer renderer(0);
-    EXPECT_FALSE(render_reference(renderer.trials(), small(), {}, 1));
+    EXPECT_FALSE(render_reference(renderer.trials(), small(), {}, 1, path()));
 }
 
 TEST(Reference, ReadsOneFileOrAPair) {

@@ -170,8 +170,7 @@ void add_tradeoff_command(CLI::App& app, MethodTable methods) {
         ->check(integer_between(1, 1000));
     command->add_option(
         "--reference", options->reference,
-        fmt::format("Picture that counts as true (.exr) (default: two renders with the method {})",
-                    methods.unbiased()->name));
+        "Picture that counts as true (.exr) (default: two renders with a method without bias)");
     command->add_option(
         "--reference-2", options->second_reference,
         "A second one with independent noise, so that their noise does not count as error");

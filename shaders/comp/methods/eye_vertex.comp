@@ -5,7 +5,8 @@ layout(local_size_x = 64) in;
 #include "material_features.glsl"
 #include "texture_bindings.glsl"
 #include "shared/follow.h"
-#include "shared/lights.h"
+#include "shared/light_path.h"
+#include "shared/light_path_records.h"
 #include "shared/photon.h"
 #include "shared/query_cell.h"
 #include "shared/query_bsdf.h"
@@ -25,12 +26,12 @@ layout(set = 0, binding = 19) writeonly buffer Alive { uint alive[]; };
 layout(set = 0, binding = 20) writeonly buffer QueryKinds { uint query_kinds[]; };
 layout(set = 0, binding = 21) writeonly buffer QueryBsdfs { QueryBsdfRecord query_bsdfs[]; };
 layout(set = 0, binding = 22) readonly buffer Sky { uint sky[]; };
+layout(set = 0, binding = 23) buffer EyeWeights { EyeWeightRecord eye_weights[]; };
 layout(push_constant) uniform Push { EyeBatch batch; };
 
 // false: a path tracer. true: the photon map provides the light that estimated lobes scatter more than once.
 layout(constant_id = 0) const bool photon_map = false;
-// Whether paths query the map one scattering later, except for caustics.
-layout(constant_id = 1) const bool final_gather = false;
+layout(constant_id = 1) const uint variant = variant_plain; // variant_*
 // Whether some surface has followed lobes; else there are no caustics.
 layout(constant_id = 2) const bool followed_paths = true;
 // Whether lights are sampled; else there are no shadow rays.

@@ -27,7 +27,8 @@ PaperMap trace_paper_map(Device& device, const Scene& scene, const RenderSetting
              scene.name);
     }
     paper.scene = upload_scene(device, scene, plan_render(scene, paper.render));
-    paper.workspace = make_photon_workspace(device, paper.render.photons, extents_differentials);
+    paper.workspace =
+        make_photon_workspace(device, paper.render.photons, {.extents = extents_differentials});
     const PhotonPass pass{
         .seed = render.seed, .first = 0, .count = paper.render.photons, .bounces = render.bounces};
     const std::optional<StoredPhotons> stored =

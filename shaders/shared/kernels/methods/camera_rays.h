@@ -1,17 +1,6 @@
+#include "shared/kernels/camera_cone.h"
 #include "shared/kernels/interleave.h"
 #include "shared/kernels/pixel.h"
-
-// The cone of one of a pixel's paths.
-FN uint camera_cone(CameraRecord c, vec3 direction) {
-    vec3 across = vec3(c.across_x, c.across_y, c.across_z);
-    vec3 axis = cross3(across, vec3(c.down_x, c.down_y, c.down_z)); // a pixel's area along the axis
-    real area;
-    vec3 unit = unit_and_length(axis, area);
-    // On the plane at distance 1 a pixel is as large as in the picture; rays to it are longer.
-    real width = sqrt(area / real(batch.first_sample + batch.samples));
-    real share = real(c.origin_share);
-    return pack_cone(width * share, width * (real(1.0) - share) * abs(dot3(unit, direction)));
-}
 
 // Starts the paths of a batch.
 FN void main() {
@@ -31,11 +20,17 @@ FN void main() {
     vec3 origin, direction;
     camera_ray(camera[0], real(pixel % batch.width) + in_pixel.x, real(row) + in_pixel.y,
                vec2(u.z, u.w), origin, direction);
-    rays[slot] = RayRecord(origin.x, origin.y, origin.z, far_away, direction.x, direction.y,
-                           direction.z, cones ? camera_cone(camera[0], direction) : 0u);
+    rays[slot] = RayRecord(
+        origin.x, origin.y, origin.z, far_away, direction.x, direction.y, direction.z,
+        cones ? camera_cone(camera[0], direction, real(batch.first_sample + batch.samples)) : 0u);
     paths[slot] = PathRecord(real(1.0), real(1.0), real(1.0), real(0.0), pixel, sample_index,
                              path_unscaled, 0u);
     layers[slot] = LayersRecord(real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0),
                                 real(0.0), real(0.0), real(0.0), real(0.0), real(0.0), real(0.0));
     active_slots[slot] = slot;
+    if (weighed) {
+        eye_weights[slot] =
+            EyeWeightRecord(-density_of_camera_rays(camera[0], direction),
+                            camera[0].origin_share > float32(0.0) ? real(0.0) : real(1.0));
+    }
 }

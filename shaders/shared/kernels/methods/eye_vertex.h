@@ -8,6 +8,7 @@
 #include "shared/kernels/dispersion.h"
 #include "shared/kernels/emission.h"
 #include "shared/kernels/medium.h"
+#include "shared/kernels/methods/light_paths.h"
 #include "shared/kernels/normals.h"
 
 #include "shared/kernels/anisotropy.h"
@@ -39,6 +40,12 @@ struct Vertex {
     real estimated_probability; // probability that `onward` scatters the path
     real pass_probability;      // probability that the path goes straight on
 };
+
+// Whether paths query the photon map one scattering later, except for caustics.
+FN bool final_gather() { return variant == variant_final_gather; }
+
+// Whether light paths find the same light as the eye paths of a path tracer.
+FN bool has_light_paths() { return variant == variant_light_paths; }
 
 FN bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
 
@@ -114,6 +121,37 @@ FN void add_emission(uint slot, IN(PathRecord) path, vec3 radiance) {
     }
 }
 
+// Share of the eye path in light that it finds beside light paths. They find no direct light, and
+// only what is scattered first by estimated lobes in view. by_light_path, by_shadow_ray,
+// by_scattering: densities at the path's last vertex.
+FN real eye_share(IN(PathRecord) path, real by_light_path, real by_shadow_ray, real by_scattering) {
+    bool both = behind_estimated(path) && (path.state & path_depth_mask) > 0u;
+    return both ? real(1.0) - share_of_light_paths(by_light_path, by_shadow_ray, by_scattering)
+                : real(1.0);
+}
+
+// The same for emission that a scattered ray hits. light: its index; origin, direction: of photons
+// that leave it there towards the path, at this distance; shadow_ray: density of shadow rays.
+FN real share_of_emission(uint slot, IN(PathRecord) path, uint light, vec3 origin, vec3 direction,
+                          real distance, real shadow_ray, real sky_pdf) {
+    if (!has_light_paths()) {
+        return real(1.0);
+    }
+    EyeWeightRecord w = eye_weights[slot];
+    if (!(w.scarcity > float32(0.0))) {
+        return real(1.0);
+    }
+    real photons = density_of_light(light, lights[light], real(batch.light_paths), origin,
+                                    direction, distance, sky_pdf);
+    return eye_share(path, w.scarcity * photons, w.last * shadow_ray, real(1.0));
+}
+
+// The sky is the last light.
+FN real share_of_sky(uint slot, IN(PathRecord) path, vec3 direction, real pdf) {
+    return share_of_emission(slot, path, scene[0].light_count - 1u, vec3(real(0.0)), -direction,
+                             real(1.0), scene[0].sky_probability * pdf, pdf);
+}
+
 // Adds the sky's emission to the path of a ray that leaves the scene.
 FN void add_sky(uint slot, IN(PathRecord) path, vec3 direction, vec3 throughput) {
     vec3 even = vec3(scene[0].sky_r, scene[0].sky_g, scene[0].sky_b);
@@ -122,13 +160,15 @@ FN void add_sky(uint slot, IN(PathRecord) path, vec3 direction, vec3 throughput)
             path.pdf > real(0.0)
                 ? power_heuristic(path.pdf, scene[0].sky_probability * real(0.25) * INV_PI)
                 : real(1.0);
+        weight *= share_of_sky(slot, path, direction, UNIFORM_SPHERE_PDF);
         add_emission(slot, path, throughput * even * weight);
     }
     if (has_light(light_picture) && scene[0].sky_columns > 0u) {
-        SkyPoint seen = sky_at(direction, path.pdf > real(0.0));
+        SkyPoint seen = sky_at(direction, path.pdf > real(0.0) || has_light_paths());
         real weight = path.pdf > real(0.0)
                           ? power_heuristic(path.pdf, scene[0].sky_probability * seen.pdf)
                           : real(1.0);
+        weight *= share_of_sky(slot, path, direction, seen.pdf);
         add_emission(slot, path, throughput * seen.radiance * weight);
     }
 }
@@ -163,6 +203,20 @@ FN real shadow_ray_density(HitRecord hit, real cosine) {
     return emitter_density(probability, area, hit.t, cosine);
 }
 
+// share_of_emission() of the triangle that the path hit. Texels of emission do not count.
+FN real share_of_surface_emission(IN(Vertex) v, HitRecord hit) {
+    if (!has_light_paths()) {
+        return real(1.0);
+    }
+    uint index = light_of_triangle(hit.triangle);
+    real area;
+    light_normal(lights[index], area);
+    real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
+    real shadow_ray = emitter_density(probability_for_shadow_rays(index), area, hit.t, cosine);
+    return share_of_emission(v.slot, v.path, index, v.surface.position, -v.direction, hit.t,
+                             shadow_ray, real(1.0));
+}
+
 FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
     MaterialRecord m = v.material;
     vec3 emission = vec3(m.emission_r, m.emission_g, m.emission_b);
@@ -173,6 +227,7 @@ FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
             real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
             weight = power_heuristic(v.path.pdf, shadow_ray_density(hit, cosine));
         }
+        weight *= share_of_surface_emission(v, hit);
         add_emission(v.slot, v.path, v.throughput * emission * weight);
     }
 }
@@ -212,7 +267,7 @@ FN void split_lobes(HitRecord hit, INOUT(Vertex) v) {
     v.estimated = bsdf_lobes(v.material) & ~v.followed;
     v.albedos = lobe_albedos(v.material, v.wo, v.surface.front, v.followed | v.estimated);
     real followed_albedo = max_component(sum_of_albedos(v.albedos, v.followed));
-    v.ends = photon_map && (!final_gather || behind_estimated(v.path));
+    v.ends = photon_map && (!final_gather() || behind_estimated(v.path));
     // The map accounts for all other light behind the last estimated vertex. But if only shadow
     // rays found lights there, those that touch the surface or that a glossy lobe reflects would
     // become fireflies. One more ray looks for them. The path goes on there if the map's estimate
@@ -260,6 +315,7 @@ struct SeenLight {
     LightSample s;
     vec3 wi; // in the vertex's frame
     ChosenLight choice;
+    real texels; // density of points on it that is due to texels
 };
 
 // Chooses a light and samples it. Returns false if no light arrives.
@@ -277,7 +333,7 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
     l.origin = offset_ray_origin(surface.position, surface.error, surface.geometric_normal,
                                  surface.geometric_normal);
     vec2 where = vec2(u.y, u.z);
-    real density = shines_by_texels(light) ? choose_texel(light, where) : real(1.0);
+    l.texels = shines_by_texels(light) ? choose_texel(light, where) : real(1.0);
     bool masked = may_have(v.material, MATERIAL_ALPHA) && is_masked_out(light, where);
     if (masked || !light_sample(light, light_kinds, l.origin, where, l.s)) {
         return false;
@@ -290,11 +346,11 @@ FN bool choose_light_sample(IN(Vertex) v, OUT(SeenLight) l) {
         if (!light_sample(light, light_kinds, l.origin, where, l.s)) {
             return false;
         }
-        l.s.pdf *= density;
+        l.s.pdf *= l.texels;
         l.wi = to_local(v.frame, l.s.wi);
         return dot(l.s.wi, surface.geometric_normal) < real(0.0);
     }
-    l.s.pdf *= density;
+    l.s.pdf *= l.texels;
     l.wi = to_local(v.frame, l.s.wi);
     return above;
 }
@@ -341,6 +397,33 @@ FN vec3 light_by_lobes(IN(Vertex) v, IN(SeenLight) l, uint lobes, bool weighs) {
     return arriving * weight * f;
 }
 
+// eye_share() of light that a shadow ray finds, for the estimated lobes and for the followed ones.
+FN vec2 shares_of_shadow_ray(IN(Vertex) v, IN(SeenLight) l) {
+    vec2 shares = vec2(real(1.0));
+    EyeWeightRecord w = eye_weights[v.slot];
+    if (!(w.scarcity > float32(0.0)) || !behind_estimated(v.path)) {
+        return shares;
+    }
+    // Light paths follow this vertex: its scattering counts.
+    PathRecord next = v.path;
+    next.state = state_after(next.state, false);
+    LightSample s = l.s;
+    real probability = l.choice.probability;
+    real sky_pdf = s.pdf; // of a light that is no sky it does not count
+    real photons = w.scarcity *
+                   density_of_light(l.choice.index, lights[l.choice.index], real(batch.light_paths),
+                                    l.origin + s.wi * s.distance, -s.wi, s.distance, sky_pdf);
+    real cosine = abs(dot(s.wi, v.surface.geometric_normal));
+    if (s.delta) {
+        shares.x = eye_share(next, photons * cosine * INV_PI, probability, real(0.0));
+        shares.y = eye_share(next, photons, real(0.0), real(0.0));
+        return shares;
+    }
+    shares.x = eye_share(next, photons, probability * s.pdf / l.texels * PI / cosine, real(1.0));
+    shares.y = eye_share(next, photons, real(0.0), real(1.0));
+    return shares;
+}
+
 // Writes a shadow ray to a light, and the radiance that it adds if nothing blocks it.
 FN void sample_light(IN(Vertex) v) {
     SeenLight l;
@@ -373,6 +456,11 @@ FN void sample_light(IN(Vertex) v) {
         } else {
             by_followed += light;
         }
+    }
+    if (has_light_paths()) {
+        vec2 shares = shares_of_shadow_ray(v, l);
+        by_estimated *= shares.x;
+        by_followed *= shares.y;
     }
     if (!(max_component(by_estimated) + max_component(by_followed) > real(0.0))) {
         return;
@@ -439,7 +527,7 @@ FN void leave_query(IN(Vertex) v) {
         kind = query_kind_gathers;
         flags |= query_gathers;
         scatterings -= (v.path.state & path_depth_mask) + 1u; // including the one at this vertex
-    } else if (final_gather) {
+    } else if (final_gather()) {
         kind = query_kind_caustics;
         flags |= query_caustics;
     }
@@ -505,6 +593,9 @@ FN void pass_surface(IN(Vertex) v, real u) {
     path.vertices += 1u;
     if (is_culled(v) || v.hidden) {
         path.pdf = real(0.0); // shadow rays do not find what is behind it
+        if (has_light_paths() && eye_weights[v.slot].scarcity < float32(0.0)) {
+            eye_weights[v.slot].scarcity = float32(0.0); // nor do light paths find the eye
+        }
     }
     // Solids absorb on the whole way, once its end is known.
     vec3 arrived = vec3(path.throughput_r, path.throughput_g, path.throughput_b);
@@ -516,6 +607,22 @@ FN void pass_surface(IN(Vertex) v, real u) {
             goes_on_past(rays[v.slot].t_max, v.solids, v.material, v.surface.front, v.hidden);
         leave_path(v, path, throughput / survival);
     }
+}
+
+// Keeps the densities of a scattering by estimated or followed lobes.
+FN void weigh_scattering(IN(Vertex) v, bool estimated, IN(BsdfSample) s, vec3 wi) {
+    EyeWeightRecord w = eye_weights[v.slot];
+    if (w.scarcity < float32(0.0)) {
+        real density = -w.scarcity;
+        if (w.last > float32(0.0)) { // of a perspective camera
+            density = density / v.distance / v.distance;
+        }
+        real cosine = dot(v.direction, v.surface.geometric_normal);
+        w.scarcity = estimated ? float32(scarcity_of_eye_paths(density, cosine, s.pdf / s.wi.z))
+                               : float32(0.0);
+    }
+    w.last = estimated ? float32(PI / abs(dot(wi, v.surface.geometric_normal))) : float32(0.0);
+    eye_weights[v.slot] = w;
 }
 
 // Samples the ray on which the path continues, unless Russian roulette ends the path or nothing is
@@ -570,6 +677,9 @@ FN void continue_path(INOUT(Vertex) v) {
         rays[v.slot].cone = pack_cone(
             cone_width(v.cone, v.distance),
             scattered_spread(cone_spread(v.cone), real(batch.first_sample + batch.samples), s.pdf));
+    }
+    if (has_light_paths()) {
+        weigh_scattering(v, takes_estimated, s, wi);
     }
     path.pdf = takes_estimated ? v.estimated_probability * s.pdf : real(0.0);
     if (direct_light && may_have(v.material, LOBES_SPREAD) && (s.lobe & LOBES_SPREAD) != 0u) {

@@ -3,6 +3,7 @@
 #include "shared/kernels/texels.h"
 
 #include "shared/kernels/emission.h"
+#include "shared/kernels/targets.h"
 
 // Warps the random numbers of a photon of this light by the light's tree.
 FN AimedNumbers aim(LightRecord light, vec4 u) {
@@ -16,20 +17,6 @@ FN AimedNumbers aim(LightRecord light, vec4 u) {
         index = node.child + (descend_aim(node, a) ? 1u : 0u);
     }
     return a;
-}
-
-FN Targets scene_targets() {
-    SceneRecord s = scene[0];
-    Targets targets;
-    targets.spheres[0] = vec4(s.target_0);
-    targets.spheres[1] = vec4(s.target_1);
-    targets.spheres[2] = vec4(s.target_2);
-    targets.spheres[3] = vec4(s.target_3);
-    targets.count = s.target_count;
-    targets.share = s.target_share;
-    targets.view = vec4(s.view);
-    targets.view_share = s.view_share;
-    return targets;
 }
 
 // The cone of one of the pass's photons, as if all were of this light.

@@ -1,0 +1,166 @@
+#include "methods/light_paths.hpp"
+#include "methods/persist_buffer.hpp"
+#include "methods/photon_numbers.hpp"
+#include "methods/photon_targets.hpp"
+#include "methods/render_options.hpp"
+#include "methods/sample_passes.hpp"
+#include "methods/traced_photons.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace argand {
+
+namespace {
+
+// Samples of a pixel in a pass: its light paths cannot be interrupted.
+constexpr std::uint64_t most_samples = 16;
+// Photons of a pass.
+constexpr double most_photons = 1u << 30;
+
+Option light_paths_option() {
+    Option option = own_option("light-paths",
+                               "Light paths that are connected with the eye, for each sample of a "
+                               "pixel; 0: none, as in `path`",
+                               OptionKind::number, "1");
+    option.low = 0;
+    option.high = 1000;
+    option.sweep.full = {"0.25", "1", "4"};
+    return option;
+}
+
+/// Path tracing from the eye and from the lights. Eye paths are those of `path`; the vertices of
+/// light paths are connected with the eye. Multiple importance sampling weighs what both find
+/// (shared/light_path.h), so that the image has no bias, and the caustics of delta lights.
+class Bidirectional : public Method {
+public:
+    explicit Bidirectional(RenderContext& context) : c_(context) {}
+
+    void begin_frame(Budget& budget) override {
+        photons_ = passes_ = 0;
+        numbers_ = {};
+        if (c_.on_device.plan.needs(Feature::caustics)) {
+            aim_at_casters(c_, sample_queries(c_.device, c_.on_device, c_.eye, c_.settings,
+                                              c_.scene.cameras[c_.settings.camera]));
+        }
+        make_workspace();
+        c_.device.fill(workspace_->photons.flux_sums, 0);
+        budget.start_pass();
+    }
+
+    std::uint64_t passes() const override { return split().count(); }
+    std::uint64_t passes_per_seed() const override { return split().per_seed(); }
+
+    bool pass(const Pass& pass, const OnProgress& on_part) override {
+        const std::uint32_t samples = split().samples_of(pass.numbers.index);
+        const std::uint64_t photons = photons_for(samples);
+        const EyePass eye{.seed = pass.numbers.seed,
+                          .first_sample =
+                              static_cast<std::uint32_t>(split().first_sample(pass.numbers.index)),
+                          .samples = samples,
+                          .bounces = c_.settings.bounces,
+                          .light_paths = static_cast<double>(photons) / samples};
+        double done = 0;
+        const bool finished =
+            trace_eye_paths(c_.device, c_.on_device, c_.eye, eye, nullptr, [&](double share) {
+                done = share;
+                return on_part(photons > 0 ? share / 2 : share);
+            });
+        ++passes_;
+        if (photons > 0) {
+            // Every pixel has as many samples as were finished, and light paths count for these.
+            add_light_paths(pass, photons, static_cast<std::uint32_t>(std::lround(done * samples)),
+                            eye.light_paths);
+        }
+        return finished && on_part(1);
+    }
+
+    void persist(Archive& archive) override {
+        archive.value(photons_);
+        archive.value(passes_);
+        numbers_.persist(archive);
+        if (archive.loads()) {
+            make_workspace();
+        }
+        persist_buffer(archive, c_.device, workspace_->photons.flux_sums,
+                       flux_words * sizeof(std::int64_t));
+    }
+
+    void report(RenderStatistics& statistics) const override {
+        statistics.photons_emitted = photons_;
+        if (photons_ > 0) {
+            statistics.flux = flux_of(
+                download<std::int64_t>(c_.device, workspace_->photons.flux_sums, flux_words),
+                flux_unit() / static_cast<double>(passes_));
+        }
+    }
+
+private:
+    double photons_per_sample() const {
+        return own_number(c_.settings, light_paths_option()) * c_.settings.width *
+               c_.settings.height;
+    }
+
+    SamplePasses split() const {
+        const double most = std::clamp(most_photons / std::max(photons_per_sample(), 1.0), 1.0,
+                                       double(most_samples));
+        return sample_passes(c_.settings, static_cast<std::uint64_t>(most));
+    }
+
+    /// Of a pass with so many samples of each pixel.
+    std::uint64_t photons_for(std::uint32_t samples) const {
+        const bool none = c_.settings.bounces == 0 || c_.on_device.record.light_count == 0;
+        const double photons = std::ceil(photons_per_sample() * samples);
+        return none ? 0 : static_cast<std::uint64_t>(std::min(photons, most_photons));
+    }
+
+    /// Of the fixed-point sums of flux.
+    double flux_unit() const {
+        const auto& power = c_.on_device.light_table.power;
+        const double most = std::max({power.r, power.g, power.b});
+        const auto photons =
+            static_cast<double>(std::max<std::uint64_t>(photons_for(split().samples_of(0)), 1));
+        return (most > 0 ? most : 1) / photons / units_per_photon;
+    }
+
+    void make_workspace() {
+        if (!workspace_) {
+            workspace_ = make_light_path_workspace(
+                c_.device, std::max<std::uint64_t>(photons_for(split().samples_of(0)), 1));
+        }
+    }
+
+    void add_light_paths(const Pass& pass, std::uint64_t photons, std::uint32_t samples,
+                         double photons_per_sample) {
+        PhotonPass emission = numbers_.next(pass.numbers.seed, photons);
+        emission.bounces = c_.settings.bounces;
+        trace_light_paths(c_.device, c_.on_device, *workspace_, c_.eye, emission,
+                          static_cast<float>(flux_unit()), photons_per_sample, samples);
+        photons_ += photons;
+    }
+
+    RenderContext& c_;
+    std::unique_ptr<LightPathWorkspace> workspace_;
+    PhotonNumbers numbers_;
+    std::uint64_t photons_ = 0, passes_ = 0; ///< of the image so far
+};
+
+} // namespace
+
+MethodInfo bidirectional_method() {
+    return {.name = "bidirectional",
+            .summary = "path tracing from the eye and from the lights, without bias",
+            .paper = "Veach and Guibas 1995",
+            .abilities = {.unbiased = true, .light_paths = true},
+            .options = {with_sweep(samples_option(), {.quick = {"2", "32", "128"},
+                                                      .full = {"1", "4", "16", "64", "256"}}),
+                        bounces_option(), with_sweep(follow_roughness_option(), {}),
+                        cull_back_faces_option(), aperture_option(), focus_option(),
+                        light_paths_option()},
+            .make = [](RenderContext& context) -> std::unique_ptr<Method> {
+                return std::make_unique<Bidirectional>(context);
+            }};
+}
+
+} // namespace argand

@@ -1,0 +1,197 @@
+// Connects the hits of photons with the eye, as light paths of multiple importance sampling
+// (shared/light_path.h): writes a shadow ray to the eye, and what the photon brings to a pixel if
+// nothing blocks it. The surface is evaluated as an eye path that comes from there would see it.
+#include "shared/kernels/camera_cone.h"
+#include "shared/kernels/scene.h"
+#include "shared/kernels/sky.h"
+#include "shared/kernels/textures.h"
+
+#include "shared/kernels/dispersion.h"
+#include "shared/kernels/medium.h"
+#include "shared/kernels/normals.h"
+
+#include "shared/kernels/anisotropy.h"
+#include "shared/kernels/coat.h"
+#include "shared/kernels/methods/light_paths.h"
+
+// A photon at its hit.
+struct ArrivingPhoton {
+    uint slot;
+    HitRecord hit;
+    vec3 direction; // in which it travels
+    vec3 flux;
+    uint depth; // scatterings so far
+    bool caustic;
+    LightPathRecord path;
+};
+
+// The point of a surface as the eye sees it.
+struct SeenPoint {
+    EyeConnection eye;
+    Surface surface;
+    MaterialRecord material;
+    Frame frame;
+    vec3 wo;
+    vec3 passed; // share of the light that solids on the way to the eye let through
+};
+
+// The densities at the first hit behind the light.
+FN LightPathRecord begin_path(IN(ArrivingPhoton) p) {
+    uint index = path_lights[p.slot];
+    LightRecord light = lights[index];
+    Surface surface = load_surface(p.hit, p.direction);
+    real cosine = abs(dot(p.direction, surface.geometric_normal));
+    real sky_pdf = is_light(light, light_kinds, light_sky) ? UNIFORM_SPHERE_PDF : real(0.0);
+    if (is_light(light, light_kinds, light_picture)) {
+        sky_pdf = sky_at(-p.direction, true).pdf;
+    }
+    vec3 origin = surface.position - p.direction * p.hit.t;
+    real photons =
+        density_of_light(index, light, real(params.photons), origin, p.direction, p.hit.t, sky_pdf);
+    real chosen = probability_for_shadow_rays(index);
+    if (!is_light(light, light_kinds, light_triangle) && !is_any_sky(light, light_kinds)) {
+        return LightPathRecord(photons * cosine * INV_PI, chosen, real(0.0), real(0.0));
+    }
+    real density = chosen * sky_pdf;
+    if (is_light(light, light_kinds, light_triangle)) {
+        real area;
+        vec3 normal = light_normal(light, area);
+        real at_light = max(abs(dot(p.direction, normal)), real(1.0e-12));
+        density = emitter_density(chosen, area, p.hit.t, at_light);
+    }
+    return LightPathRecord(photons, density * PI / cosine, real(1.0), real(0.0));
+}
+
+// Whether the eye looks through this side of a surface.
+FN bool is_culled(IN(MaterialRecord) m, bool front) {
+    return may_have(m, MATERIAL_ALPHA) && scene[0].cull_back_faces != 0u && !front &&
+           m.double_sided == 0u && !is_solid(m);
+}
+
+// Looks at the photon's hit from the eye. Returns false if the eye does not see the surface.
+FN bool look_at(IN(ArrivingPhoton) p, OUT(SeenPoint) s) {
+    vec4 u = random4(params.seed ^ 0x1e45u, params.first + p.slot, p.depth, p.hit.triangle);
+    vec3 position = load_surface(p.hit, p.direction).position;
+    s.passed = vec3(real(1.0));
+    if (!connect_eye(camera[0], position, vec2(u.x, u.y), s.eye) ||
+        !(s.eye.x >= real(0.0) && s.eye.x < real(params.width) && s.eye.y >= real(0.0) &&
+          s.eye.y < real(params.height))) {
+        return false;
+    }
+    HitRecord seen = p.hit;
+    seen.t = s.eye.distance;
+    uint cone = mip_maps ? camera_cone(camera[0], s.eye.direction, real(params.samples)) : 0u;
+    s.surface = load_surface(seen, s.eye.direction);
+    s.material = material_at(triangles[seen.triangle], seen, cone, s.eye.direction);
+    uint solids = solids_on_way(0u, s.material, s.surface.front);
+    if (may_have(s.material, MATERIAL_ABSORPTION)) {
+        s.passed = transmittance_to(solids, s.material, s.surface.front, seen.t);
+    }
+    if (is_hidden(solids, s.material) || is_culled(s.material, s.surface.front)) {
+        return false;
+    }
+    turn_normal(s.material.textures, seen, s.eye.direction, s.surface);
+    if (may_have(s.material, MATERIAL_DISPERSION)) {
+        disperse(s.material, s.passed, u.z);
+    }
+    refer_index(solids, s.material);
+    s.frame = make_frame(s.surface.shading_normal);
+    turn_anisotropy(seen, s.surface, s.frame, s.material);
+    turn_coat(seen, s.surface, s.frame, s.material);
+    s.wo = to_local(s.frame, toward_above(s.surface, -s.eye.direction));
+    return true;
+}
+
+// The photon's flux at its hit. Solids absorb on the way. Returns 0 if the surface is not there.
+FN vec3 arriving_flux(IN(ArrivingPhoton) p, IN(MaterialRecord) m, bool front) {
+    uint solids = solids_on_way(solids_of(rays[p.slot].t_max), m, front);
+    vec3 flux = p.flux;
+    if (may_have(m, MATERIAL_ABSORPTION)) {
+        flux *= transmittance_to(solids, m, front, p.hit.t);
+    }
+    return is_hidden(solids, m) ? vec3(real(0.0)) : flux;
+}
+
+// 2 × the film's pixel at these coordinates of the image; no_place: it is not in the film.
+FN uint place_in_film(real x, real y) {
+    uint column = min(uint(x), params.width - 1u);
+    uint row = min(uint(y), params.height - 1u);
+    if (column < params.crop_x || row < params.crop_y) {
+        return no_place;
+    }
+    column -= params.crop_x;
+    row -= params.crop_y;
+    return column < params.crop_width && row < params.crop_height
+               ? 2u * (row * params.crop_width + column)
+               : no_place;
+}
+
+// Connects the photon with the eye by the estimated lobes.
+FN void connect_with_eye(IN(ArrivingPhoton) p) {
+    SeenPoint s;
+    if (!look_at(p, s)) {
+        return;
+    }
+    uint place = place_in_film(s.eye.x, s.eye.y);
+    uint followed = followed_paths ? followed_lobes(s.material, scene[0].follow_roughness) : 0u;
+    uint estimated = bsdf_lobes(s.material) & ~followed;
+    vec3 wi = to_local(s.frame, -p.direction);
+    real arriving = -dot(p.direction, s.surface.geometric_normal);
+    if (place == no_place || estimated == 0u || !(wi.z > real(0.0)) || !(arriving > real(0.0))) {
+        return;
+    }
+    real pdf;
+    vec3 f = bsdf_eval_and_pdf(reflection_parameters(s.material), s.wo, wi, estimated,
+                               lobe_probabilities(s.material, s.wo, estimated), pdf);
+    real leaving = abs(dot(s.eye.direction, s.surface.geometric_normal));
+    real scarcity = scarcity_of_eye_paths(s.eye.density, leaving, pdf / wi.z);
+    real share = share_of_light_paths(scarcity * p.path.arriving, p.path.by_shadow_ray,
+                                      p.path.by_scattering);
+    // Photons arrive in proportion to the cosine with the geometric normal, but the BSDF is
+    // weighted by the cosine with the shading normal (Veach 1997, §5.3).
+    vec3 radiance = arriving_flux(p, s.material, s.surface.front) * s.passed * f *
+                    (wi.z / arriving * leaving * s.eye.density * share);
+    if (!is_finite3(radiance) || !(max_component(radiance) > real(0.0))) {
+        return;
+    }
+    vec3 o = offset_ray_origin(s.surface.position, s.surface.error, s.surface.geometric_normal,
+                               s.surface.geometric_normal);
+    shadow_rays[p.slot] = RayRecord(o.x, o.y, o.z, s.eye.distance * (real(1.0) - error_bound(16)),
+                                    -s.eye.direction.x, -s.eye.direction.y, -s.eye.direction.z, 0u);
+    splats[p.slot] = SplatRecord(radiance.x, radiance.y, radiance.z, place + (p.caustic ? 1u : 0u));
+}
+
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counters[counter_active]) {
+        return;
+    }
+    ArrivingPhoton p;
+    p.slot = active_slots[i];
+    p.hit = hits[p.slot];
+    shadow_rays[p.slot] =
+        RayRecord(real(0.0), real(0.0), real(0.0), -real(1.0), real(0.0), real(0.0), real(1.0), 0u);
+    splats[p.slot] = SplatRecord(real(0.0), real(0.0), real(0.0), no_place);
+    if (p.hit.triangle == no_triangle) {
+        return;
+    }
+    RayRecord ray = rays[p.slot];
+    PhotonPathRecord path = paths[p.slot];
+    p.direction = vec3(ray.direction_x, ray.direction_y, ray.direction_z);
+    p.flux = vec3(path.flux_r, path.flux_g, path.flux_b);
+    p.depth = path.state & photon_depth_mask;
+    p.caustic = (path.state & photon_followed) != 0u;
+    if (p.depth == 0u) {
+        light_paths[p.slot] = begin_path(p);
+        return;
+    }
+    if (p.depth == 1u && p.caustic) {
+        // Followed lobes have scattered it where shadow rays start, so these do not find it. By
+        // such lobes eye paths find no delta lights.
+        light_paths[p.slot].by_shadow_ray = float32(0.0);
+    }
+    p.path = light_paths[p.slot];
+    if (p.depth <= params.bounces) {
+        connect_with_eye(p);
+    }
+}

@@ -1,0 +1,12 @@
+// Keys by which splats are sorted: their place, or params.none, which is behind all places, if
+// something blocks their shadow ray.
+FN void main() {
+    uint i = THREAD_INDEX;
+    if (i >= counters[counter_active]) {
+        return;
+    }
+    uint slot = active_slots[i];
+    bool passes = has_alpha ? transmittance(occluded[slot]) > real(0.0) : occluded[slot] == 0u;
+    keys[i] = passes ? min(splats[slot].place, params.none) : params.none;
+    slots[i] = slot;
+}
