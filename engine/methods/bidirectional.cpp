@@ -5,6 +5,7 @@
 #include "methods/render_options.hpp"
 #include "methods/sample_passes.hpp"
 #include "methods/traced_photons.hpp"
+#include "shared/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +15,10 @@ namespace argand {
 
 namespace {
 
-// Samples of a pixel in a pass: its light paths cannot be interrupted.
-constexpr std::uint64_t most_samples = 16;
-// Photons of a pass.
-constexpr double most_photons = 1u << 30;
+// Of a pass, whose light paths cannot be interrupted: samples of a pixel, and photons, unless one
+// sample has more.
+constexpr double most_samples = 16;
+constexpr double most_photons = 1 << 20;
 
 Option light_paths_option() {
     Option option = own_option("light-paths",
@@ -41,10 +42,14 @@ public:
         photons_ = passes_ = 0;
         numbers_ = {};
         if (c_.on_device.plan.needs(Feature::caustics)) {
-            aim_at_casters(c_, sample_queries(c_.device, c_.on_device, c_.eye, c_.settings,
+            // Not the image's own paths: weights that depend on them would bias it.
+            RenderSettings other = c_.settings;
+            other.seed = pcg4d({other.seed, 0xa13edu, 0, 0}).x;
+            aim_at_casters(c_, sample_queries(c_.device, c_.on_device, c_.eye, other,
                                               c_.scene.cameras[c_.settings.camera]));
         }
         make_workspace();
+        flux_unit_ = flux_unit();
         c_.device.fill(workspace_->photons.flux_sums, 0);
         budget.start_pass();
     }
@@ -54,10 +59,12 @@ public:
 
     bool pass(const Pass& pass, const OnProgress& on_part) override {
         const std::uint32_t samples = split().samples_of(pass.numbers.index);
-        const std::uint64_t photons = photons_for(samples);
+        const auto first = static_cast<std::uint32_t>(split().first_sample(pass.numbers.index));
+        // A light may be switched on while a shutter is open.
+        const std::uint64_t photons =
+            c_.on_device.record.light_count > 0 ? photons_for(samples) : 0;
         const EyePass eye{.seed = pass.numbers.seed,
-                          .first_sample =
-                              static_cast<std::uint32_t>(split().first_sample(pass.numbers.index)),
+                          .first_sample = first,
                           .samples = samples,
                           .bounces = c_.settings.bounces,
                           .light_paths = static_cast<double>(photons) / samples};
@@ -68,17 +75,24 @@ public:
                 return on_part(photons > 0 ? share / 2 : share);
             });
         ++passes_;
-        if (photons > 0) {
-            // Every pixel has as many samples as were finished, and light paths count for these.
-            add_light_paths(pass, photons, static_cast<std::uint32_t>(std::lround(done * samples)),
-                            eye.light_paths);
+        // Every pixel has as many samples as were finished, and light paths count for these.
+        const auto counted = static_cast<std::uint32_t>(std::lround(done * samples));
+        if (photons == 0 || counted == 0) {
+            return finished;
         }
+        PhotonPass emission = numbers_.next(pass.numbers.seed, photons);
+        emission.bounces = c_.settings.bounces;
+        trace_light_paths(
+            c_.device, c_.on_device, *workspace_, c_.eye, emission, static_cast<float>(flux_unit_),
+            {.photons = eye.light_paths, .last = first + samples, .finished = counted});
+        photons_ += photons;
         return finished && on_part(1);
     }
 
     void persist(Archive& archive) override {
         archive.value(photons_);
         archive.value(passes_);
+        archive.value(flux_unit_);
         numbers_.persist(archive);
         if (archive.loads()) {
             make_workspace();
@@ -92,7 +106,7 @@ public:
         if (photons_ > 0) {
             statistics.flux = flux_of(
                 download<std::int64_t>(c_.device, workspace_->photons.flux_sums, flux_words),
-                flux_unit() / static_cast<double>(passes_));
+                flux_unit_ / static_cast<double>(passes_));
         }
     }
 
@@ -103,16 +117,17 @@ private:
     }
 
     SamplePasses split() const {
-        const double most = std::clamp(most_photons / std::max(photons_per_sample(), 1.0), 1.0,
-                                       double(most_samples));
+        const double most =
+            std::clamp(most_photons / std::max(photons_per_sample(), 1.0), 1.0, most_samples);
         return sample_passes(c_.settings, static_cast<std::uint64_t>(most));
     }
 
-    /// Of a pass with so many samples of each pixel.
+    /// Photons of a pass with this number of samples of each pixel, if there is light.
     std::uint64_t photons_for(std::uint32_t samples) const {
-        const bool none = c_.settings.bounces == 0 || c_.on_device.record.light_count == 0;
         const double photons = std::ceil(photons_per_sample() * samples);
-        return none ? 0 : static_cast<std::uint64_t>(std::min(photons, most_photons));
+        return c_.settings.bounces == 0
+                   ? 0
+                   : static_cast<std::uint64_t>(std::min(photons, double(numbers_of_seed)));
     }
 
     /// Of the fixed-point sums of flux.
@@ -131,18 +146,10 @@ private:
         }
     }
 
-    void add_light_paths(const Pass& pass, std::uint64_t photons, std::uint32_t samples,
-                         double photons_per_sample) {
-        PhotonPass emission = numbers_.next(pass.numbers.seed, photons);
-        emission.bounces = c_.settings.bounces;
-        trace_light_paths(c_.device, c_.on_device, *workspace_, c_.eye, emission,
-                          static_cast<float>(flux_unit()), photons_per_sample, samples);
-        photons_ += photons;
-    }
-
     RenderContext& c_;
     std::unique_ptr<LightPathWorkspace> workspace_;
     PhotonNumbers numbers_;
+    double flux_unit_ = 0;                   ///< of the image
     std::uint64_t photons_ = 0, passes_ = 0; ///< of the image so far
 };
 

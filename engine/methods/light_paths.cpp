@@ -13,8 +13,9 @@ namespace argand {
 
 namespace {
 
-// Splats of one pixel are added in one loop, which lavapipe ends after 65,535 iterations.
-constexpr std::uint64_t most_slots_on_cpu = 65'000;
+// Photons traced together. Splats of one pixel are added in one loop, which lavapipe ends after
+// 65,535 iterations. All devices have as many, so that they add in the same order.
+constexpr std::uint64_t most_slots = 65'000;
 
 /// What the photons' hits are connected with.
 struct Connection {
@@ -93,17 +94,17 @@ void add_splats(const Connection& c, const Count& active) {
 }
 
 ConnectParams connect_params(const EyeWorkspace& eye, const PhotonPass& pass,
-                             double photons_per_sample, std::uint32_t samples) {
+                             const LightPathSamples& samples) {
     return {.seed = pass.seed,
             .bounces = pass.bounces,
-            .photons = static_cast<float>(photons_per_sample),
+            .photons = static_cast<float>(samples.photons),
             .width = eye.image_width,
             .height = eye.image_height,
             .crop_x = static_cast<std::uint32_t>(eye.crop.x0),
             .crop_y = static_cast<std::uint32_t>(eye.crop.y0),
             .crop_width = static_cast<std::uint32_t>(eye.crop.width()),
             .crop_height = static_cast<std::uint32_t>(eye.crop.height()),
-            .samples = samples};
+            .samples = samples.last};
 }
 
 } // namespace
@@ -111,9 +112,8 @@ ConnectParams connect_params(const EyeWorkspace& eye, const PhotonPass& pass,
 std::unique_ptr<LightPathWorkspace> make_light_path_workspace(Device& device,
                                                               std::uint64_t photons) {
     auto w = std::make_unique<LightPathWorkspace>();
-    const std::uint64_t together =
-        device.info().lane_serial() ? std::min(photons, most_slots_on_cpu) : photons;
-    w->photons = make_photon_workspace(device, together, {.lights = true, .stores = false});
+    w->photons = make_photon_workspace(device, std::min(photons, most_slots),
+                                       {.lights = true, .stores = false});
     // A batch that is traced again would add its splats again.
     w->photons.traversal.careful = true;
     const std::uint64_t slots = w->photons.slots;
@@ -128,25 +128,24 @@ std::unique_ptr<LightPathWorkspace> make_light_path_workspace(Device& device,
 
 void trace_light_paths(Device& device, const DeviceScene& scene, LightPathWorkspace& w,
                        EyeWorkspace& eye, const PhotonPass& pass, float flux_unit,
-                       double photons_per_sample, std::uint32_t samples) {
+                       const LightPathSamples& samples) {
     Connection c{.device = device,
                  .scene = scene,
                  .workspace = w,
                  .eye = eye,
-                 .params = connect_params(eye, pass, photons_per_sample, samples),
-                 .samples = samples};
-    w.photons.on_hits = [&](const PhotonBatch& batch, const Count& active) {
-        c.params.first = batch.first;
-        connect_photons(c, active);
-        {
-            const StageScope stage(device, "trace shadow rays");
-            trace_any(device, scene.bvh, w.photons.traversal,
-                      {w.shadow_rays, w.photons.active, w.occluded, active});
-        }
-        add_splats(c, active);
-    };
-    trace_photons(device, scene, w.photons, pass, flux_unit);
-    w.photons.on_hits = nullptr;
+                 .params = connect_params(eye, pass, samples),
+                 .samples = samples.finished};
+    trace_photons(device, scene, w.photons, pass, flux_unit,
+                  [&](const PhotonBatch& batch, const Count& active) {
+                      c.params.first = batch.first;
+                      connect_photons(c, active);
+                      {
+                          const StageScope stage(device, "trace shadow rays");
+                          trace_any(device, scene.bvh, w.photons.traversal,
+                                    {w.shadow_rays, w.photons.active, w.occluded, active});
+                      }
+                      add_splats(c, active);
+                  });
 }
 
 } // namespace argand

@@ -23,12 +23,17 @@ struct LightPathWorkspace {
 std::unique_ptr<LightPathWorkspace> make_light_path_workspace(Device& device,
                                                               std::uint64_t photons);
 
+/// The samples of each pixel beside which a pass traces light paths.
+struct LightPathSamples {
+    double photons = 0;     ///< EyePass::light_paths of the samples
+    std::uint32_t last = 1; ///< number of the pass's last one: mip levels are those of its paths
+    std::uint32_t finished = 1; ///< samples for which the light paths count
+};
+
 /// Traces photons, connects their hits from the second one on with the eye, and adds what they
-/// bring to the film, for the pass's samples of each pixel. The weights are those of eye paths that
-/// have this number of photons as EyePass::light_paths. flux_unit: as in trace_photons().
-/// photons_per_sample: of the pass, for each sample of a pixel. Waits for the device.
+/// bring to the film. flux_unit: as in trace_photons(). Waits for the device.
 void trace_light_paths(Device& device, const DeviceScene& scene, LightPathWorkspace& workspace,
                        EyeWorkspace& eye, const PhotonPass& pass, float flux_unit,
-                       double photons_per_sample, std::uint32_t samples);
+                       const LightPathSamples& samples);
 
 } // namespace argand

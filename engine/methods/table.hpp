@@ -25,7 +25,8 @@ public:
     /// Throws UsageError, which lists the names, if no method has this one.
     const MethodInfo& at(std::string_view name) const;
     std::vector<std::string> names() const;
-    /// The first unbiased method, which makes references. Null if there is none.
+    /// The first unbiased method, which judges others in autotuning and makes the references of
+    /// films; see reference_method(). Null if there is none.
     const MethodInfo* unbiased() const;
     /// The method that autotuning tries first. Null if there is none.
     const MethodInfo* tried_first() const;

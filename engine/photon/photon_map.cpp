@@ -153,7 +153,8 @@ void scatter_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& 
 }
 
 /// Traces the photons of one batch to their end. Returns false if a ray ran out of iterations.
-bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, PhotonBatch batch) {
+bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, PhotonBatch batch,
+                 const OnPhotonHits& on_hits) {
     const Plan& plan = scene.plan;
     // Photons that pass surfaces scatter in a later round than others.
     const bool any_round = plan.needs(Feature::alpha);
@@ -175,8 +176,8 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
                 trace_closest(device, scene.bvh, w.traversal, rays);
             }
         }
-        if (w.on_hits) {
-            w.on_hits(batch, active);
+        if (on_hits) {
+            on_hits(batch, active);
         }
         scatter_photons(device, scene, w, batch, active);
         device.submit();
@@ -320,7 +321,7 @@ PhotonWorkspace make_photon_workspace(Device& device, std::uint64_t photons_per_
 
 std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene,
                                            PhotonWorkspace& w, const PhotonPass& pass,
-                                           float flux_unit) {
+                                           float flux_unit, const OnPhotonHits& on_hits) {
     device.fill(w.counters, 0);
     for (std::uint64_t first = 0; first < pass.count; first += w.slots) {
         PhotonBatch batch{};
@@ -341,7 +342,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
             batch.capacity = static_cast<std::uint32_t>(w.capacity);
             const std::vector<std::uint32_t> before =
                 download<std::uint32_t>(device, w.counters, counter_count);
-            const bool traced = trace_batch(device, scene, w, batch);
+            const bool traced = trace_batch(device, scene, w, batch, on_hits);
             const bool fits = download_word(device, w.counters, counter_overflow) == 0;
             if (traced && fits) {
                 break;

@@ -86,7 +86,6 @@ struct PhotonWorkspace {
                       ///< of three channels each
     Traversal traversal;
     PhotonTracer tracer;                 ///< none: rays go through the scene's tree
-    OnPhotonHits on_hits;                ///< none: nothing else is done with them
     Buffer last_sorted, last_footprints; ///< of the map that was built last: the next map takes
                                          ///< this memory if nobody holds that map any more
 };
@@ -114,10 +113,11 @@ std::uint64_t max_photons_per_pass(const Device& device);
 /// Emits photons from every light in proportion to its power, traces them, and stores them at
 /// estimated lobes from the second hit on. Waits for the device. Adds flux to the workspace's sums
 /// in units of `flux_unit`. Returns nothing if the stored photons exceed the device's storage
-/// range: emit fewer in a pass.
+/// range: emit fewer in a pass. on_hits: told of every batch's hits; of a batch that is traced
+/// again (Traversal::careful) twice.
 std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& scene,
                                            PhotonWorkspace& workspace, const PhotonPass& pass,
-                                           float flux_unit);
+                                           float flux_unit, const OnPhotonHits& on_hits = {});
 
 struct PhotonMapSettings {
     std::uint64_t area_samples = 0; ///< wanted; the map has none if there is no room for them

@@ -17,8 +17,8 @@ constexpr std::uint32_t black = 0x222222, gray = 0x666666, grid = 0xdddddd, fron
                         noise_color = 0xc04000;
 
 /// Colours that colour-blind readers can tell apart (Okabe and Ito 2008, "Color Universal Design").
-constexpr std::array<std::uint32_t, 7> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
-                                               0xd55e00, 0x56b4e9, 0xf0e442};
+constexpr std::array<std::uint32_t, 8> palette{0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7,
+                                               0xd55e00, 0x56b4e9, 0xf0e442, 0x000000};
 
 /// The methods of the table, which keep their colours, then any others of the results.
 std::vector<std::string> methods_of(const Results& results, MethodTable table) {

@@ -87,6 +87,9 @@ FN uint atomicMin(uint& to, uint value) {
 #define QueuePathEnd(...) QueuePathEnd{__VA_ARGS__}
 #define RayRecord(...) RayRecord{__VA_ARGS__}
 #define ShadowRecord(...) ShadowRecord{__VA_ARGS__}
+#define EyeWeightRecord(...) EyeWeightRecord{__VA_ARGS__}
+#define LightPathRecord(...) LightPathRecord{__VA_ARGS__}
+#define SplatRecord(...) SplatRecord{__VA_ARGS__}
 #define SegmentRange(...) SegmentRange{__VA_ARGS__}
 #define Sum(...) Sum{__VA_ARGS__}
 // clang-format on

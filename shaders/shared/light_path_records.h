@@ -19,7 +19,7 @@ struct EyeWeightRecord {
 // behind the light.
 struct LightPathRecord {
     float32 arriving, by_shadow_ray, by_scattering;
-    float32 pad;
+    float32 passed_hidden; // whether a surface on its way lies inside a solid of higher rank
 };
 
 // What a light path brings to a pixel.

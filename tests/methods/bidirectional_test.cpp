@@ -88,11 +88,10 @@ TEST_F(Bidirectional, AgreesWithPathTracing) {
 
 TEST_F(Bidirectional, SlowAgreesWithPathTracingOnEveryKindOfLightAndSurface) {
     for (const char* name :
-         {"bulb.glb", "closed_box.gltf", "cornell_mirror.glb", "courtyard.glb", "cutouts.glb",
-          "drink.glb", "frosted_glass.glb", "glossy.glb", "inside_glass.glb", "sky_room.glb",
-          "small_emitters.glb", "smooth_sphere.glb", "spot.glb", "textures.glb", "tinted_glass.glb",
-          "varnish.glb", "veil.glb"}) {
-        expect_agreement(load_asset(name), 16, 64);
+         {"bulb.glb", "cornell_mirror.glb", "courtyard.glb", "cutouts.glb", "drink.glb",
+          "frosted_glass.glb", "inside_glass.glb", "sky_room.glb", "smooth_sphere.glb", "spot.glb",
+          "textures.glb", "varnish.glb", "veil.glb"}) {
+        expect_agreement(load_asset(name), 12, 32);
     }
 }
 

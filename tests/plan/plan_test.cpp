@@ -213,10 +213,21 @@ TEST(Plan, NamesTheObjectThatRequiresAFeature) {
 }
 
 TEST(Plan, EverythingRequiresAllFeatures) {
-    const Plan plan = make_plan({}, {.cube_maps = true, .final_gather = true, .everything = true});
+    const Plan plan = make_plan(
+        {}, {.light_paths = true, .cube_maps = true, .final_gather = true, .everything = true});
     EXPECT_EQ(plan.required.size(), all_features().size());
     EXPECT_FALSE(
         make_plan({}, {.photon_map = false, .everything = true}).needs(Feature::differentials));
+}
+
+TEST(Plan, LightPathsRequirePhotonsWithoutAMap) {
+    const Plan plan = make_plan(with_quad(room_scene(), mirror()),
+                                {.photon_map = false, .light_paths = true});
+    EXPECT_TRUE(plan.needs(Feature::light_paths));
+    EXPECT_TRUE(plan.needs(Feature::caustics));
+    EXPECT_TRUE(plan.needs_photons());
+    EXPECT_FALSE(plan.needs(Feature::photon_map));
+    EXPECT_FALSE(make_plan({}, {.photon_map = false}).needs_photons());
 }
 
 } // namespace

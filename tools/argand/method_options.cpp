@@ -75,9 +75,13 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTable
 }
 
 std::string describe_methods(MethodTable methods) {
+    std::size_t width = 0;
+    for (const MethodInfo& method : methods) {
+        width = std::max(width, method.name.size());
+    }
     std::string text = "Methods:";
     for (const MethodInfo& method : methods) {
-        text += fmt::format("\n  {:<13}{} ({})", method.name, method.summary, method.paper);
+        text += fmt::format("\n  {:<{}} {} ({})", method.name, width, method.summary, method.paper);
     }
     return text;
 }

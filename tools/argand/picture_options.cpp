@@ -90,7 +90,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         .add_option("--crop", options.crop,
                     "Render only the pixels from X0 to X1 - 1 and from Y0 to Y1 - 1 of the "
                     "picture, counted from its top left corner, written X0,Y0,X1,Y1. With path "
-                    "they have the bits of the whole picture")
+                    "and bidirectional they have the bits of the whole picture")
         ->check(CLI::Validator(
             [](const std::string& text) {
                 return text.empty() ? "'' is not X0,Y0,X1,Y1" : std::string();

@@ -47,14 +47,14 @@ void check(const TradeoffOptions& options) {
 }
 
 void summarise(const Results& results, const std::filesystem::path& folder) {
-    fmt::print("{:<11} {:<26} {:>8} {:>10}  {}\n", "method", "option", "wall, s", "relMSE",
+    fmt::print("{:<13} {:<26} {:>8} {:>10}  {}\n", "method", "option", "wall, s", "relMSE",
                "argand render ...");
     for (const std::size_t i : front_of(results)) {
         const Measurement& m = results.measurements[i];
         const std::string error = m.rel_mse.mean < results.least_error
                                       ? fmt::format("<{:.2g}", results.least_error)
                                       : fmt::format("{:.3g}", m.rel_mse.mean);
-        fmt::print("{:<11} {:<26} {:>8.3g} {:>10}  {}\n", m.method, m.option + " " + m.value,
+        fmt::print("{:<13} {:<26} {:>8.3g} {:>10}  {}\n", m.method, m.option + " " + m.value,
                    m.wall_seconds, error, m.options);
     }
     fmt::print("{}: {} settings measured, those on the Pareto front above\n",

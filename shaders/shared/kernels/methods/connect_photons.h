@@ -62,6 +62,18 @@ FN LightPathRecord begin_path(IN(ArrivingPhoton) p) {
     return LightPathRecord(photons, density * PI / cosine, real(1.0), real(0.0));
 }
 
+// Whether the photon has passed a hidden surface on its way from the light, or does so here. Such
+// surfaces block shadow rays: eye paths then find no delta lights.
+FN bool passes_hidden(IN(ArrivingPhoton) p, float32 t_max) {
+    if ((material_features & MATERIAL_NESTED) == 0u) {
+        return false;
+    }
+    MaterialRecord m = load_material(triangles[p.hit.triangle].w);
+    bool front = load_surface(p.hit, p.direction).front;
+    bool before = goes_on_behind_hit(t_max) && light_paths[p.slot].passed_hidden > float32(0.0);
+    return before || is_hidden(solids_on_way(solids_of(t_max), m, front), m);
+}
+
 // Whether the eye looks through this side of a surface.
 FN bool is_culled(IN(MaterialRecord) m, bool front) {
     return may_have(m, MATERIAL_ALPHA) && scene[0].cull_back_faces != 0u && !front &&
@@ -182,7 +194,13 @@ FN void main() {
     p.depth = path.state & photon_depth_mask;
     p.caustic = (path.state & photon_followed) != 0u;
     if (p.depth == 0u) {
-        light_paths[p.slot] = begin_path(p);
+        LightPathRecord begun = begin_path(p);
+        if (passes_hidden(p, ray.t_max)) {
+            begun.passed_hidden = float32(1.0);
+            begun.by_shadow_ray =
+                begun.by_scattering > float32(0.0) ? begun.by_shadow_ray : float32(0.0);
+        }
+        light_paths[p.slot] = begun;
         return;
     }
     if (p.depth == 1u && p.caustic) {
