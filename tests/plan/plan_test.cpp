@@ -221,8 +221,8 @@ TEST(Plan, EverythingRequiresAllFeatures) {
 }
 
 TEST(Plan, LightPathsRequirePhotonsWithoutAMap) {
-    const Plan plan = make_plan(with_quad(room_scene(), mirror()),
-                                {.photon_map = false, .light_paths = true});
+    const Plan plan =
+        make_plan(with_quad(room_scene(), mirror()), {.photon_map = false, .light_paths = true});
     EXPECT_TRUE(plan.needs(Feature::light_paths));
     EXPECT_TRUE(plan.needs(Feature::caustics));
     EXPECT_TRUE(plan.needs_photons());
