@@ -132,6 +132,18 @@ TEST_F(Bidirectional, FindsCausticsOfPointLightsWhichEyePathsCannot) {
                     0.03);
 }
 
+TEST_F(Bidirectional, TheSunInAMirrorIsACaustic) {
+    // A mirror at 45° reflects the sun's horizontal light straight down.
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 3);
+    add_quad(scene, {-1, 1, -1}, {0, 2, 2}, {2, 0, 0}, add_material(scene, mirror()));
+    scene.lights = {directional_light({0, 0, -1}, glm::vec3(1))};
+    scene.cameras = {parallel_rays({0, 0.6f, 4}, {0, 0, 0}, 0.1f)};
+    const RenderResult result = render(scene, settings(8, 16, "200"));
+    constexpr double pi = 3.14159265358979323846;
+    EXPECT_RELATIVE(mean(layer(result, "caustic")).g, 0.5 / pi, 0.03);
+    EXPECT_EQ(mean(layer(result, "direct")).g, 0);
+}
+
 TEST_F(Bidirectional, HasLessNoiseThanEyePaths) {
     const Scene scene = load_asset("cornell_point.glb");
     const double eye = relative_variance(scene, settings_of("path", 24, 16), "indirect");

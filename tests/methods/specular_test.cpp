@@ -154,7 +154,6 @@ TEST_P(Specular, SunReflectedOntoTheFloorIsACaustic) {
     scene.cameras = {parallel_rays({0, 0.6f, 4}, {0, 0, 0}, 0.1f)};
     RenderSettings settings = settings_of(GetParam(), 8, 16);
     settings.photons = 200'000;
-    settings.own["light-paths"] = "200"; // for each of the picture's few samples
     const RenderResult result = render(scene, settings);
     // The path tracer cannot find the sun in a mirror; photons can.
     const double expected = has_eye_paths_only(GetParam()) ? 0 : 0.5 / pi;
@@ -163,7 +162,6 @@ TEST_P(Specular, SunReflectedOntoTheFloorIsACaustic) {
 }
 
 INSTANTIATE_ESTIMATES(Specular);
-INSTANTIATE_TEST_SUITE_P(SlowLightPaths, Specular, ::testing::Values("bidirectional"));
 
 } // namespace
 } // namespace argand::testing
