@@ -170,6 +170,16 @@ TEST_F(Bidirectional, APartOfAnImageHasTheBitsOfTheWhole) {
     }
 }
 
+TEST_F(Bidirectional, EverythingChangesNoBit) {
+    for (const char* name : {"cornell_point.glb", "cornell_glass.glb"}) {
+        const Scene scene = load_asset(name);
+        RenderSettings s = settings(8, 4, "2");
+        const RenderResult special = render(scene, s);
+        s.everything = true;
+        EXPECT_TRUE(same_bits(render(scene, s), special)) << name;
+    }
+}
+
 TEST_F(Bidirectional, OnePixelTakesMorePhotonsThanALoopMayHave) {
     // Lavapipe ends loops after 65,535 iterations, and all splats of a pixel are added in one.
     const Scene scene = load_asset("cornell_point.glb");
