@@ -50,7 +50,13 @@ TEST_P(Repeat, BatchesGiveTheSameBits) {
     Device& limited =
         open({"limited", "",
               has_approximate_hits(GetParam()) ? "storage_range=16MiB" : "storage_range=1MiB"});
-    EXPECT_TRUE(same_bits(testing::render(limited, scene, batched), expected));
+    const RenderResult found = testing::render(limited, scene, batched);
+    if (builtin_methods().at(GetParam()).abilities.light_paths) {
+        // Splats of a batch are added in the order of pixels, so that sums are rounded otherwise.
+        expect_same_layers(found, expected, 1e-5);
+        return;
+    }
+    EXPECT_TRUE(same_bits(found, expected));
 }
 
 TEST_P(Repeat, ThreadsGiveTheSameBits) {
