@@ -8,6 +8,7 @@ import platform
 import re
 import subprocess
 import sys
+import tempfile
 import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -36,6 +37,15 @@ def wrap(paragraph):
 def stage_seconds(name):
     """A function of the JSON report of a render: the device's seconds in the stage of this name."""
     return lambda report: sum(stage["gpu_seconds"] for stage in report["stages"] if stage["name"] == name)
+
+
+def run_timed(*command):
+    """Runs a command. Returns its exit status, what it wrote to stderr, and the processor's seconds."""
+    with tempfile.TemporaryFile("w+") as errors:
+        process = subprocess.Popen([*map(str, command)], stdout=subprocess.DEVNULL, stderr=errors)
+        _, status, usage = os.wait4(process.pid, 0)
+        errors.seek(0)
+        return status, errors.read(), usage.ru_utime + usage.ru_stime
 
 
 def render_reports(scene, folder, settings, *arguments):

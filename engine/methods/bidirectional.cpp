@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace argand {
 
@@ -49,7 +50,7 @@ public:
                                               c_.scene.cameras[c_.settings.camera]));
         }
         make_workspace();
-        flux_unit_ = flux_unit();
+        flux_unit_ = flux_unit_for(c_.on_device, most_photons_of_pass());
         c_.device.fill(workspace_->photons.flux_sums, 0);
         budget.start_pass();
     }
@@ -61,8 +62,9 @@ public:
         const std::uint32_t samples = split().samples_of(pass.numbers.index);
         const auto first = static_cast<std::uint32_t>(split().first_sample(pass.numbers.index));
         // A light may be switched on while a shutter is open.
-        const std::uint64_t photons =
-            c_.on_device.record.light_count > 0 ? photons_for(samples) : 0;
+        const bool connects =
+            c_.on_device.plan.needs(Feature::light_paths) && c_.on_device.record.light_count > 0;
+        const std::uint64_t photons = connects ? photons_for(samples) : 0;
         const EyePass eye{.seed = pass.numbers.seed,
                           .first_sample = first,
                           .samples = samples,
@@ -130,26 +132,19 @@ private:
                    : static_cast<std::uint64_t>(std::min(photons, double(numbers_of_seed)));
     }
 
-    /// Of the fixed-point sums of flux.
-    double flux_unit() const {
-        const auto& power = c_.on_device.light_table.power;
-        const double most = std::max({power.r, power.g, power.b});
-        const auto photons =
-            static_cast<double>(std::max<std::uint64_t>(photons_for(split().samples_of(0)), 1));
-        return (most > 0 ? most : 1) / photons / units_per_photon;
-    }
+    std::uint64_t most_photons_of_pass() const { return photons_for(split().samples_of(0)); }
 
     void make_workspace() {
         if (!workspace_) {
             workspace_ = make_light_path_workspace(
-                c_.device, std::max<std::uint64_t>(photons_for(split().samples_of(0)), 1));
+                c_.device, std::max<std::uint64_t>(most_photons_of_pass(), 1));
         }
     }
 
     RenderContext& c_;
-    std::unique_ptr<LightPathWorkspace> workspace_;
+    std::optional<LightPathWorkspace> workspace_;
     PhotonNumbers numbers_;
-    double flux_unit_ = 0;                   ///< of the image
+    double flux_unit_ = 0;                   ///< of the fixed-point sums
     std::uint64_t photons_ = 0, passes_ = 0; ///< of the image so far
 };
 

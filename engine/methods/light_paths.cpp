@@ -109,20 +109,19 @@ ConnectParams connect_params(const EyeWorkspace& eye, const PhotonPass& pass,
 
 } // namespace
 
-std::unique_ptr<LightPathWorkspace> make_light_path_workspace(Device& device,
-                                                              std::uint64_t photons) {
-    auto w = std::make_unique<LightPathWorkspace>();
-    w->photons = make_photon_workspace(device, std::min(photons, most_slots),
-                                       {.lights = true, .stores = false});
+LightPathWorkspace make_light_path_workspace(Device& device, std::uint64_t photons) {
+    LightPathWorkspace w;
+    w.photons = make_photon_workspace(device, std::min(photons, most_slots),
+                                      {.lights = true, .stores = false});
     // A batch that is traced again would add its splats again.
-    w->photons.traversal.careful = true;
-    const std::uint64_t slots = w->photons.slots;
-    w->paths = device.allocate("light paths", slots * sizeof(LightPathRecord));
-    w->shadow_rays = device.allocate("shadow rays to the eye", slots * sizeof(RayRecord));
-    w->occluded = device.allocate("shadow ray flags", slots * 4);
-    w->splats = device.allocate("splats", slots * sizeof(SplatRecord));
-    w->keys = device.allocate("pixels of splats", slots * 4);
-    w->slots = device.allocate("sorted splats", slots * 4);
+    w.photons.traversal.careful = true;
+    const std::uint64_t slots = w.photons.slots;
+    w.paths = device.allocate("light paths", slots * sizeof(LightPathRecord));
+    w.shadow_rays = device.allocate("shadow rays to the eye", slots * sizeof(RayRecord));
+    w.occluded = device.allocate("shadow ray flags", slots * 4);
+    w.splats = device.allocate("splats", slots * sizeof(SplatRecord));
+    w.keys = device.allocate("pixels of splats", slots * 4);
+    w.slots = device.allocate("sorted splats", slots * 4);
     return w;
 }
 

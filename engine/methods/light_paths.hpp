@@ -4,12 +4,10 @@
 #include "photon/photon_map.hpp"
 
 #include <cstdint>
-#include <memory>
 
 namespace argand {
 
 /// Device memory for light paths: photons that are traced together, and what they bring to pixels.
-/// The photons' workspace refers to it.
 struct LightPathWorkspace {
     PhotonWorkspace photons;
     Buffer paths;       ///< LightPathRecord per slot
@@ -20,8 +18,7 @@ struct LightPathWorkspace {
 };
 
 /// Memory for passes of this many photons.
-std::unique_ptr<LightPathWorkspace> make_light_path_workspace(Device& device,
-                                                              std::uint64_t photons);
+LightPathWorkspace make_light_path_workspace(Device& device, std::uint64_t photons);
 
 /// The samples of each pixel beside which a pass traces light paths.
 struct LightPathSamples {

@@ -254,11 +254,7 @@ void PhotonMapping::make_room(std::uint64_t photons) {
 void PhotonMapping::begin_workspace() {
     make_room(image_.split.photons);
     c_.device.fill(photons_.flux_sums, 0);
-    const auto& power = c_.on_device.light_table.power;
-    const double most = std::max({power.r, power.g, power.b});
-    // A light may be switched on while a shutter is open.
-    image_.flux_unit =
-        (most > 0 ? most : 1) / static_cast<double>(image_.split.photons) / units_per_photon;
+    image_.flux_unit = flux_unit_for(c_.on_device, image_.split.photons);
 }
 
 std::optional<StoredPhotons> PhotonMapping::trace(PhotonPass emission) {

@@ -38,11 +38,7 @@ void QueueMethod::begin_frame(Budget& budget) {
     made_ = nullptr;
     photons_.make_room();
     c_.device.fill(photons_.workspace().flux_sums, 0);
-    const auto& power = c_.on_device.light_table.power;
-    const double most = std::max({power.r, power.g, power.b});
-    image_.flux_unit = (most > 0 ? most : 1) /
-                       static_cast<double>(std::max<std::uint64_t>(photons_.of(0), 1)) /
-                       units_per_photon;
+    image_.flux_unit = flux_unit_for(c_.on_device, photons_.of(0));
     const std::vector<glm::vec4> queries = sample_queries(
         c_.device, c_.on_device, c_.eye, c_.settings, c_.scene.cameras[c_.settings.camera]);
     aim_at_casters(c_, queries);

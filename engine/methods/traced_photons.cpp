@@ -10,6 +10,9 @@ namespace argand {
 
 namespace {
 
+// Units of the fixed-point flux sums in the mean flux of a photon.
+constexpr double units_per_photon = 1 << 18;
+
 /// Records from all over the slots of a pass, in this many runs: its bounces follow one another
 /// there.
 std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, std::uint64_t slots,
@@ -31,6 +34,13 @@ std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, st
 
 std::uint32_t area_seed(const PassNumbers& numbers) {
     return pcg4d({numbers.seed, static_cast<std::uint32_t>(numbers.index), 0xa4ea5u, 0}).x;
+}
+
+double flux_unit_for(const DeviceScene& scene, std::uint64_t photons) {
+    const auto& power = scene.light_table.power;
+    const double most = std::max({power.r, power.g, power.b});
+    return (most > 0 ? most : 1) / static_cast<double>(std::max<std::uint64_t>(photons, 1)) /
+           units_per_photon;
 }
 
 FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {

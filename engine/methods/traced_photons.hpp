@@ -11,8 +11,9 @@
 
 namespace argand {
 
-/// Units of the fixed-point flux sums in the mean flux of a photon.
-inline constexpr double units_per_photon = 1 << 18;
+/// The unit of the fixed-point flux sums for passes of this many photons, or more. A light may be
+/// switched on while a shutter is open.
+double flux_unit_for(const DeviceScene& scene, std::uint64_t photons);
 
 /// The sums of flux, for reports. unit: of the fixed-point sums.
 FluxSums flux_of(const std::vector<std::int64_t>& words, double unit);

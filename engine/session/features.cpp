@@ -40,6 +40,7 @@ public:
         rays_ = device_.allocate("feature rays", slots_ * sizeof(RayRecord));
         hits_ = device_.allocate("feature hits", slots_ * sizeof(HitRecord));
         paths_ = device_.allocate("feature paths", slots_ * sizeof(PathRecord));
+        unneeded_ = unneeded(device_);
         layers_ = device_.allocate("feature path layers", slots_ * sizeof(LayersRecord));
         active_ = device_.allocate("active feature rays", slots_ * 4);
         traversal_ = make_traversal(device_, slots_);
@@ -129,7 +130,7 @@ private:
                                  .paths = paths_,
                                  .layers = layers_,
                                  .active_slots = active_,
-                                 .eye_weights = unneeded(device_),
+                                 .eye_weights = unneeded_,
                                  .batch = batch,
                                  .constants = {.lattice = settings_.deterministic,
                                                .cones = scene_.plan.needs(Feature::mip_maps),
@@ -159,7 +160,7 @@ private:
     std::uint32_t samples_;
     std::uint64_t slots_;
     DeviceScene scene_;
-    Buffer camera_, rays_, hits_, paths_, layers_, active_, features_;
+    Buffer camera_, rays_, hits_, paths_, layers_, active_, features_, unneeded_;
     Traversal traversal_;
 };
 

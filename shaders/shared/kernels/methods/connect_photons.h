@@ -6,6 +6,7 @@
 #include "shared/kernels/sky.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/culled.h"
 #include "shared/kernels/dispersion.h"
 #include "shared/kernels/medium.h"
 #include "shared/kernels/normals.h"
@@ -13,6 +14,7 @@
 #include "shared/kernels/anisotropy.h"
 #include "shared/kernels/coat.h"
 #include "shared/kernels/methods/light_paths.h"
+#include "shared/kernels/methods/shadow_rays.h"
 
 // A photon at its hit.
 struct ArrivingPhoton {
@@ -27,12 +29,12 @@ struct ArrivingPhoton {
 
 // The point of a surface as the eye sees it.
 struct SeenPoint {
-    EyeConnection eye;
     Surface surface;
     MaterialRecord material;
     Frame frame;
     vec3 wo;
     vec3 passed; // share of the light that solids on the way to the eye let through
+    bool there;  // it is neither culled nor inside a solid of higher rank
 };
 
 // The densities at the first hit behind the light.
@@ -74,44 +76,38 @@ FN bool passes_hidden(IN(ArrivingPhoton) p, float32 t_max) {
     return before || is_hidden(solids_on_way(solids_of(t_max), m, front), m);
 }
 
-// Whether the eye looks through this side of a surface.
-FN bool is_culled(IN(MaterialRecord) m, bool front) {
-    return may_have(m, MATERIAL_ALPHA) && scene[0].cull_back_faces != 0u && !front &&
-           m.double_sided == 0u && !is_solid(m);
+// Connects the eye with the photon's hit. on_lens: as of connect_eye(). Returns false if that is
+// not in the image.
+FN bool is_in_image(IN(ArrivingPhoton) p, vec2 on_lens, OUT(EyeConnection) e) {
+    vec3 position = load_surface(p.hit, p.direction).position;
+    return connect_eye(camera[0], position, on_lens, e) && e.x >= real(0.0) &&
+           e.x < real(params.width) && e.y >= real(0.0) && e.y < real(params.height);
 }
 
-// Looks at the photon's hit from the eye. Returns false if the eye does not see the surface.
-FN bool look_at(IN(ArrivingPhoton) p, OUT(SeenPoint) s) {
-    vec4 u = random4(params.seed ^ 0x1e45u, params.first + p.slot, p.depth, p.hit.triangle);
-    vec3 position = load_surface(p.hit, p.direction).position;
-    s.passed = vec3(real(1.0));
-    if (!connect_eye(camera[0], position, vec2(u.x, u.y), s.eye) ||
-        !(s.eye.x >= real(0.0) && s.eye.x < real(params.width) && s.eye.y >= real(0.0) &&
-          s.eye.y < real(params.height))) {
-        return false;
-    }
+// Looks at the photon's hit from the eye. channel: in [0,1), of a solid that disperses.
+FN SeenPoint look_at(IN(ArrivingPhoton) p, IN(EyeConnection) e, real channel) {
     HitRecord seen = p.hit;
-    seen.t = s.eye.distance;
-    uint cone = mip_maps ? camera_cone(camera[0], s.eye.direction, real(params.samples)) : 0u;
-    s.surface = load_surface(seen, s.eye.direction);
-    s.material = material_at(triangles[seen.triangle], seen, cone, s.eye.direction);
+    seen.t = e.distance;
+    uint cone = mip_maps ? camera_cone(camera[0], e.direction, real(params.samples)) : 0u;
+    SeenPoint s;
+    s.surface = load_surface(seen, e.direction);
+    s.material = material_at(triangles[seen.triangle], seen, cone, e.direction);
     uint solids = solids_on_way(0u, s.material, s.surface.front);
+    s.passed = vec3(real(1.0));
     if (may_have(s.material, MATERIAL_ABSORPTION)) {
         s.passed = transmittance_to(solids, s.material, s.surface.front, seen.t);
     }
-    if (is_hidden(solids, s.material) || is_culled(s.material, s.surface.front)) {
-        return false;
-    }
-    turn_normal(s.material.textures, seen, s.eye.direction, s.surface);
+    s.there = !is_hidden(solids, s.material) && !is_culled(s.material, s.surface.front);
+    turn_normal(s.material.textures, seen, e.direction, s.surface);
     if (may_have(s.material, MATERIAL_DISPERSION)) {
-        disperse(s.material, s.passed, u.z);
+        disperse(s.material, s.passed, channel);
     }
     refer_index(solids, s.material);
     s.frame = make_frame(s.surface.shading_normal);
     turn_anisotropy(seen, s.surface, s.frame, s.material);
     turn_coat(seen, s.surface, s.frame, s.material);
-    s.wo = to_local(s.frame, toward_above(s.surface, -s.eye.direction));
-    return true;
+    s.wo = to_local(s.frame, toward_above(s.surface, -e.direction));
+    return s;
 }
 
 // The photon's flux at its hit. Solids absorb on the way. Returns 0 if the surface is not there.
@@ -140,36 +136,39 @@ FN uint place_in_film(real x, real y) {
 
 // Connects the photon with the eye by the estimated lobes.
 FN void connect_with_eye(IN(ArrivingPhoton) p) {
-    SeenPoint s;
-    if (!look_at(p, s)) {
+    vec4 u = random4(params.seed ^ 0x1e45u, params.first + p.slot, p.depth, p.hit.triangle);
+    EyeConnection e;
+    if (!is_in_image(p, vec2(u.x, u.y), e)) {
         return;
     }
-    uint place = place_in_film(s.eye.x, s.eye.y);
+    uint place = place_in_film(e.x, e.y);
+    SeenPoint s = look_at(p, e, u.z);
     uint followed = followed_paths ? followed_lobes(s.material, scene[0].follow_roughness) : 0u;
     uint estimated = bsdf_lobes(s.material) & ~followed;
     vec3 wi = to_local(s.frame, -p.direction);
     real arriving = -dot(p.direction, s.surface.geometric_normal);
-    if (place == no_place || estimated == 0u || !(wi.z > real(0.0)) || !(arriving > real(0.0))) {
+    if (!s.there || place == no_place || estimated == 0u || !(wi.z > real(0.0)) ||
+        !(arriving > real(0.0))) {
         return;
     }
     real pdf;
     vec3 f = bsdf_eval_and_pdf(reflection_parameters(s.material), s.wo, wi, estimated,
                                lobe_probabilities(s.material, s.wo, estimated), pdf);
-    real leaving = abs(dot(s.eye.direction, s.surface.geometric_normal));
-    real scarcity = scarcity_of_eye_paths(s.eye.density, leaving, pdf / wi.z);
+    real leaving = abs(dot(e.direction, s.surface.geometric_normal));
+    real scarcity = scarcity_of_eye_paths(e.density, leaving, pdf / wi.z);
     real share = share_of_light_paths(scarcity * p.path.arriving, p.path.by_shadow_ray,
                                       p.path.by_scattering);
     // Photons arrive in proportion to the cosine with the geometric normal, but the BSDF is
     // weighted by the cosine with the shading normal (Veach 1997, §5.3).
     vec3 radiance = arriving_flux(p, s.material, s.surface.front) * s.passed * f *
-                    (wi.z / arriving * leaving * s.eye.density * share);
+                    (wi.z / arriving * leaving * e.density * share);
     if (!is_finite3(radiance) || !(max_component(radiance) > real(0.0))) {
         return;
     }
     vec3 o = offset_ray_origin(s.surface.position, s.surface.error, s.surface.geometric_normal,
                                s.surface.geometric_normal);
-    shadow_rays[p.slot] = RayRecord(o.x, o.y, o.z, s.eye.distance * (real(1.0) - error_bound(16)),
-                                    -s.eye.direction.x, -s.eye.direction.y, -s.eye.direction.z, 0u);
+    shadow_rays[p.slot] = RayRecord(o.x, o.y, o.z, e.distance * (real(1.0) - error_bound(16)),
+                                    -e.direction.x, -e.direction.y, -e.direction.z, 0u);
     splats[p.slot] = SplatRecord(radiance.x, radiance.y, radiance.z, place + (p.caustic ? 1u : 0u));
 }
 
@@ -181,8 +180,7 @@ FN void main() {
     ArrivingPhoton p;
     p.slot = active_slots[i];
     p.hit = hits[p.slot];
-    shadow_rays[p.slot] =
-        RayRecord(real(0.0), real(0.0), real(0.0), -real(1.0), real(0.0), real(0.0), real(1.0), 0u);
+    shadow_rays[p.slot] = no_ray();
     splats[p.slot] = SplatRecord(real(0.0), real(0.0), real(0.0), no_place);
     if (p.hit.triangle == no_triangle) {
         return;

@@ -5,10 +5,12 @@
 #include "shared/kernels/sky.h"
 #include "shared/kernels/textures.h"
 
+#include "shared/kernels/culled.h"
 #include "shared/kernels/dispersion.h"
 #include "shared/kernels/emission.h"
 #include "shared/kernels/medium.h"
 #include "shared/kernels/methods/light_paths.h"
+#include "shared/kernels/methods/shadow_rays.h"
 #include "shared/kernels/normals.h"
 
 #include "shared/kernels/anisotropy.h"
@@ -58,11 +60,6 @@ FN bool has_emitters() {
     return has_light(light_triangle) && scene[0].emitter_probability > real(0.0);
 }
 
-FN RayRecord no_ray() {
-    return RayRecord(real(0.0), real(0.0), real(0.0), -real(1.0), real(0.0), real(0.0), real(1.0),
-                     0u);
-}
-
 FN real power_heuristic(real a, real b) {
     // Divide first: squares of densities overflow.
     real r = b / a;
@@ -88,15 +85,11 @@ FN real scale_by_refraction(INOUT(PathRecord) path, IN(MaterialRecord) m, real s
     return all;
 }
 
-// Whether the eye looks through a surface as rasterisers do, which show only the front of one-sided
-// surfaces. The back of a solid is its inside.
-FN bool is_culled(IN(Vertex) v) {
-    return may_have(v.material, MATERIAL_ALPHA) && scene[0].cull_back_faces != 0u &&
-           !v.surface.front && v.material.double_sided == 0u && !is_solid(v.material) &&
-           (v.path.state & path_estimated) == 0u;
-}
-
 FN bool behind_estimated(IN(PathRecord) path) { return (path.state & path_estimated) != 0u; }
+
+FN bool is_culled(IN(Vertex) v) {
+    return is_culled(v.material, v.surface.front) && !behind_estimated(v.path);
+}
 
 FN bool seeks_emission(IN(PathRecord) path) {
     return photon_map && (path.state & path_seeks_emission) != 0u;
@@ -190,10 +183,9 @@ FN uint light_of_triangle(uint triangle) {
 }
 
 // Solid-angle density with which shadow rays find this point of an emissive triangle; see
-// emitter_density.
-FN real shadow_ray_density(HitRecord hit, real cosine) {
-    uint index = light_of_triangle(hit.triangle);
-    real probability = several_lights ? light_choices[index].probability : real(1.0);
+// emitter_density. index: of the light.
+FN real shadow_ray_density(uint index, HitRecord hit, real cosine) {
+    real probability = probability_for_shadow_rays(index);
     LightRecord light = lights[index];
     real area;
     light_normal(light, area);
@@ -204,14 +196,9 @@ FN real shadow_ray_density(HitRecord hit, real cosine) {
 }
 
 // share_of_emission() of the triangle that the path hit. Texels of emission do not count.
-FN real share_of_surface_emission(IN(Vertex) v, HitRecord hit) {
-    if (!has_light_paths()) {
-        return real(1.0);
-    }
-    uint index = light_of_triangle(hit.triangle);
+FN real share_of_surface_emission(IN(Vertex) v, uint index, HitRecord hit, real cosine) {
     real area;
     light_normal(lights[index], area);
-    real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
     real shadow_ray = emitter_density(probability_for_shadow_rays(index), area, hit.t, cosine);
     return share_of_emission(v.slot, v.path, index, v.surface.position, -v.direction, hit.t,
                              shadow_ray, real(1.0));
@@ -223,11 +210,17 @@ FN void add_surface_emission(IN(Vertex) v, HitRecord hit) {
     if (has_light(light_triangle) && max_component(emission) > real(0.0) &&
         (v.surface.front || m.double_sided != 0u)) {
         real weight = real(1.0);
-        if (v.path.pdf > real(0.0)) {
+        bool both_find = has_light_paths() && behind_estimated(v.path);
+        if (v.path.pdf > real(0.0) || both_find) {
+            uint index = light_of_triangle(hit.triangle);
             real cosine = max(-dot(v.direction, v.surface.geometric_normal), real(1.0e-12));
-            weight = power_heuristic(v.path.pdf, shadow_ray_density(hit, cosine));
+            if (v.path.pdf > real(0.0)) {
+                weight = power_heuristic(v.path.pdf, shadow_ray_density(index, hit, cosine));
+            }
+            if (both_find) {
+                weight *= share_of_surface_emission(v, index, hit, cosine);
+            }
         }
-        weight *= share_of_surface_emission(v, hit);
         add_emission(v.slot, v.path, v.throughput * emission * weight);
     }
 }

@@ -1,4 +1,5 @@
 #include "shared/kernels/layers.h"
+#include "shared/kernels/methods/passed_light.h"
 
 // Adds the radiance that shadow rays bring to the layers of their paths.
 FN void main() {
@@ -7,12 +8,7 @@ FN void main() {
         return;
     }
     uint slot = active_slots[i];
-    real passed = real(1.0);
-    if (has_alpha) {
-        passed = transmittance(occluded[slot]);
-    } else if (occluded[slot] != 0u) {
-        passed = real(0.0);
-    }
+    real passed = passed_light(slot);
     if (!(passed > real(0.0))) {
         return;
     }

@@ -1,3 +1,5 @@
+#include "shared/kernels/methods/passed_light.h"
+
 // Keys by which splats are sorted: their place, or params.none, which is behind all places, if
 // something blocks their shadow ray.
 FN void main() {
@@ -6,7 +8,7 @@ FN void main() {
         return;
     }
     uint slot = active_slots[i];
-    bool passes = has_alpha ? transmittance(occluded[slot]) > real(0.0) : occluded[slot] == 0u;
+    bool passes = passed_light(slot) > real(0.0);
     keys[i] = passes ? min(splats[slot].place, params.none) : params.none;
     slots[i] = slot;
 }
