@@ -255,7 +255,7 @@ Plan make_plan(const Scene& scene, const SurfaceUse& use, const PlanRequest& req
                        has(Feature::rough_glass) || has(Feature::rough_coat);
     found.add(Feature::direct_light, light, !light.empty() && rough);
     found.add(Feature::photon_map, "the method");
-    found.add(Feature::light_paths, "the method");
+    found.add(Feature::light_paths, "the method", estimated); // what they are connected by
     found.add(Feature::differentials, "the method");
     found.add(Feature::caustics, found.by(Feature::followed_paths),
               has(Feature::followed_paths) && estimated);

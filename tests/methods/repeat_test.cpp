@@ -51,8 +51,8 @@ TEST_P(Repeat, BatchesGiveTheSameBits) {
         open({"limited", "",
               has_approximate_hits(GetParam()) ? "storage_range=16MiB" : "storage_range=1MiB"});
     const RenderResult found = testing::render(limited, scene, batched);
-    if (builtin_methods().at(GetParam()).abilities.light_paths) {
-        // Splats of a batch are added in the order of pixels, so that sums are rounded otherwise.
+    if (has_light_paths(GetParam())) {
+        // A pixel's splats are added batch by batch, so that other batches round otherwise.
         expect_same_layers(found, expected, 1e-5);
         return;
     }

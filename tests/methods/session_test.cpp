@@ -179,12 +179,11 @@ TEST_P(Sessions, SlowGoOnFromWhatTheyHaveSavedWithTheSameBits) {
     expect_same_bits_after_resuming(room_with_sheets());
 }
 
+class SessionsInParts : public Sessions {};
+
 // Passes of a photon map that serves many samples: 48 x 48 pixels of which eight samples are traced
 // together.
-TEST_P(Sessions, PartsOfAMapsSamplesHaveTheBitsOfAllAtOnce) {
-    if (builtin_methods().at(GetParam()).abilities.light_paths) {
-        return; // it has no map, and every pass has light paths of its own
-    }
+TEST_P(SessionsInParts, PartsOfAMapsSamplesHaveTheBitsOfAllAtOnce) {
     Device& device = open_anew({.limit = "storage_range=1MiB"});
     const Scene scene = load_asset("cornell_glass.glb");
     World world(device, scene);
@@ -282,6 +281,8 @@ TEST_P(Sessions, RefuseStatesThatAreCutShortOrTooLong) {
 }
 
 INSTANTIATE_METHODS(Sessions);
+// Each pass of `bidirectional` has light paths of its own, which its parts do not share.
+INSTANTIATE_QUICK_AND_SLOW(SessionsInParts, "footprints", without(method_names(), "bidirectional"));
 
 TEST(ArchiveTest, LoadsWhatItHasSaved) {
     double number = 0.1;

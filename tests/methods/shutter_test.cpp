@@ -62,9 +62,9 @@ TEST_P(OpenShutter, ShowsTheMeanOfTheMoments) {
     const RenderResult blurred = render_through(scene, settings, {0, 1});
     EXPECT_EQ(blurred.statistics.passes, settings.samples);
     EXPECT_EQ(blurred.statistics.samples, settings.samples);
-    if (has_map(GetParam()) || has_eye_paths_only(GetParam())) {
-        EXPECT_EQ(blurred.statistics.photons_emitted, has_map(GetParam()) ? 32'000u : 0u);
-    }
+    // A light path for each sample of the 12 x 12 pixels, with these.
+    const std::uint64_t light_paths = has_light_paths(GetParam()) ? 144u * settings.samples : 0u;
+    EXPECT_EQ(blurred.statistics.photons_emitted, has_map(GetParam()) ? 32'000u : light_paths);
     // Each moment has as many photons, so that radii are of the same size.
     constexpr int moments = 8;
     settings.samples /= 4;

@@ -26,6 +26,7 @@ const std::map<std::string, std::vector<float>> marks = {
       0.64f,        // Phong: phong.h, phong_albedo
       12.566371f}}, // sky: lights.h, light_sample
     {"photon_scatter", {0.04f, 0.64f}},
+    {"connect_photons", {0.04f, 0.64f}},
     {"photon_emit",
      {39.478417f, // sky: lights.h, light_power
       0.001f}},   // spots: lights.h, spot_ramp
@@ -106,6 +107,13 @@ protected:
             << scene.name;
         EXPECT_EQ(specialised.statistics.photons_stored, everything.statistics.photons_stored)
             << scene.name;
+    }
+
+    /// How many kernels of `marks` the method runs.
+    static std::size_t kernels_with_marks() {
+        return has_eye_paths_only(GetParam()) ? 1
+               : has_light_paths(GetParam())  ? marks.size()
+                                              : marks.size() - 1;
     }
 
     std::unique_ptr<RecordingDevice> recorded(const Scene& scene, bool everything) {
@@ -246,10 +254,12 @@ TEST_P(Specialisation, DiffuseBoxHasNoCodeOfWhatItHasNot) {
             EXPECT_THAT(code.numbers, Not(Contains(mark))) << kernel;
         }
     }
-    EXPECT_EQ(seen, has_map(GetParam()) ? marks.size() : 1u);
+    EXPECT_EQ(seen, kernels_with_marks());
 }
 
-TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
+class SpecialisationToGlass : public Specialisation {};
+
+TEST_P(SpecialisationToGlass, GlassSphereAddsTransmissionAndNothingElse) {
     const auto with = recorded(with_glass_sphere(diffuse_box()), false);
     const auto without = recorded(diffuse_box(), false);
     const Variants glass = by_name(*with), diffuse = by_name(*without);
@@ -286,7 +296,7 @@ TEST_P(Specialisation, GlassSphereAddsTransmissionAndNothingElse) {
             code.instructions)
             << kernel;
     }
-    EXPECT_EQ(seen, has_map(GetParam()) ? marks.size() : 1u);
+    EXPECT_EQ(seen, kernels_with_marks());
     // The same passes, without the buffers that the scene does not need.
     EXPECT_EQ(with->stages(), without->stages());
     for (const char* name : {"normals", "light choices"}) {
@@ -320,11 +330,12 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
     EXPECT_EQ(without->bytes_of("light choices"), 0u);
     EXPECT_GT(without->runs_of("shadow_add"), 0u);
     const bool map = has_map(GetParam());
+    const bool photons = map || has_light_paths(GetParam());
     EXPECT_EQ(without->bytes_of("area sums") > 0, map);
-    EXPECT_EQ(without->runs_of("photon_emit") > 0, map);
+    EXPECT_EQ(without->runs_of("photon_emit") > 0, photons);
     EXPECT_EQ(without->stages().contains("gather photons"), map);
     EXPECT_EQ(without->bytes_of("query BSDFs"), sizeof(QueryBsdfRecord));
-    EXPECT_EQ(with->bytes_of("query BSDFs") > sizeof(QueryBsdfRecord), map);
+    EXPECT_EQ(with->bytes_of("query BSDFs") > sizeof(QueryBsdfRecord), photons);
 
     // A scene of mirrors has no surface that casts shadow rays.
     Scene mirrors = box_scene(mirror(glm::vec3(0.5f)));
@@ -336,9 +347,9 @@ TEST_P(Specialisation, PassesAndBuffersThatAreNotNeededDoNotExist) {
     EXPECT_GT(recorded(mirrors, true)->runs_of("shadow_add"), 0u);
 }
 
-// Not of `bidirectional`, whose eye paths are those of `path` and whose photons are those of a map:
-// Bidirectional.EverythingChangesNoBit.
-INSTANTIATE_QUICK_AND_SLOW(Specialisation, "path", without(method_names(), "bidirectional"));
+INSTANTIATE_QUICK_AND_SLOW(Specialisation, "path", method_names());
+// Glass has `bidirectional` look for points in view, near which it aims at casters of caustics.
+INSTANTIATE_QUICK_AND_SLOW(SpecialisationToGlass, "path", without(method_names(), "bidirectional"));
 
 // Kernels are compiled anew for each scene, which takes long. Other methods have these kernels,
 // too.

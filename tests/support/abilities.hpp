@@ -13,10 +13,14 @@ inline bool has_map(std::string_view method) {
     return builtin_methods().at(method).abilities.photon_map;
 }
 
+/// Whether it connects the hits of photons with the eye.
+inline bool has_light_paths(std::string_view method) {
+    return builtin_methods().at(method).abilities.light_paths;
+}
+
 /// Whether its paths come from the eye alone, which cannot hit delta lights.
 inline bool has_eye_paths_only(std::string_view method) {
-    const Abilities& abilities = builtin_methods().at(method).abilities;
-    return !abilities.photon_map && !abilities.light_paths;
+    return !has_map(method) && !has_light_paths(method);
 }
 
 /// Whether its images depend on those before them in the same session.
