@@ -56,8 +56,8 @@ TEST_F(BenchDynamic, SlowMeasuresEveryFrameOnce) {
         EXPECT_EQ(row[12], "0");
         ++rows;
     }
-    // By six methods, and by the photons queue with four windows and two trees.
-    EXPECT_EQ(rows, 2 * (6 + 6));
+    // By seven methods, and by the photons queue with four windows and two trees.
+    EXPECT_EQ(rows, 2 * (7 + 6));
     EXPECT_NE(table.find("\ncornell_glass,photon-queue W=64,1,"), std::string::npos);
     EXPECT_NE(table.find("\ncornell_glass,photon-queue rebuild=kdtree,1,"), std::string::npos);
     // It has been measured.
