@@ -65,15 +65,29 @@ def digest(*files):
     return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
 
 
-def references(argand, scene, folder, size, samples, seeds):
-    """The layers of a picture by path tracing for each seed, which are kept in a folder until the scene changes."""
-    found = []
-    for seed in seeds:
-        picture = folder / f"{scene.stem}_{size}_{digest(scene)}_{samples}_{seed}.exr"
+# Light paths find the caustics of these scenes sooner than eye paths do; see docs/results/bidirectional.md.
+WITH_CAUSTICS = {"bulb", "cornell_glass", "cornell_mirror", "glass_marble", "gloss_only", "inside_glass", "marble_box", "ring"}
+
+
+def reference_method(scene):
+    """A method without bias, for the references of a scene."""
+    return "bidirectional" if scene.stem in WITH_CAUSTICS else "path"
+
+
+def reference_files(argand, scene, folder, size, samples, seeds, *options):
+    """A picture by the reference method for each seed. They are kept in a folder until the scene changes."""
+    method = reference_method(scene)
+    pictures = [folder / f"{scene.stem}_{size}_{digest(scene)}_{method}_{samples}_{seed}.exr" for seed in seeds]
+    for picture, seed in zip(pictures, seeds):
         if not picture.exists():
-            render(argand, scene, picture, "--method", "path", "--size", size, "--spp", samples, "--seed", seed)
-        found.append(read_exr(picture))
-    return found
+            picture.parent.mkdir(parents=True, exist_ok=True)
+            render(argand, scene, picture, "--method", method, "--size", size, "--spp", samples, "--seed", seed, *options)
+    return pictures
+
+
+def references(argand, scene, folder, size, samples, seeds):
+    """The layers of the reference pictures of a scene."""
+    return [read_exr(picture) for picture in reference_files(argand, scene, folder, size, samples, seeds)]
 
 
 def mean(values):

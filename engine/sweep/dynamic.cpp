@@ -5,6 +5,7 @@
 #include "image/mean.hpp"
 #include "image/metrics.hpp"
 #include "methods/method_info.hpp"
+#include "methods/plan_render.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/gltf.hpp"
 #include "scene/pose.hpp"
@@ -174,19 +175,19 @@ std::optional<FilmReferences> film_references(const OpenDevice& open, const Dyna
                                               const std::filesystem::path& folder,
                                               const std::function<bool()>& keep_going,
                                               MethodTable methods) {
-    const MethodInfo* unbiased = methods.unbiased();
-    if (!unbiased) {
-        fail("rendering the references of '{}': no method is unbiased", film.name);
-    }
-    settings.method = unbiased->name;
     settings.samples = samples;
     FilmReferences references;
     std::unique_ptr<Device> device;
     for (const std::uint64_t frame : film.references) {
         const Scene scene = load_gltf(film.file.string(), time_of(film, frame));
+        const MethodInfo* unbiased = reference_method(scene, settings, methods);
+        if (!unbiased) {
+            fail("rendering the references of '{}': no method is unbiased", film.name);
+        }
+        settings.method = unbiased->name;
         const std::filesystem::path file =
-            folder / fmt::format("{}_{}_{}x{}_{}_{:016x}.exr", film.name, frame, settings.width,
-                                 settings.height, samples,
+            folder / fmt::format("{}_{}_{}x{}_{}_{}_{:016x}.exr", film.name, frame, settings.width,
+                                 settings.height, settings.method, samples,
                                  picture_fingerprint(scene, settings.camera));
         Reference& reference = references[frame];
         if (std::filesystem::exists(file)) {

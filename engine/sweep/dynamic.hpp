@@ -49,9 +49,9 @@ struct MeasuredFrame {
     std::optional<FrameErrors> errors;
 };
 
-/// Renders the references of a film: two images for each by the first unbiased method, with
-/// `samples` samples each. Keeps them in `folder` and takes those that it finds there. Returns
-/// nothing if it was interrupted. Throws Error if a kept file is damaged.
+/// Renders the references of a film: two images for each by reference_method(), with `samples`
+/// samples each. Keeps them in `folder` and takes those that it finds there. Returns nothing if it
+/// was interrupted. Throws Error if a kept file is damaged.
 std::optional<FilmReferences> film_references(const OpenDevice& open, const DynamicScene& film,
                                               RenderSettings settings, std::uint32_t samples,
                                               const std::filesystem::path& folder,

@@ -61,7 +61,7 @@ TEST_P(Thin, ASmallCubeInALargeRoomHasItsIndirectLight) {
     expect_light_of_path(small_cube_scene(), settings, 0.03);
 }
 
-INSTANTIATE_QUICK_AND_SLOW(Thin, "photons", without(exact_methods(), "path"));
+INSTANTIATE_QUICK_AND_SLOW(Thin, "photons", exact(methods_with_map()));
 
 } // namespace
 } // namespace argand::testing

@@ -33,12 +33,17 @@ inline bool has_approximate_hits(std::string_view method) {
     return builtin_methods().at(method).abilities.approximate_hits;
 }
 
-/// The methods whose photons hit what rays hit.
-inline std::vector<std::string> exact_methods() {
+/// Those of these methods whose photons hit what rays hit.
+inline std::vector<std::string> exact(std::vector<std::string> methods) {
+    std::erase_if(methods, has_approximate_hits);
+    return methods;
+}
+
+inline std::vector<std::string> exact_methods() { return exact(method_names()); }
+
+inline std::vector<std::string> methods_with_map() {
     std::vector<std::string> names = method_names();
-    std::erase_if(names, [](const std::string& name) {
-        return builtin_methods().at(name).abilities.approximate_hits;
-    });
+    std::erase_if(names, [](const std::string& name) { return !has_map(name); });
     return names;
 }
 

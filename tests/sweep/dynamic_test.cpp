@@ -5,6 +5,8 @@
 #include "support/scratch_directory.hpp"
 #include "sweep/dynamic.hpp"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <random>
 
@@ -183,6 +185,21 @@ TEST_F(Films, KeepTheirReferences) {
     slower.fps = 4;
     film_references(open_, slower, settings("path"), 2, folder_.path(), go_on_);
     EXPECT_EQ(folder_.names().size(), 6u);
+}
+
+TEST_F(Films, HaveReferencesWithTheCausticsThatTheirScenesMayHave) {
+    for (const std::string name : {"cornell_glass", "cornell_area"}) {
+        const DynamicScene film{.name = name,
+                                .file = ARGAND_SOURCE_DIR "/assets/" + name + ".glb",
+                                .fps = 8,
+                                .frames = 1,
+                                .references = {0}};
+        film_references(open_, film, settings("path"), 1, folder_.path(), go_on_);
+    }
+    EXPECT_THAT(folder_.names(),
+                ::testing::UnorderedElementsAre(
+                    ::testing::StartsWith("cornell_glass_0_12x12_bidirectional_1_"),
+                    ::testing::StartsWith("cornell_area_0_12x12_path_1_")));
 }
 
 TEST_F(Films, EndWhereTheyAreInterrupted) {
