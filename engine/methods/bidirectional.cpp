@@ -16,9 +16,10 @@ namespace argand {
 
 namespace {
 
-// Of a pass, whose light paths cannot be interrupted: samples of a pixel, and photons, unless one
-// sample has more.
+// Of a pass, whose light paths cannot be interrupted: samples of a pixel, or so many that the eye
+// paths of a small image fill a device, and photons, unless one sample has more.
 constexpr double most_samples = 16;
+constexpr double eye_paths_of_small_image = 1 << 16;
 constexpr double most_photons = 1 << 20;
 
 Option light_paths_option() {
@@ -113,14 +114,17 @@ public:
     }
 
 private:
+    double pixels() const {
+        return static_cast<double>(c_.settings.width) * static_cast<double>(c_.settings.height);
+    }
+
     double photons_per_sample() const {
-        return own_number(c_.settings, light_paths_option()) * c_.settings.width *
-               c_.settings.height;
+        return own_number(c_.settings, light_paths_option()) * pixels();
     }
 
     SamplePasses split() const {
-        const double most =
-            std::clamp(most_photons / std::max(photons_per_sample(), 1.0), 1.0, most_samples);
+        const double most = std::clamp(most_photons / std::max(photons_per_sample(), 1.0), 1.0,
+                                       std::max(most_samples, eye_paths_of_small_image / pixels()));
         return sample_passes(c_.settings, static_cast<std::uint64_t>(most));
     }
 
