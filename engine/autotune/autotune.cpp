@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <initializer_list>
 #include <utility>
 
 namespace argand {
@@ -189,16 +188,6 @@ private:
 };
 
 } // namespace
-
-bool is_blind_to_caustics(const Scene& scene) {
-    const Plan plan = make_plan(scene, {});
-    const auto needs_any = [&](std::initializer_list<Feature> features) {
-        return std::any_of(features.begin(), features.end(),
-                           [&](Feature feature) { return plan.needs(feature); });
-    };
-    return needs_any({Feature::point_light, Feature::spot_light, Feature::directional_light}) &&
-           needs_any({Feature::mirror, Feature::transmission});
-}
 
 AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const RenderSettings& base,
                          const UserSet& user_set, const Target& target, const OnPick& on_pick) {

@@ -32,10 +32,6 @@ struct AutotunedRender {
 /// Called with the pick before it is rendered.
 using OnPick = std::function<void(const AutotunedRender&)>;
 
-/// Whether paths from the eye miss light that photons find: the caustics of delta lights, seen by
-/// way of mirrors or glass.
-bool is_blind_to_caustics(const Scene& scene);
-
 /// Renders with the method and the numbers of photons and samples that reach the target error
 /// soonest, or have the least error within the time budget. Chooses from short pilots of this scene
 /// on this device. A render reaches an error when its measured noise plus its expected squared bias

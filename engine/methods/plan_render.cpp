@@ -3,6 +3,7 @@
 #include "methods/method_info.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace argand {
 
@@ -64,6 +65,16 @@ const MethodInfo* reference_method(const Scene& scene, const RenderSettings& set
                    may_have_caustics(scene, settings, *connects, methods)
                ? connects
                : first;
+}
+
+bool is_blind_to_caustics(const Scene& scene) {
+    const Plan plan = make_plan(scene, {});
+    const auto needs_any = [&](std::initializer_list<Feature> features) {
+        return std::any_of(features.begin(), features.end(),
+                           [&](Feature feature) { return plan.needs(feature); });
+    };
+    return needs_any({Feature::point_light, Feature::spot_light, Feature::directional_light}) &&
+           needs_any({Feature::mirror, Feature::transmission});
 }
 
 } // namespace argand

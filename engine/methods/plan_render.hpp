@@ -25,4 +25,9 @@ const MethodInfo& method_for(const Scene& scene, const RenderSettings& settings,
 const MethodInfo* reference_method(const Scene& scene, const RenderSettings& settings,
                                    MethodTable methods = builtin_methods());
 
+/// Whether methods without bias miss light that photons find: the caustics of delta lights by way
+/// of mirrors or glass. Paths from the eye miss all of these, light paths those that are seen in a
+/// mirror or through glass.
+bool is_blind_to_caustics(const Scene& scene);
+
 } // namespace argand

@@ -118,13 +118,18 @@ std::string about(const Results& results) {
                             escaped(value.is_string() ? value.get<std::string>() : value.dump()));
     }
     text += results.reference_samples > 0
-                ? fmt::format("reference: two independent pictures by the method path, {} samples "
+                ? fmt::format("reference: two independent pictures by the method {}, {} samples "
                               "a pixel in all",
-                              results.reference_samples)
+                              escaped(results.reference_method), results.reference_samples)
                 : std::string("reference: given");
     text += results.reference_error
                 ? fmt::format(", relMSE of their mean {:.2g}.", *results.reference_error)
                 : std::string(", whose own error is unknown and counts as the settings'.");
+    if (results.reference_is_blind) {
+        text += " <strong>The reference may miss caustics of lights without extent, at least those "
+                "that are seen in mirrors or through glass; methods that have them count as wrong "
+                "there.</strong>";
+    }
     for (const Failure& failure : results.failures) {
         text += fmt::format("<br>Not rendered: <code>{}</code>: {}.", escaped(failure.options),
                             escaped(failure.why));

@@ -67,6 +67,8 @@ Results results_from(const Json& json) {
     Results results;
     results.run = json.at("run");
     const Json& reference = json.at("reference");
+    results.reference_method = reference.value("method", "path");
+    results.reference_is_blind = reference.value("misses_caustics", false);
     results.reference_samples = reference.at("samples");
     if (!reference.at("own_error").is_null()) {
         results.reference_error = reference.at("own_error").get<double>();
@@ -106,7 +108,9 @@ Json to_json(const Results& results) {
     }
     return {{"run", results.run},
             {"reference",
-             {{"samples", results.reference_samples},
+             {{"method", results.reference_method},
+              {"misses_caustics", results.reference_is_blind},
+              {"samples", results.reference_samples},
               {"own_error", results.reference_error ? Json(*results.reference_error) : Json()},
               {"least_error", results.least_error}}},
             {"learnt", learnt},

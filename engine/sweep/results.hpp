@@ -20,6 +20,8 @@ struct Failure {
 // NOLINTNEXTLINE(bugprone-exception-escape)
 struct Results {
     nlohmann::ordered_json run;          ///< what was measured; a sweep resumes only if it is equal
+    std::string reference_method;        ///< of a reference that was rendered
+    bool reference_is_blind = false;     ///< is_blind_to_caustics() of its scene
     std::uint64_t reference_samples = 0; ///< per pixel; 0: unknown
     std::optional<double> reference_error; ///< Reference::own_error
     double least_error = rounding_error;   ///< least_error_of the reference

@@ -143,16 +143,12 @@ std::optional<std::vector<Image>> render_pilots(const std::vector<Setting>& sett
     return pictures;
 }
 
-std::optional<Reference> make_reference(const TradeoffRequest& request, const Scene& scene,
+std::optional<Reference> make_reference(const TradeoffRequest& request, const MethodInfo& method,
                                         const std::vector<Setting>& settings,
                                         const RenderTrials& render) {
-    const MethodInfo* method = reference_method(scene, request.base, request.table);
-    if (!method) {
-        fail("rendering a reference: no method is unbiased; give a picture with --reference");
-    }
     const std::optional<std::vector<Image>> pilots = render_pilots(settings, render);
     return pilots
-               ? render_reference(render, request.base, *pilots, request.reference_seconds, *method)
+               ? render_reference(render, request.base, *pilots, request.reference_seconds, method)
                : std::nullopt;
 }
 
@@ -263,7 +259,13 @@ Results measure_tradeoff(const TradeoffRequest& request, const Scene& scene,
     const std::vector<Setting> settings =
         sweep(scene, request.base, request.methods, results.learnt, request.extent, request.table);
     if (!reference) {
-        reference = make_reference(request, scene, settings, render);
+        const MethodInfo* method = reference_method(scene, request.base, request.table);
+        if (!method) {
+            fail("rendering a reference: no method is unbiased; give a picture with --reference");
+        }
+        results.reference_method = method->name;
+        results.reference_is_blind = is_blind_to_caustics(scene);
+        reference = make_reference(request, *method, settings, render);
     }
     if (!reference) {
         return results;

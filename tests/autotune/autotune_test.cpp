@@ -1,6 +1,7 @@
 #include "autotune/autotune.hpp"
 #include "base/clock.hpp"
 #include "image/metrics.hpp"
+#include "methods/plan_render.hpp"
 #include "support/expect_error.hpp"
 #include "support/noisy_image.hpp"
 

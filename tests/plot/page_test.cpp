@@ -47,6 +47,20 @@ TEST_F(PageTest, ListsFailures) {
     EXPECT_THAT(page("a", results), HasSubstr("out of memory"));
 }
 
+TEST_F(PageTest, TellsWhatTheReferenceIsAndMisses) {
+    FakeRenderer renderer;
+    const std::string area = page("area", run(renderer, scene_, request("area")));
+    EXPECT_THAT(area, HasSubstr("by the method path, "));
+    EXPECT_THAT(area, Not(HasSubstr("may miss caustics")));
+    // A point light and a mirror.
+    const Scene ring = load_gltf(ARGAND_SOURCE_DIR "/assets/ring.glb");
+    for (int times = 0; times < 2; ++times) { // the second results are read from their file
+        const std::string html = page("ring", run(renderer, ring, request("ring")));
+        EXPECT_THAT(html, HasSubstr("by the method bidirectional, "));
+        EXPECT_THAT(html, HasSubstr("may miss caustics"));
+    }
+}
+
 TEST_F(PageTest, RefersToNothingOutside) {
     FakeRenderer renderer;
     const std::string html = page("a", run(renderer, scene_, request("a")));
