@@ -30,6 +30,28 @@ protected:
                         file("."), on_host, signal, seconds, ARGAND_EXECUTABLE, render(options));
         EXPECT_NE(std::system(command.c_str()), -1);
     }
+    /// Runs the tool, and interrupts it once this file is there, without a second signal, which
+    /// would end it at once. Returns its exit status. (Shells ignore SIGINT in their children:
+    /// hence SIGTERM.)
+    std::string status_if_interrupted_at(const std::string& name, const std::string& options) {
+        const std::string command =
+            fmt::format("cd '{}' && {{ {} OMP_WAIT_POLICY=passive timeout 300 '{}' {} 2>error & "
+                        "render=$!; while kill -0 $render && ! test -e {}; do sleep 0.05; done; "
+                        "kill -TERM $render; wait $render; echo $? >status; }} >/dev/null 2>&1",
+                        file("."), on_host, ARGAND_EXECUTABLE, render(options), name);
+        EXPECT_NE(std::system(command.c_str()), -1);
+        return read_text(file("status"));
+    }
+    /// Expects the picture of a whole render from one that is interrupted and resumed.
+    void expect_same_picture_if_interrupted(const std::string& options) {
+        ASSERT_EQ(run(options + "-o whole.exr").exit_code, 0);
+        ASSERT_EQ(status_if_interrupted_at("c", options + "-o part.exr --checkpoint c --every 0"),
+                  "0\n")
+            << read_text(file("error"));
+        EXPECT_NE(pixels("whole.exr"), pixels("part.exr"));
+        ASSERT_EQ(run(options + "-o resumed.exr --resume c").exit_code, 0);
+        EXPECT_EQ(pixels("whole.exr"), pixels("resumed.exr"));
+    }
     void truncate(const std::string& name) {
         std::filesystem::resize_file(file(name), std::filesystem::file_size(file(name)) / 2);
     }
@@ -82,6 +104,18 @@ TEST_F(Checkpoints, OfAProgressiveRenderTakeMorePasses) {
     EXPECT_EQ(pixels("fewer.exr"), pixels("fewest.exr"));
     expect_error(progressive + "--passes 5 --radius-exponent 0.2 -o no.exr --resume c",
                  "--radius-exponent");
+}
+
+TEST_F(Checkpoints, AreNotNeededForPicturesOnTheWay) {
+    EXPECT_EQ(status_if_interrupted_at("part.exr", "--method progressive --photons 2000 --passes "
+                                                   "1000000 -o part.exr --every 0"),
+              "0\n")
+        << read_text(file("error"));
+    EXPECT_GT(pixels("part.exr").size(), 0u);
+}
+
+TEST_F(Checkpoints, OfAnInterruptedProgressiveRenderAreGoneOnFrom) {
+    expect_same_picture_if_interrupted("--method progressive --photons 2000 --passes 100 ");
 }
 
 TEST_F(Checkpoints, AreReplacedByTheOlderOneWhereTheyAreDamaged) {
@@ -229,21 +263,7 @@ TEST_F(Checkpoints, RefuseWhatTheyCannotDo) {
 }
 
 TEST_F(Checkpoints, SlowAreSavedWhenARenderIsInterrupted) {
-    const std::string passes = long_render;
-    ASSERT_EQ(run(passes + "-o whole.exr").exit_code, 0);
-    // Ctrl-C once a pass is saved; without a second one, which would end it at once. (Shells ignore
-    // SIGINT in their children: hence SIGTERM.)
-    const std::string command = fmt::format(
-        "cd '{}' && {{ {} OMP_WAIT_POLICY=passive '{}' {} -o part.exr --checkpoint c --every 0 "
-        "2>error & render=$!; while kill -0 $render && ! test -e c; do sleep 0.05; done; "
-        "kill -TERM $render; wait $render; }} >/dev/null 2>&1",
-        file("."), on_host, ARGAND_EXECUTABLE, render(passes));
-    EXPECT_NE(std::system(command.c_str()), -1);
-    ASSERT_TRUE(std::filesystem::exists(file("c")));
-    ASSERT_TRUE(std::filesystem::exists(file("part.exr")));
-    EXPECT_NE(pixels("whole.exr"), pixels("part.exr"));
-    ASSERT_EQ(run(passes + "-o resumed.exr --resume c").exit_code, 0);
-    EXPECT_EQ(pixels("whole.exr"), pixels("resumed.exr"));
+    expect_same_picture_if_interrupted(long_render);
 }
 
 } // namespace

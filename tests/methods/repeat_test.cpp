@@ -8,6 +8,31 @@
 namespace argand::testing {
 namespace {
 
+/// Ways to work without what lavapipe has.
+const DeviceSetting fallbacks[] = {{"serial", "subgroups,push_descriptors,timestamps", ""},
+                                   {"subgroups", "lane_serial", ""},
+                                   {"shared", "lane_serial,subgroups,push_descriptors", ""}};
+
+/// Expects one picture from processes with different numbers of threads: a process fixes the number
+/// of lavapipe's threads when it first uses lavapipe.
+void expect_same_bits_with_threads(const std::string& options) {
+    const ScratchDirectory directory;
+    std::string pictures[2];
+    for (int i = 0; i < 2; ++i) {
+        // One name, for a picture holds the command that made it.
+        const std::string output = (directory / "picture.exr").string();
+        const std::string command = "ARGAND_VALIDATION=1 LP_NUM_THREADS=" + std::to_string(i + 1) +
+                                    " '" ARGAND_EXECUTABLE "' render '" +
+                                    ARGAND_SOURCE_DIR
+                                    "/assets/cornell_glass.glb' -q --size 32x24 --spp 4" +
+                                    options + " -o '" + output + "'";
+        ASSERT_EQ(std::system(command.c_str()), 0) << command;
+        pictures[i] = read_text(output);
+    }
+    EXPECT_FALSE(pictures[0].empty());
+    EXPECT_TRUE(pictures[0] == pictures[1]);
+}
+
 class Repeat : public EveryMethod {
 protected:
     RenderSettings settings(std::uint32_t seed = 0) const {
@@ -28,10 +53,7 @@ TEST_P(Repeat, SeedsGiveTheirOwnBitsEachTime) {
 TEST_P(Repeat, FallbacksGiveTheSameBits) {
     const Scene scene = load_asset("cornell_mirror.glb");
     const RenderResult expected = render(scene, settings());
-    const DeviceSetting ways[] = {{"serial", "subgroups,push_descriptors,timestamps", ""},
-                                  {"subgroups", "lane_serial", ""},
-                                  {"shared", "lane_serial,subgroups,push_descriptors", ""}};
-    for (const DeviceSetting& way : ways) {
+    for (const DeviceSetting& way : fallbacks) {
         EXPECT_TRUE(same_bits(testing::render(open(way), scene, settings()), expected)) << way.name;
     }
 }
@@ -60,24 +82,30 @@ TEST_P(Repeat, BatchesGiveTheSameBits) {
 }
 
 TEST_P(Repeat, ThreadsGiveTheSameBits) {
-    // A process fixes the number of lavapipe's threads when it first uses lavapipe.
-    const ScratchDirectory directory;
-    const std::string photons = has_map(GetParam()) ? " --photons 20000" : "";
-    std::string pictures[2];
-    for (int i = 0; i < 2; ++i) {
-        // One name, for a picture holds the command that made it.
-        const std::string output = (directory / "picture.exr").string();
-        const std::string command = "ARGAND_VALIDATION=1 LP_NUM_THREADS=" + std::to_string(i + 1) +
-                                    " '" ARGAND_EXECUTABLE "' render '" +
-                                    ARGAND_SOURCE_DIR
-                                    "/assets/cornell_glass.glb' -q --size 32x24 --spp 4" +
-                                    photons + " --method " + GetParam() + " -o '" + output + "'";
-        ASSERT_EQ(std::system(command.c_str()), 0) << command;
-        pictures[i] = read_text(output);
-    }
-    EXPECT_FALSE(pictures[0].empty());
-    EXPECT_TRUE(pictures[0] == pictures[1]);
+    expect_same_bits_with_threads(
+        (has_map(GetParam()) ? " --photons 20000 --method " : " --method ") + GetParam());
 }
+
+/// The same where queries are answered together, by the methods with a search of their own.
+class RepeatTogether : public RenderTest, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(RepeatTogether, FallbacksGiveTheSameBits) {
+    RenderSettings settings = settings_of(GetParam(), 24, 4);
+    settings.photons = 20'000;
+    settings.query = QuerySearch::simultaneous;
+    const Scene scene = load_asset("cornell_glass.glb");
+    const RenderResult expected = render(scene, settings);
+    for (const DeviceSetting& way : fallbacks) {
+        EXPECT_TRUE(same_bits(testing::render(open(way), scene, settings), expected)) << way.name;
+    }
+}
+
+TEST_P(RepeatTogether, ThreadsGiveTheSameBits) {
+    expect_same_bits_with_threads(" --photons 20000 --query simultaneous --method " + GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, RepeatTogether, ::testing::Values("photons", "footprints"),
+                         [](const auto& method) { return test_name(method.param); });
 
 TEST(RepeatFilm, ThreadsGiveThePhotonsQueueTheSameBits) {
     const ScratchDirectory directory;

@@ -43,10 +43,18 @@ nlohmann::ordered_json plan_json(const Scene& scene, const std::string& method,
             left_out.emplace_back(text_of(feature).key);
         }
     }
-    return {{"method", settings.method},
-            {"follow_roughness", settings.follow_roughness},
-            {"features", features},
-            {"left_out", left_out}};
+    nlohmann::ordered_json json{{"method", settings.method},
+                                {"follow_roughness", settings.follow_roughness}};
+    const MethodInfo& info = methods.at(settings.method);
+    if (is_progressive(info, settings)) {
+        json["radius_exponent"] = settings.progressive.exponent;
+    }
+    if (info.option("frontier-memory") != nullptr) {
+        json["frontier_memory"] = settings.frontier.memory;
+    }
+    json["features"] = features;
+    json["left_out"] = left_out;
+    return json;
 }
 
 /// What a photons queue would keep from frame to frame, and what lets it drop or age; empty if
@@ -82,6 +90,17 @@ std::string plan_text(const nlohmann::ordered_json& plan, bool is_default) {
         fmt::format_to(std::back_inserter(text), "  {}: {}{}{}\n",
                        feature["name"].get<std::string>(),
                        feature["required_by"].get<std::string>(), cost.empty() ? "" : "; ", cost);
+    }
+    if (plan.contains("radius_exponent")) {
+        fmt::format_to(std::back_inserter(text),
+                       "{:<12}fall from pass to pass, as n^-{:.3g} after n photons\n", "widths",
+                       plan["radius_exponent"].get<double>());
+    }
+    if (plan.contains("frontier_memory")) {
+        fmt::format_to(std::back_inserter(text),
+                       "{:<12}find photons through a tree; with --query simultaneous all together, "
+                       "in up to {} MiB\n",
+                       "queries", plan["frontier_memory"].get<std::uint64_t>() >> 20);
     }
     std::vector<std::string> names;
     for (const nlohmann::ordered_json& key : plan["left_out"]) {

@@ -51,8 +51,11 @@ void check_autotuned(const RenderOptions& options, const CLI::App& command) {
 /// Throws UsageError on options that do not go with checkpoints, Error on a file that cannot be
 /// one.
 void check_checkpoints(const RenderOptions& options, const CLI::App& command) {
-    if (options.checkpoint.empty() && is_given(command, "--every")) {
-        throw UsageError("reading --every: it needs --checkpoint FILE, the file to write");
+    const bool shows_pictures = is_progressive(options.method(), options.settings) &&
+                                !is_autotuned(options, command) && options.frames.empty();
+    if (options.checkpoint.empty() && is_given(command, "--every") && !shows_pictures) {
+        throw UsageError("reading --every: it needs --checkpoint FILE, the file to write, or a "
+                         "progressive render, which saves its picture");
     }
     if (!has_checkpoints(options)) {
         return;
@@ -343,7 +346,7 @@ void add_render_command(CLI::App& app, MethodTable methods, const std::string& c
     command
         ->add_option("--every", options->every,
                      "Seconds between checkpoints; a progressive render then also writes its "
-                     "picture so far")
+                     "picture so far, also without --checkpoint")
         ->capture_default_str()
         ->check(number_between(0, 1e9));
     command->add_option("--resume", options->resume,

@@ -88,10 +88,10 @@ private:
     std::optional<RunningError> error_;
 };
 
-/// Renders an image, or the rest of one, with checkpoints. An interrupted render ends with a whole
-/// pass, which is saved.
-RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progress,
-                                     Watched& watched, std::vector<std::string>& notes) {
+/// Renders an image, or the rest of one, and saves checkpoints and pictures on the way. An
+/// interrupted render ends with a whole pass, which is saved.
+RenderResult render_and_save(RenderJob& job, const OnProgress& on_progress, Watched& watched,
+                             std::vector<std::string>& notes) {
     const RenderOptions& options = job.options;
     Session& session = *job.session;
     const MethodInfo& method = options.methods.at(job.settings.method);
@@ -114,8 +114,8 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
         }
     }
     bool can_save = !options.checkpoint.empty();
-    bool can_show = true;
-    const auto save = [&](bool shows) {
+    bool can_show = is_progressive(method, job.settings); // such a render may have no end
+    const auto save = [&] {
         try {
             save_checkpoint(options.checkpoint, key, session.save());
         } catch (const DeviceFault&) {
@@ -124,20 +124,20 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
             can_save = false;
             notes.push_back(fmt::format("{}; there are no more checkpoints", error.what()));
         }
-        if (shows && can_show) { // the picture of a render that may have no end
-            try {
-                const std::vector<Layer> layers = session.layers();
-                const PictureSettings file =
-                    picture_settings(options.picture, job.settings, whole_picture(layers));
-                for (const std::string& output : options.outputs) {
-                    write_image(output, layers, file);
-                }
-            } catch (const DeviceFault&) {
-                throw;
-            } catch (const Error& error) { // the end writes it again
-                can_show = false;
-                notes.push_back(fmt::format("{}; the picture appears at the end", error.what()));
+    };
+    const auto show = [&] {
+        try {
+            const std::vector<Layer> layers = session.layers();
+            const PictureSettings file =
+                picture_settings(options.picture, job.settings, whole_picture(layers));
+            for (const std::string& output : options.outputs) {
+                write_image(output, layers, file);
             }
+        } catch (const DeviceFault&) {
+            throw;
+        } catch (const Error& error) { // the end writes it again
+            can_show = false;
+            notes.push_back(fmt::format("{}; the picture appears at the end", error.what()));
         }
     };
     std::uint64_t saved = session.passes();
@@ -156,9 +156,13 @@ RenderResult render_with_checkpoints(RenderJob& job, const OnProgress& on_progre
             if (stopped) {
                 plan.reset();
             }
-            if (can_save && so_far.passes > saved &&
-                (!plan || seconds_since(last) >= options.every)) {
-                save(plan && is_progressive(method, job.settings));
+            if (so_far.passes > saved && (!plan || seconds_since(last) >= options.every)) {
+                if (can_save) {
+                    save();
+                }
+                if (plan && can_show) {
+                    show();
+                }
                 saved = so_far.passes;
                 last = Clock::now();
             }
@@ -212,9 +216,9 @@ Rendered render_on(RenderJob& job, const std::string& work) {
         watched.emplace(*job.session, progress->is_shown() && is_progressive(method, job.settings)
                                           ? std::optional(law_of(method, job.settings))
                                           : std::nullopt);
-        if (has_checkpoints(options)) {
+        if (has_checkpoints(options) || is_given(job.command, "--every")) {
             Rendered rendered{.result = {}, .settings = job.settings, .tuned = {}, .notes = {}};
-            rendered.result = render_with_checkpoints(job, on_progress, *watched, rendered.notes);
+            rendered.result = render_and_save(job, on_progress, *watched, rendered.notes);
             return rendered;
         }
         return {.result = render_image(job, on_progress, *watched),
