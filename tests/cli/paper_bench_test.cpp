@@ -95,6 +95,8 @@ TEST_F(PaperBench, SimultaneousQueriesAgainstATree) {
         EXPECT_GE(row["box tests a photon"], 1);
         EXPECT_EQ(row["entered"].get<double>() == 1, row["where"] == "near");
         EXPECT_GT(row["MiB"], 0);
+        EXPECT_GT(row["pairs bound s"], 0);
+        EXPECT_LT(row["pairs bound s"], row["together: answer s"]);
     }
 }
 

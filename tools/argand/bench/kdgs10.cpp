@@ -99,18 +99,23 @@ struct Times {
     double together() const { return list + answer_together; }
 };
 
+double radius_for(const Load& load) {
+    return std::sqrt(photons_a_query * walls / (std::numbers::pi * double(load.photons)));
+}
+
 class Bench {
 public:
     Bench(Device& device, const Kdgs10Settings& settings)
         : device_(device), settings_(settings), copied_(copy_rate(device)),
-          scene_(empty_scene(device)) {}
+          scene_(empty_scene(device)), compared_(compare_rate()) {}
 
     nlohmann::ordered_json measure(const Load& load);
 
 private:
     static DeviceScene empty_scene(Device& device);
     void store(std::uint64_t photons);
-    double timed_map(bool together, PhotonMap& map);
+    double compare_rate();
+    double timed_map(const std::optional<FrontierSettings>& together, PhotonMap& map);
     double timed_answers(const PhotonMap& map, const PhotonQueries& queries, double radius);
     double useful_pairs(const PhotonMap& map, const PhotonQueries& queries, double radius);
 
@@ -120,6 +125,7 @@ private:
     DeviceScene scene_;
     PhotonWorkspace workspace_;
     StoredPhotons stored_;
+    double compared_; ///< pairs of a query and a photon per second
 };
 
 DeviceScene Bench::empty_scene(Device& device) {
@@ -143,14 +149,12 @@ void Bench::store(std::uint64_t count) {
     stored_ = {photons.size(), photons.size(), photons.size()};
 }
 
-double Bench::timed_map(bool together, PhotonMap& map) {
+double Bench::timed_map(const std::optional<FrontierSettings>& together, PhotonMap& map) {
     map = PhotonMap();
     device_.wait();
     const Clock::time_point begin = Clock::now();
     PhotonMapSettings settings;
-    if (together) {
-        settings.frontier.emplace();
-    }
+    settings.frontier = together;
     map = build_photon_map(device_, scene_, workspace_, stored_, settings);
     device_.wait();
     return seconds_since(begin);
@@ -162,6 +166,23 @@ double Bench::timed_answers(const PhotonMap& map, const PhotonQueries& queries, 
     estimator.estimate(map, queries);
     device_.wait();
     return seconds_since(begin);
+}
+
+/// The rate of a search that is one leaf, which compares each query with each photon. Hardly any
+/// photon counts, as the least that a pair can cost.
+double Bench::compare_rate() {
+    const Load load{.queries = 256, .photons = 1 << 16, .coherent = false, .near = true};
+    store(load.photons);
+    std::vector<QueryRecord> records;
+    for (const Point& point : query_points(load)) {
+        records.push_back(bench_query(point.place, point.normal));
+    }
+    const PhotonQueries queries = bench_queries(device_, records);
+    PhotonMap list;
+    timed_map(FrontierSettings{.query_leaf = 1 << 20}, list);
+    timed_answers(list, queries, radius_for(load)); // the first run warms up
+    return static_cast<double>(load.queries * load.photons) /
+           timed_answers(list, queries, radius_for(load));
 }
 
 /// Pairs of a query and a photon within the radius, from estimates in which each counts the same.
@@ -186,15 +207,14 @@ nlohmann::ordered_json Bench::measure(const Load& load) {
         records.push_back(bench_query(point.place, point.normal));
     }
     const PhotonQueries queries = bench_queries(device_, records);
-    const double radius =
-        std::sqrt(photons_a_query * walls / (std::numbers::pi * double(load.photons)));
+    const double radius = radius_for(load);
     std::array<std::vector<double>, 4> seconds;
     PhotonMap tree;
     PhotonMap list;
     for (int run = 0; run <= settings_.runs; ++run) {
         const std::array<double, 4> now = {
-            timed_map(false, tree), timed_answers(tree, queries, radius), timed_map(true, list),
-            timed_answers(list, queries, radius)};
+            timed_map({}, tree), timed_answers(tree, queries, radius),
+            timed_map(FrontierSettings(), list), timed_answers(list, queries, radius)};
         for (std::size_t i = 0; i < now.size() && run > 0; ++i) { // the first run warms up
             seconds[i].push_back(now[i]);
         }
@@ -234,7 +254,8 @@ nlohmann::ordered_json Bench::measure(const Load& load) {
             {"pairs/s", double(statistics.pairs) / times.answer_together},
             {"levels", statistics.levels},
             {"MiB", double(bytes) / (1 << 20)},
-            {"bytes bound s", moved / copied_}};
+            {"bytes bound s", moved / copied_},
+            {"pairs bound s", double(statistics.pairs) / compared_}};
 }
 
 } // namespace
