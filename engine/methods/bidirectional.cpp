@@ -16,8 +16,9 @@ namespace argand {
 
 namespace {
 
-// Of a pass, whose light paths cannot be interrupted: samples of a pixel, or so many that the eye
-// paths of a small image fill a device, and photons, unless one sample has more.
+// Bounds of a pass, whose light paths cannot be interrupted. A pass has at most so many samples of
+// each pixel, but more in small images, where few eye paths would not fill a device. It has at most
+// so many photons, unless one sample has more.
 constexpr double most_samples = 16;
 constexpr double eye_paths_of_small_image = 1 << 16;
 constexpr double most_photons = 1 << 20;

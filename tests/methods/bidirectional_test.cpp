@@ -190,6 +190,15 @@ TEST_F(Bidirectional, OnePixelTakesMorePhotonsThanALoopMayHave) {
     EXPECT_RELATIVE(mean(layer(found, "indirect")).g, mean(layer(expected, "indirect")).g, 0.03);
 }
 
+TEST_F(Bidirectional, PassesOfSmallImagesFillADevice) {
+    const auto passes = [&](int size, std::uint32_t samples) {
+        return render(room_scene(), settings_of("bidirectional", size, samples)).statistics.passes;
+    };
+    EXPECT_EQ(passes(8, 1024), 1u); // 65,536 eye paths
+    EXPECT_EQ(passes(8, 1025), 2u);
+    EXPECT_EQ(passes(72, 17), 2u); // a larger image has 16 samples in a pass
+}
+
 TEST_F(Bidirectional, AnInterruptedPassCountsLikeOthers) {
     const Scene scene = load_asset("cornell_point.glb");
     // More samples than are traced together, so that the pass may end before its last one.

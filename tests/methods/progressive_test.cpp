@@ -452,7 +452,8 @@ TEST_P(ProgressiveError, SlowFallsAsTheLawSays) {
     EXPECT_LT(found.back().squared_bias, 0.6 * found.front().squared_bias);
 }
 
-// Sobol' points, and those that a seed only moves, so that eight seeds tell their noise.
+// Scrambled Sobol' points, and the points of a lattice, which a seed only moves, so that eight
+// seeds tell their noise.
 TEST_P(ProgressiveError, SlowFallsAtLeastAsFastWithEvenPoints) {
     for (const bool deterministic : {false, true}) {
         SCOPED_TRACE(deterministic);

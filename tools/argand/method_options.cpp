@@ -46,8 +46,9 @@ void add_option(CLI::App& command, RenderSettings& settings, const Option& optio
     added->type_name(type_name(option.kind));
     const std::string initially = option.get(settings);
     const CLI::Validator accepted = accepted_values(option);
-    const bool names_auto = !option.choices.empty(); // if it has a choice of that name
-    added->check(initially == "auto" && !names_auto ? or_auto(accepted) : accepted);
+    const bool accepts_auto =
+        std::find(option.choices.begin(), option.choices.end(), "auto") != option.choices.end();
+    added->check(initially == "auto" && !accepts_auto ? or_auto(accepted) : accepted);
     if (initially != "auto") {
         added->default_str(initially);
     }

@@ -114,6 +114,7 @@ public:
 private:
     static DeviceScene empty_scene(Device& device);
     void store(std::uint64_t photons);
+    PhotonQueries upload_queries(const Load& load);
     double compare_rate();
     double timed_map(const std::optional<FrontierSettings>& together, PhotonMap& map);
     double timed_answers(const PhotonMap& map, const PhotonQueries& queries, double radius);
@@ -149,6 +150,15 @@ void Bench::store(std::uint64_t count) {
     stored_ = {photons.size(), photons.size(), photons.size()};
 }
 
+PhotonQueries Bench::upload_queries(const Load& load) {
+    std::vector<QueryRecord> records;
+    records.reserve(load.queries);
+    for (const Point& point : query_points(load)) {
+        records.push_back(bench_query(point.place, point.normal));
+    }
+    return bench_queries(device_, records);
+}
+
 double Bench::timed_map(const std::optional<FrontierSettings>& together, PhotonMap& map) {
     map = PhotonMap();
     device_.wait();
@@ -168,21 +178,17 @@ double Bench::timed_answers(const PhotonMap& map, const PhotonQueries& queries, 
     return seconds_since(begin);
 }
 
-/// The rate of a search that is one leaf, which compares each query with each photon. Hardly any
-/// photon counts, as the least that a pair can cost.
+/// Pairs per second of a search that is one leaf, which compares each query with each photon. In
+/// few of these pairs the photon counts, so that a pair costs the least that it can.
 double Bench::compare_rate() {
     const Load load{.queries = 256, .photons = 1 << 16, .coherent = false, .near = true};
     store(load.photons);
-    std::vector<QueryRecord> records;
-    for (const Point& point : query_points(load)) {
-        records.push_back(bench_query(point.place, point.normal));
-    }
-    const PhotonQueries queries = bench_queries(device_, records);
+    const PhotonQueries queries = upload_queries(load);
     PhotonMap list;
     timed_map(FrontierSettings{.query_leaf = 1 << 20}, list);
-    timed_answers(list, queries, radius_for(load)); // the first run warms up
-    return static_cast<double>(load.queries * load.photons) /
-           timed_answers(list, queries, radius_for(load));
+    const double radius = radius_for(load);
+    timed_answers(list, queries, radius); // the first run warms up
+    return static_cast<double>(load.queries * load.photons) / timed_answers(list, queries, radius);
 }
 
 /// Pairs of a query and a photon within the radius, from estimates in which each counts the same.
@@ -201,12 +207,7 @@ double Bench::useful_pairs(const PhotonMap& map, const PhotonQueries& queries, d
 
 nlohmann::ordered_json Bench::measure(const Load& load) {
     store(load.photons);
-    std::vector<QueryRecord> records;
-    records.reserve(load.queries);
-    for (const Point& point : query_points(load)) {
-        records.push_back(bench_query(point.place, point.normal));
-    }
-    const PhotonQueries queries = bench_queries(device_, records);
+    const PhotonQueries queries = upload_queries(load);
     const double radius = radius_for(load);
     std::array<std::vector<double>, 4> seconds;
     PhotonMap tree;
