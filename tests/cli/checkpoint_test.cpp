@@ -30,12 +30,13 @@ protected:
                         file("."), on_host, signal, seconds, ARGAND_EXECUTABLE, render(options));
         EXPECT_NE(std::system(command.c_str()), -1);
     }
-    /// Runs the tool, and interrupts it once this file is there, without a second signal, which
-    /// would end it at once. Returns its exit status. (Shells ignore SIGINT in their children:
-    /// hence SIGTERM.)
+    /// Runs the tool, and interrupts it once this file is there. Returns its exit status. A second
+    /// signal would end the tool at once: `timeout` sends one to its process group, too, unless it
+    /// is in the foreground. (Shells ignore SIGINT in their children: hence SIGTERM.)
     std::string status_if_interrupted_at(const std::string& name, const std::string& options) {
         const std::string command =
-            fmt::format("cd '{}' && {{ {} OMP_WAIT_POLICY=passive timeout 300 '{}' {} 2>error & "
+            fmt::format("cd '{}' && {{ {} OMP_WAIT_POLICY=passive timeout --foreground 300 '{}' {} "
+                        "2>error & "
                         "render=$!; while kill -0 $render && ! test -e {}; do sleep 0.05; done; "
                         "kill -TERM $render; wait $render; echo $? >status; }} >/dev/null 2>&1",
                         file("."), on_host, ARGAND_EXECUTABLE, render(options), name);
