@@ -87,6 +87,7 @@ PAGES = [
     ("Numerical stability", "numerics.md", "tools/results_numerics"),
     ("Specialisation to the scene", "specialisation.md", "tools/results_specialisation"),
     ("Backends: summary", "backends.md", "tools/results_backends"),
+    ("On a GPU: an H200", "h200.md", "argand bench, argand render --frames, argand compare-backends"),
     ("Backends: lavapipe and the host", "backends_vulkan_cpu.md", "tools/results_backends vulkan cpu"),
     ("Path tracer compared with Cycles", "cycles.md", "argand render, Blender"),
     ("Scenes unlike a box of two metres", "hard_scenes.md", "tools/results_hard_scenes"),

@@ -3,6 +3,7 @@
 #include "kernels/camera_rays.hpp"
 #include "kernels/eye_vertex.hpp"
 #include "kernels/film_add.hpp"
+#include "kernels/query_ends.hpp"
 #include "kernels/shadow_add.hpp"
 #include "methods/lens.hpp"
 #include "parallel/compact.hpp"
@@ -159,44 +160,85 @@ void collect_found(Device& device, const EyeWorkspace& w, bool alpha,
     }
 }
 
-/// Traces the paths of a batch to their end. Adds the lights that shadow rays find to `found`.
-void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera,
-                 const EyeBatch& batch, const PhotonLookup* lookup,
-                 std::vector<FoundLight>* found = nullptr) {
-    const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
-    device.fill(w.traversal.unfinished, 0);
-    start_paths(device, w, camera, batch);
+/// Traces the active paths until each has ended or waits for the answer of a query. Adds the
+/// lights that shadow rays find to `found`.
+void trace_until_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                         const EyeBatch& batch, bool photon_map, std::vector<FoundLight>* found) {
+    const Count active(w.counts, 0, std::uint64_t(batch.pixels) * batch.samples);
     for (int vertex = 1;; ++vertex) {
-        const Count active(w.counts, 0, slots);
         {
             const StageScope stage(device, "trace eye rays");
             trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
         }
-        shade(device, scene, w, batch, lookup != nullptr);
+        shade(device, scene, w, batch, photon_map);
         if (scene.plan.needs(Feature::direct_light)) {
             add_direct_light(device, scene, w, active);
             if (found != nullptr) {
                 collect_found(device, w, scene.plan.needs(Feature::alpha), *found);
             }
         }
-        if (lookup != nullptr) {
-            answer_queries(device, scene.plan, w.queries,
-                           {.slots = w.active,
-                            .counts = w.counts,
-                            .most = slots,
-                            .layers = w.layers,
-                            .records = w.paths,
-                            .bounces = batch.bounces,
-                            .at_first_vertex = vertex == 1,
-                            .traversal = w.traversal},
-                           *lookup);
-        }
         advance(device, w, active);
         device.submit();
-        const bool looks =
-            vertex % vertices_between_checks == 0 || (lookup != nullptr && vertex == 1);
+        const bool looks = vertex % vertices_between_checks == 0 || (photon_map && vertex == 1);
         if (looks && download_word(device, w.counts) == 0) {
             break;
+        }
+    }
+}
+
+/// Makes the waiting paths the active ones. Returns whether there are any.
+bool find_waiting(Device& device, EyeWorkspace& w, std::uint64_t slots) {
+    const StageScope stage(device, "compact");
+    compact(device, w.queries.kinds, w.queries.all, w.active, {w.counts, 0}, slots);
+    return download_word(device, w.counts) > 0;
+}
+
+/// Makes those of the waiting paths that go on the active ones.
+void end_waiting(Device& device, EyeWorkspace& w, std::uint64_t slots) {
+    {
+        const StageScope stage(device, "share queries");
+        dispatch_indirect(device,
+                          kernels::query_ends{.active_slots = w.active,
+                                              .counts = w.counts,
+                                              .query_kinds = w.queries.kinds,
+                                              .alive = w.alive},
+                          w.counts);
+    }
+    advance(device, w, Count(w.counts, 0, slots));
+}
+
+/// Traces the paths of a batch to their end. All paths that wait at some vertex have their queries
+/// answered together: few dispatches of many queries keep a GPU busy, and more of them share an
+/// answer.
+void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, const Buffer& camera,
+                 const EyeBatch& batch, const PhotonLookup* lookup,
+                 std::vector<FoundLight>* found = nullptr) {
+    const std::uint64_t slots = std::uint64_t(batch.pixels) * batch.samples;
+    device.fill(w.traversal.unfinished, 0);
+    start_paths(device, w, camera, batch);
+    if (lookup == nullptr) {
+        trace_until_queries(device, scene, w, batch, false, found);
+        return;
+    }
+    device.fill(w.queries.kinds, 0);
+    for (bool first = true;; first = false) {
+        trace_until_queries(device, scene, w, batch, true, found);
+        if (!find_waiting(device, w, slots)) {
+            return;
+        }
+        answer_queries(device, scene.plan, w.queries,
+                       {.slots = w.active,
+                        .counts = w.counts,
+                        .most = slots,
+                        .layers = w.layers,
+                        .records = w.paths,
+                        .bounces = batch.bounces,
+                        .first = first,
+                        .traversal = w.traversal},
+                       *lookup);
+        end_waiting(device, w, slots);
+        if (download_word(device, w.counts) == 0) {
+            return;
         }
     }
 }

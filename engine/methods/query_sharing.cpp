@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <vector>
 
 namespace argand {
 
@@ -41,7 +43,7 @@ QueryShareParams share_params(const EyeQueries& queries, const Round& round) {
 }
 
 /// Finds for each query the slot whose estimate it takes, and marks the queries to be answered.
-void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& paths,
+void find_sources(Device& device, const EyeQueries& queries, const WaitingPaths& paths,
                   const Round& round) {
     const StageScope stage(device, "share queries");
     const QueryShareParams params = share_params(queries, round);
@@ -71,7 +73,7 @@ void find_sources(Device& device, const EyeQueries& queries, const ActivePaths& 
                       paths.counts);
 }
 
-void answer_round(Device& device, const EyeQueries& queries, const ActivePaths& paths,
+void answer_round(Device& device, const EyeQueries& queries, const WaitingPaths& paths,
                   const Round& round, const PhotonMap& map, PhotonEstimator& estimator) {
     find_sources(device, queries, paths, round);
     {
@@ -121,6 +123,9 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
     q.bsdfs = per_slot("query BSDFs", sizeof(QueryBsdfRecord), glossy);
     q.kinds = per_slot("kinds of queries", 4, needed);
     if (needed) {
+        std::vector<std::uint32_t> all(slots);
+        std::iota(all.begin(), all.end(), 0u);
+        q.all = upload<std::uint32_t>(device, "slots of eye paths", all);
         q.chosen = per_slot("eye path flags", 4);
         q.slots = per_slot("querying eye paths", 4);
         q.estimates = per_slot("photon map answers", sizeof(EstimateRecord));
@@ -134,7 +139,7 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
 }
 
 void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
-                    const ActivePaths& paths, const PhotonLookup& lookup) {
+                    const WaitingPaths& paths, const PhotonLookup& lookup) {
     const QuerySharing& sharing = queries.sharing;
     const double least = lookup.untaken == untaken_never ? 0.0 : queries.least_coverage;
     if (!queries.final_gather) {
@@ -152,8 +157,10 @@ void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                       .pixel_sized = true},
                      lookup.map, lookup.estimator);
     }
-    const bool gathers = queries.final_gather || lookup.untaken != untaken_never;
-    if (gathers && !paths.at_first_vertex) {
+    // A path's first estimated vertex leaves no such query. A final gather's goes on without
+    // waiting where it has no caustics.
+    const bool gathers = queries.final_gather || (lookup.untaken != untaken_never && !paths.first);
+    if (gathers) {
         answer_round(device, queries, paths,
                      {.kind = query_kind_gathers, .cell = sharing.cell, .least_coverage = least},
                      lookup.map, lookup.gathers != nullptr ? *lookup.gathers : lookup.estimator);

@@ -16,8 +16,10 @@ struct QuerySharing {
 /// Device memory for the photon map queries of eye paths.
 struct EyeQueries {
     Buffer points, bsdfs;        ///< QueryRecord and QueryBsdfRecord per slot
-    Buffer kinds;                ///< uint per active path: query_kind_* of its query, or 0
-    Buffer chosen, slots;        ///< flags of the active paths, and slots, of the queries that the
+    Buffer kinds;                ///< uint per slot: query_kind_* of its query, or 0; with
+                                 ///< query_then_continues
+    Buffer all;                  ///< the numbers of all slots
+    Buffer chosen, slots;        ///< flags of the waiting paths, and slots, of the queries that the
                                  ///< estimator answers; the others share their estimates
     Buffer estimates, suspended; ///< see PhotonQueries
     Buffer sources;              ///< uint per slot: the slot whose estimate it takes, or no_query
@@ -32,15 +34,15 @@ struct EyeQueries {
 EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slots,
                             const CameraRecord& view);
 
-/// The paths whose queries are to be answered.
-struct ActivePaths {
+/// The paths that wait for the answers of their queries.
+struct WaitingPaths {
     const Buffer& slots;
     const Buffer& counts;  ///< [0]: their number; [counts_of_queries]: room for that of the queries
     std::uint64_t most;    ///< of them
     const Buffer& layers;  ///< LayersRecord per slot, to which estimates are added
     const Buffer& records; ///< PathRecord per slot
     std::uint32_t bounces; ///< most scatterings between the light and the first estimated vertex
-    bool at_first_vertex;  ///< none has been scattered yet
+    bool first;            ///< none has waited before
     const Traversal& traversal;
 };
 inline constexpr std::uint32_t counts_of_queries = 2;
@@ -49,6 +51,6 @@ inline constexpr std::uint32_t counts_of_queries = 2;
 /// adds it to the paths' layers. Paths that seek emission go on where the lookup does not take the
 /// estimate.
 void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
-                    const ActivePaths& paths, const PhotonLookup& lookup);
+                    const WaitingPaths& paths, const PhotonLookup& lookup);
 
 } // namespace argand

@@ -7,6 +7,14 @@
 #include "device/twin.hpp"
 #include "shared/prelude.h"
 
+// The twins of a kernel's module for plain scenes are other functions and structs of the same
+// names.
+#ifdef ARGAND_PLAIN
+#define ARGAND_TWINS plain_twins
+#else
+#define ARGAND_TWINS twins
+#endif
+
 #define THREAD_INDEX thread_index
 // Large arrays that kernels read at random, 16 bytes at a time. GLM's vectors are aligned to 4
 // bytes only, so nvcc would not use such loads by itself.
@@ -99,12 +107,12 @@ FN uint atomicMin(uint& to, uint value) {
 
 // A grid-stride loop, so that the size of a launch need not match a count that only the device
 // knows.
-#define ARGAND_TWIN(name)                                                                          \
-    namespace argand::twins {                                                                      \
+#define ARGAND_TWIN_AS(type, name)                                                                 \
+    namespace argand::ARGAND_TWINS {                                                               \
     __global__ void __launch_bounds__(128) name                                                    \
-        ##_kernel(const __grid_constant__ name##_arguments arguments, std::uint64_t threads,       \
+        ##_kernel(const __grid_constant__ type##_arguments arguments, std::uint64_t threads,       \
                   const std::uint32_t* count) {                                                    \
-        name kernel{arguments};                                                                    \
+        type kernel{arguments};                                                                    \
         const std::uint64_t end = count != nullptr ? *count : threads;                             \
         for (std::uint64_t i = blockIdx.x * std::uint64_t(blockDim.x) + threadIdx.x; i < end;      \
              i += std::uint64_t(gridDim.x) * blockDim.x) {                                         \
@@ -118,19 +126,19 @@ FN uint atomicMin(uint& to, uint value) {
     void cuda_##name(const TwinArguments& arguments, std::uint64_t threads,                        \
                      const std::uint32_t* count, void* stream) {                                   \
         const std::uint64_t groups = (threads + 127) / 128;                                        \
-        twins::name##_kernel<<<static_cast<unsigned>(groups < 65536 ? groups : 65536), 128, 0,     \
-                               static_cast<cudaStream_t>(stream)>>>(                               \
-            twins::arguments_of(arguments), threads, count);                                       \
+        ARGAND_TWINS::name##_kernel<<<static_cast<unsigned>(groups < 65536 ? groups : 65536), 128, \
+                                      0, static_cast<cudaStream_t>(stream)>>>(                     \
+            ARGAND_TWINS::arguments_of(arguments), threads, count);                                \
     }                                                                                              \
     }
 
 #else
 
-#define ARGAND_TWIN(name)                                                                          \
+#define ARGAND_TWIN_AS(type, name)                                                                 \
     namespace argand::kernels {                                                                    \
     RunOnHost twin_##name;                                                                         \
     void twin_##name(const TwinArguments& arguments, std::uint64_t first, std::uint64_t end) {     \
-        twins::name kernel{twins::arguments_of(arguments)};                                        \
+        ARGAND_TWINS::type kernel{ARGAND_TWINS::arguments_of(arguments)};                          \
         for (std::uint64_t i = first; i < end; ++i) {                                              \
             kernel.thread_index = static_cast<uint>(i);                                            \
             kernel.main();                                                                         \
@@ -139,5 +147,7 @@ FN uint atomicMin(uint& to, uint value) {
     }
 
 #endif
+
+#define ARGAND_TWIN(name) ARGAND_TWIN_AS(name, name)
 
 #endif

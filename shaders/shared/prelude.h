@@ -2,8 +2,10 @@
 // plain structs, literals written real(0.1). In C++ and CUDA the code lives in namespace argand
 // (float) or, if ARGAND_REAL_DOUBLE is defined before the first include, in argand::oracle
 // (double): the same text in double precision is the reference for tests. A translation unit uses
-// one of the two, never both. Constants that need more than one rounding are written out, because
-// glslang folds constant expressions in double precision and C++ operation by operation.
+// one of the two, never both. Text for plain scenes (ARGAND_PLAIN) has an inline namespace, so that
+// the linker does not take its functions for those of other units. Constants that need more than
+// one rounding are written out, because glslang folds constant expressions in double precision and
+// C++ operation by operation.
 #ifndef ARGAND_SHARED_PRELUDE_H
 #define ARGAND_SHARED_PRELUDE_H
 
@@ -31,6 +33,13 @@
 #define ARGAND_SHARED_BEGIN                                                                        \
     namespace argand {                                                                             \
     namespace oracle {
+#define ARGAND_SHARED_END                                                                          \
+    }                                                                                              \
+    }
+#elif defined(ARGAND_PLAIN)
+#define ARGAND_SHARED_BEGIN                                                                        \
+    namespace argand {                                                                             \
+    inline namespace plain {
 #define ARGAND_SHARED_END                                                                          \
     }                                                                                              \
     }

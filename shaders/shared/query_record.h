@@ -47,10 +47,13 @@ CONSTANT uint query_steps_mask = 0x3fu;
 // The bits from here up: LOBE_* to estimate (bsdf.h).
 CONSTANT uint query_lobes_shift = 16u;
 
-// What an eye path queries; 0: nothing. Queries of one kind are answered together.
+// What an eye path queries; 0: nothing. Queries of one kind are answered together, and the path
+// waits for the answer.
 CONSTANT uint query_kind_map = 1u;
 CONSTANT uint query_kind_caustics = 2u; // with query_caustics
 CONSTANT uint query_kind_gathers = 3u;  // with query_gathers
+CONSTANT uint query_kind_mask = 3u;
+CONSTANT uint query_then_continues = 4u; // the path goes on after the answer
 
 // Answer of the photon map: radiance towards the eye.
 struct EstimateRecord {

@@ -10,6 +10,11 @@ using Words = std::vector<std::uint32_t>;
 
 class Dispatch : public DeviceTest {
 protected:
+    void SetUp() override {
+        if (!runs(kernels::mark_threads::info)) {
+            GTEST_SKIP() << "mark_threads has no twin";
+        }
+    }
     /// Visits per index, after `run` received a buffer of `n` zeros.
     template <class Run> static Words visits(Device& device, std::size_t n, const Run& run) {
         const Buffer buffer = upload(device, "visits", Words(n, 0));
@@ -114,7 +119,14 @@ TEST_F(Dispatch, IndirectDispatchesMayExceedTheRingOfCounts) {
               }());
 }
 
-class Barriers : public DeviceTest, public testing::WithParamInterface<DeviceSetting> {};
+class Barriers : public DeviceTest, public testing::WithParamInterface<DeviceSetting> {
+protected:
+    void SetUp() override {
+        if (!runs(kernels::add_neighbour::info)) {
+            GTEST_SKIP() << "add_neighbour has no twin";
+        }
+    }
+};
 
 /// Reference for add_neighbour.
 Words with_neighbours(const Words& values) {

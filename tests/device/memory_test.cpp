@@ -53,7 +53,9 @@ TEST_F(Memory, CommandsKeepBuffersAlive) {
         const Buffer from = upload(device, "from", std::vector<std::uint32_t>(10'000, 77));
         device.copy(from, to);
     }
-    EXPECT_GT(device.memory_by_name().at("from").current, 0u);
+    if (device.info().backend == "vulkan") { // the host runs them at once
+        EXPECT_GT(device.memory_by_name().at("from").current, 0u);
+    }
     EXPECT_EQ(download<std::uint32_t>(device, to, 10'000), std::vector<std::uint32_t>(10'000, 77));
     EXPECT_EQ(device.memory_by_name().at("from").current, 0u);
 }

@@ -6,6 +6,11 @@ namespace {
 
 class Stages : public DeviceTest {
 protected:
+    void SetUp() override {
+        if (!runs(kernels::mark_threads::info)) {
+            GTEST_SKIP() << "mark_threads has no twin";
+        }
+    }
     static void work(Device& device, const Buffer& buffer) {
         dispatch(device, kernels::mark_threads{.visits = buffer}, buffer.size() / 4);
     }

@@ -201,14 +201,16 @@ TEST_F(Bidirectional, PassesOfSmallImagesFillADevice) {
 
 TEST_F(Bidirectional, AnInterruptedPassCountsLikeOthers) {
     const Scene scene = load_asset("cornell_point.glb");
-    // More samples than are traced together, so that the pass may end before its last one.
+    // More samples than a processor traces together, so that the pass may end before its last one.
     RenderSettings s = settings(96, 16, "1");
     const RenderResult whole = render(scene, s);
     int calls = 0;
     const RenderResult part =
         argand::render(device(), scene, s, [&](double) { return ++calls < 1; });
     EXPECT_TRUE(part.statistics.interrupted);
-    EXPECT_LT(part.statistics.samples, whole.statistics.samples);
+    if (device().info().lane_serial()) {
+        EXPECT_LT(part.statistics.samples, whole.statistics.samples);
+    }
     expect_same_layers(part, whole, 0.03);
 }
 

@@ -51,5 +51,21 @@ TEST_F(Sharing, LargeCellsBlurButLoseNothing) {
     EXPECT_RELATIVE(mean(layer(large, "indirect")).g, mean(layer(own, "indirect")).g, 0.03);
 }
 
+TEST_F(Sharing, QueriesAtDifferentVerticesAreAnsweredTogether) {
+    const auto runs = [&](const char* stage) {
+        std::uint64_t found = 0;
+        for (const StageTime& time : device().stage_times()) {
+            found += time.name == stage ? time.runs : 0;
+        }
+        return found;
+    };
+    device().reset_stage_times();
+    with_cells(load_asset("cornell_glass.glb"), "photons", RenderSettings().query_cell, 1);
+    // Paths through glass have more than ten vertices, but hardly more than two query the map. Some
+    // paths of a small image are answered before the image's own.
+    EXPECT_GT(runs("trace eye rays"), 20u);
+    EXPECT_LE(runs("gather photons"), 16u);
+}
+
 } // namespace
 } // namespace argand::testing

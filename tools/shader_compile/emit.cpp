@@ -206,6 +206,17 @@ void emit_raster_info(Out out, const Kernel& program) {
     fmt::format_to(out, "    .words = {},\n}};\n\n", program.interface.result_words);
 }
 
+void declare_twin(Out out, const std::string& twin) {
+    fmt::format_to(out, "RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n",
+                   twin);
+}
+
+/// The last members of a KernelInfo or LeanModule.
+void emit_twin_pointers(Out out, const std::string& twin) {
+    fmt::format_to(out, "    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n",
+                   twin);
+}
+
 void emit_lean(Out out, const Kernel& kernel) {
     const std::string& name = kernel.name;
     for (std::size_t i = 0; i < kernel.lean.size(); ++i) {
@@ -219,7 +230,12 @@ void emit_lean(Out out, const Kernel& kernel) {
     if (!kernel.lean.empty()) {
         fmt::format_to(out, "constexpr LeanModule {}_lean[] = {{\n", name);
         for (std::size_t i = 0; i < kernel.lean.size(); ++i) {
-            fmt::format_to(out, "    {{{0}_lean{1}_spirv, {0}_lean{1}_limits}},\n", name, i);
+            fmt::format_to(out, "    {{.spirv = {0}_lean{1}_spirv, .limits = {0}_lean{1}_limits,\n",
+                           name, i);
+            if (&kernel.lean[i] == kernel.plain_twin) {
+                emit_twin_pointers(out, kernel.twin + "_plain");
+            }
+            fmt::format_to(out, "    }},\n");
         }
         fmt::format_to(out, "}};\n");
     }
@@ -230,9 +246,7 @@ void emit_info(Out out, const Kernel& kernel) {
     const std::string& name = kernel.name;
     const bool has_twin = !kernel.twin.empty();
     if (has_twin) {
-        fmt::format_to(out,
-                       "RunOnHost twin_{0};\n#if ARGAND_CUDA\nLaunchOnCuda cuda_{0};\n#endif\n\n",
-                       kernel.twin);
+        declare_twin(out, kernel.twin);
     }
     fmt::format_to(out, "constinit const KernelInfo {0}::info{{\n    .name = \"{0}\",\n", name);
     fmt::format_to(out, "    .stage = \"{}\",\n", has_twin ? kernel.twin : name);
@@ -245,9 +259,7 @@ void emit_info(Out out, const Kernel& kernel) {
                    interface.local_size[1], interface.local_size[2]);
     fmt::format_to(out, "    .uses_subgroups = {},\n", interface.uses_subgroups);
     if (has_twin) {
-        fmt::format_to(out,
-                       "    .host = twin_{0},\n#if ARGAND_CUDA\n    .cuda = cuda_{0},\n#endif\n",
-                       kernel.twin);
+        emit_twin_pointers(out, kernel.twin);
     }
     fmt::format_to(out, "}};\n\n");
 }
@@ -344,8 +356,12 @@ std::string emit_source(const Kernel& kernel) {
     }
     fmt::format_to(out,
                    "{}#include <cstddef>\n#include <utility>\n\nnamespace argand::kernels "
-                   "{{\nnamespace {{\n\n",
+                   "{{\n\n",
                    headers.empty() ? "" : "\n");
+    if (kernel.plain_twin != nullptr) {
+        declare_twin(out, kernel.twin + "_plain");
+    }
+    fmt::format_to(out, "namespace {{\n\n");
     if (interface.push) {
         emit_checks(out, *interface.push);
     }

@@ -10,7 +10,8 @@ struct Lean {
         std::size_t constant; ///< index among the kernel's specialization constants
         std::string bits;     ///< a C++ literal
     };
-    Spirv spirv; ///< final
+    std::string macro; ///< with which it is compiled
+    Spirv spirv;       ///< final
     std::vector<Limit> limits;
 };
 
@@ -23,6 +24,7 @@ struct Kernel {
     std::string twin; ///< the kernel whose body other backends run; empty: none
     std::vector<Lean> lean = {};
     std::optional<Spirv> fragment = {}; ///< the fragment shader of a raster program
+    const Lean* plain_twin = nullptr;   ///< the one of `lean` that has a twin; null: none
 };
 
 /// NAME.hpp: the typed binding.
@@ -42,6 +44,9 @@ std::string emit_twin_header(const Kernel& kernel);
 /// kernel's body, so that the body's functions are members.
 /// body: the header that holds it, as twin_body() returns it.
 std::string emit_twin_source(const Kernel& kernel, const std::string& body);
+
+/// NAME.plain.cu: the same for the kernel's plain_twin, as NAME_plain.
+std::string emit_plain_twin_source(const Kernel& kernel, const std::string& body);
 
 /// The included header that holds the body of the kernel `twin`: shared/kernels/.../TWIN.h, as C++
 /// includes it. Throws Error "file:1: error: ..." if the kernel includes none.

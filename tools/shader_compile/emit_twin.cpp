@@ -1,9 +1,22 @@
 #include "base/error.hpp"
 #include "emit.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 namespace argand::shader_compile {
+
+namespace {
+
+/// Whether the kernel's plain twin lacks this constant: it is false there.
+bool plain_lacks(const Kernel& kernel, std::size_t constant) {
+    return kernel.plain_twin != nullptr &&
+           std::ranges::any_of(kernel.plain_twin->limits, [&](const Lean::Limit& limit) {
+               return limit.constant == constant && limit.bits == "false";
+           });
+}
+
+} // namespace
 
 std::string emit_twin_header(const Kernel& kernel) {
     const Reflection& interface = kernel.interface;
@@ -17,7 +30,8 @@ std::string emit_twin_header(const Kernel& kernel) {
         fmt::format_to(out, "#include \"{}\"\n", header);
     }
     fmt::format_to(
-        out, "\nnamespace argand::twins {{\n\n/// What {} declares.\nstruct {}_arguments {{\n",
+        out,
+        "\nnamespace argand::ARGAND_TWINS {{\n\n/// What {} declares.\nstruct {}_arguments {{\n",
         kernel.path, kernel.name);
     for (const Binding& binding : interface.bindings) {
         fmt::format_to(out, "    {}{}* {};\n", binding.access == Access::read ? "const " : "",
@@ -26,8 +40,16 @@ std::string emit_twin_header(const Kernel& kernel) {
     if (interface.push) {
         fmt::format_to(out, "    {} {};\n", interface.push->name, interface.push_name);
     }
-    for (const Constant& constant : interface.constants) {
-        fmt::format_to(out, "    {} {};\n", constant.type, constant.name);
+    for (std::size_t i = 0; i < interface.constants.size(); ++i) {
+        const Constant& constant = interface.constants[i];
+        if (plain_lacks(kernel, i)) {
+            fmt::format_to(out,
+                           "#ifdef {2}\n    static constexpr {0} {1} = false;\n#else\n"
+                           "    {0} {1};\n#endif\n",
+                           constant.type, constant.name, kernel.plain_twin->macro);
+        } else {
+            fmt::format_to(out, "    {} {};\n", constant.type, constant.name);
+        }
     }
     fmt::format_to(out,
                    "}};\n\ninline {0}_arguments arguments_of(const TwinArguments& from, "
@@ -42,26 +64,45 @@ std::string emit_twin_header(const Kernel& kernel) {
         fmt::format_to(out, "    from.get_push(to.{});\n", interface.push_name);
     }
     for (std::size_t i = 0; i < interface.constants.size(); ++i) {
-        fmt::format_to(out, "    from.get_constant({}, to.{});\n", i, interface.constants[i].name);
+        const std::string get =
+            fmt::format("    from.get_constant({}, to.{});\n", i, interface.constants[i].name);
+        text += plain_lacks(kernel, i)
+                    ? fmt::format("#ifndef {}\n{}#endif\n", kernel.plain_twin->macro, get)
+                    : get;
     }
-    fmt::format_to(out, "    return to;\n}}\n\n}} // namespace argand::twins\n");
+    fmt::format_to(out, "    return to;\n}}\n\n}} // namespace argand::ARGAND_TWINS\n");
     return text;
 }
 
-std::string emit_twin_source(const Kernel& kernel, const std::string& body) {
+namespace {
+
+std::string twin_source(const Kernel& kernel, const std::string& define, const std::string& body,
+                        const std::string& name) {
     return fmt::format("// Written by shader_compile from {1}.\n"
+                       "{2}"
                        "#include \"cuda/kernel.h\"\n"
                        "#include \"kernels/{0}.twin.h\"\n"
                        "\n"
-                       "namespace argand::twins {{\n"
+                       "namespace argand::ARGAND_TWINS {{\n"
                        "struct {0} : {0}_arguments {{\n"
                        "    uint thread_index = 0;\n"
-                       "#include \"{2}\"\n"
+                       "#include \"{3}\"\n"
                        "}};\n"
-                       "}} // namespace argand::twins\n"
+                       "}} // namespace argand::ARGAND_TWINS\n"
                        "\n"
-                       "ARGAND_TWIN({0})\n",
-                       kernel.name, kernel.path, body);
+                       "ARGAND_TWIN_AS({0}, {4})\n",
+                       kernel.name, kernel.path, define, body, name);
+}
+
+} // namespace
+
+std::string emit_twin_source(const Kernel& kernel, const std::string& body) {
+    return twin_source(kernel, "", body, kernel.name);
+}
+
+std::string emit_plain_twin_source(const Kernel& kernel, const std::string& body) {
+    return twin_source(kernel, fmt::format("#define {}\n", kernel.plain_twin->macro), body,
+                       kernel.name + "_plain");
 }
 
 std::string twin_body(const Sources& sources, const std::vector<std::string>& include_directories,

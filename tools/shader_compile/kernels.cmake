@@ -1,5 +1,6 @@
-# argand_add_kernels(target [TWINS directory] file.comp...) compiles each kernel at build time. NAME.comp becomes
-# generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which is compiled into the target.
+# argand_add_kernels(target [TWINS directory [PLAIN_TWINS name...] FILES] file.comp...) compiles each kernel at build time.
+# NAME.comp becomes generated/kernels/NAME.hpp, included as "kernels/NAME.hpp", and NAME.cpp, which is compiled into the
+# target.
 #
 # NAME_bindings.glsl becomes generated/kernels/NAME_bindings.hpp: the buffers that it declares as one struct, which the
 # kernels that include it share.
@@ -10,6 +11,9 @@
 # With TWINS, other backends run the kernels too. FOLDER/NAME.comp then needs a body, shaders/shared/kernels/FOLDER/NAME.h,
 # from which shader_compile writes the twin generated/kernels/NAME.cu and the header NAME.twin.h. A twin that needs more than
 # the body is written by hand, as FOLDER/NAME.cu in the directory TWINS. FOLDER/NAME_texels.comp shares the twin of NAME.comp.
+# The kernels of PLAIN_TWINS have a second twin, NAME.plain.cu, without the code that plain scenes do not need: twins know
+# their specialization constants only when they run.
+#
 # Kernels in the folders parallel and device have a twin only if they have a body: for the others, the other backends use
 # libraries.
 #
@@ -17,10 +21,10 @@
 # generated ones.
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/share_units.cmake)
 function(argand_add_kernels target)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "" TWINS "")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" TWINS "PLAIN_TWINS;FILES")
     set(directory ${CMAKE_BINARY_DIR}/generated/kernels)
     file(MAKE_DIRECTORY ${directory})
-    foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS)
+    foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS ARG_FILES)
         get_filename_component(name ${file} NAME_WE)
         get_property(earlier GLOBAL PROPERTY ARGAND_KERNEL_${name})
         if(earlier)
@@ -57,6 +61,12 @@ function(argand_add_kernels target)
                 list(APPEND options --write-twin)
                 list(APPEND twins ${directory}/${name}.cu)
                 set(twin_files ${directory}/${name}.twin.h ${directory}/${name}.cu)
+                if(name IN_LIST ARG_PLAIN_TWINS)
+                    list(REMOVE_ITEM ARG_PLAIN_TWINS ${name})
+                    list(APPEND options --plain-twin)
+                    list(APPEND twins ${directory}/${name}.plain.cu)
+                    list(APPEND twin_files ${directory}/${name}.plain.cu)
+                endif()
             endif()
         endif()
         # The path as messages show it.
@@ -82,6 +92,9 @@ function(argand_add_kernels target)
         add_custom_target(argand_generated)
     endif()
     add_dependencies(argand_generated ${target}_generated)
+    if(ARG_PLAIN_TWINS)
+        message(FATAL_ERROR "PLAIN_TWINS names ${ARG_PLAIN_TWINS}, for which no twin is written; take it off the list")
+    endif()
     if(ARG_TWINS)
         file(GLOB_RECURSE written CONFIGURE_DEPENDS ${ARG_TWINS}/*.cu)
         list(REMOVE_ITEM written ${twins})

@@ -1,10 +1,11 @@
-// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE [--twin NAME [--write-twin]]
-// KERNEL.comp | NAME.vert
+// shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE
+// [--twin NAME [--write-twin [--plain-twin]]] KERNEL.comp | NAME.vert
 //
 // Compiles a GLSL kernel, or the raster program of NAME.vert and NAME.frag beside it, to SPIR-V and
 // writes its C++ binding: KERNEL.hpp and KERNEL.cpp. --twin names the kernel that other backends
 // run instead; if that is the kernel itself, KERNEL.twin.h declares what its body uses.
-// --write-twin also writes the twin, KERNEL.cu.
+// --write-twin also writes the twin, KERNEL.cu, and --plain-twin that of the kernel's lean module
+// for plain scenes, KERNEL.plain.cu.
 #include "base/error.hpp"
 #include "compile.hpp"
 #include "emit.hpp"
@@ -28,6 +29,7 @@ struct Options {
     std::string depfile;
     std::string twin;
     bool write_twin = false;
+    bool plain_twin = false;
     std::string kernel;
 };
 
@@ -49,15 +51,19 @@ Options parse(const std::vector<std::string>& words) {
             options.twin = words[++i];
         } else if (words[i] == "--write-twin") {
             options.write_twin = true;
+        } else if (words[i] == "--plain-twin") {
+            options.plain_twin = true;
         } else if (words[i].starts_with("-") || !options.kernel.empty()) {
             throw UsageError(fmt::format("shader_compile: unknown argument {}", words[i]));
         } else {
             options.kernel = words[i];
         }
     }
-    if (options.kernel.empty() || options.out.empty() || options.depfile.empty()) {
+    if (options.kernel.empty() || options.out.empty() || options.depfile.empty() ||
+        (options.write_twin && options.twin.empty()) ||
+        (options.plain_twin && !options.write_twin)) {
         throw UsageError("usage: shader_compile -I DIRECTORY... --out DIRECTORY --depfile FILE "
-                         "[--twin NAME [--write-twin]] KERNEL.comp | NAME.vert");
+                         "[--twin NAME [--write-twin [--plain-twin]]] KERNEL.comp | NAME.vert");
     }
     return options;
 }
@@ -106,7 +112,7 @@ Lean compile_with(const std::string& macro, const Options& options, const Kernel
     const Compiled compiled = compile(options.kernel, options.include_directories, macro);
     const std::vector<Constant> constants =
         reflect(compiled, options.include_directories).constants;
-    Lean result;
+    Lean result{.macro = macro};
     std::set<std::uint32_t> fixed;
     for (std::size_t i = 0; i < constants.size(); ++i) {
         const Constant& whole = kernel.interface.constants[i];
@@ -157,6 +163,18 @@ std::vector<Lean> compile_lean(const Options& options, const Compiled& whole,
         }
     }
     return result;
+}
+
+/// The kernel's module for plain scenes. Throws Error if it has none.
+const Lean* plain_module(const Kernel& kernel) {
+    const auto found = std::ranges::find(kernel.lean, lean_macros[0], &Lean::macro);
+    if (found == kernel.lean.end()) {
+        fail("{}:1: error: its module for {} is missing or hardly shorter than the whole kernel; "
+             "take it "
+             "off PLAIN_TWINS",
+             kernel.path, lean_macros[0]);
+    }
+    return &*found;
 }
 
 std::string name_of(const Options& options) {
@@ -230,6 +248,9 @@ void run(const Options& options) {
                   optimise(compiled.spirv, options.kernel), options.twin};
     validate(kernel.spirv, options.kernel);
     kernel.lean = compile_lean(options, compiled, kernel);
+    if (options.plain_twin) {
+        kernel.plain_twin = plain_module(kernel);
+    }
 
     const std::string header = in(options.out, name + ".hpp");
     const std::string source = in(options.out, name + ".cpp");
@@ -244,6 +265,10 @@ void run(const Options& options) {
         if (options.write_twin) {
             outputs.push_back(in(options.out, name + ".cu"));
             write_if_changed(outputs.back(), emit_twin_source(kernel, body));
+        }
+        if (kernel.plain_twin != nullptr) {
+            outputs.push_back(in(options.out, name + ".plain.cu"));
+            write_if_changed(outputs.back(), emit_plain_twin_source(kernel, body));
         }
     }
     write_if_changed(options.depfile, emit_depfile(outputs, absolute_paths(compiled.sources)));

@@ -124,7 +124,9 @@ void CudaDevice::copy(const BufferView& from, const BufferView& to) {
 
 void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& arguments,
                         std::uint64_t threads, const std::uint32_t* count) {
-    if (kernel.cuda == nullptr) {
+    LaunchOnCuda* const run =
+        twin_for(kernel, arguments.constants, &KernelInfo::cuda, &LeanModule::cuda);
+    if (run == nullptr) {
         fail("running kernel {}: it has no twin for backend cuda; please report this", kernel.name);
     }
     if (threads == 0) {
@@ -138,7 +140,7 @@ void CudaDevice::launch(const KernelInfo& kernel, const KernelArguments& argumen
     }
     std::copy(arguments.push.begin(), arguments.push.end(), twin.push);
     std::copy(arguments.constants.begin(), arguments.constants.end(), twin.constants);
-    kernel.cuda(twin, threads, count, stream_);
+    run(twin, threads, count, stream_);
     check(cudaGetLastError(), fmt::format("running kernel {}", kernel.name), info_.name);
 }
 

@@ -90,7 +90,9 @@ void HostDevice::copy(const BufferView& from, const BufferView& to) {
 
 void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& arguments,
                           std::uint64_t threads) {
-    if (kernel.host == nullptr) {
+    RunOnHost* const run =
+        twin_for(kernel, arguments.constants, &KernelInfo::host, &LeanModule::host);
+    if (run == nullptr) {
         fail("running kernel {}: it has no twin for backend cpu; please report this", kernel.name);
     }
     check_threads(kernel, threads);
@@ -99,7 +101,7 @@ void HostDevice::dispatch(const KernelInfo& kernel, const KernelArguments& argum
 #pragma omp parallel for schedule(dynamic) if (chunks > 1)
     for (std::int64_t i = 0; i < chunks; ++i) {
         const std::uint64_t first = static_cast<std::uint64_t>(i) * chunk;
-        kernel.host(twin, first, std::min(first + chunk, threads));
+        run(twin, first, std::min(first + chunk, threads));
     }
 }
 

@@ -21,6 +21,7 @@
 struct Vertex {
     uint index; // of the path among the active ones
     uint slot;
+    uint query; // query_kind_* of what it asks the photon map
     PathRecord path;
     vec3 throughput;
     vec3 direction; // of the ray that hit this vertex
@@ -512,7 +513,7 @@ FN uint material_key(IN(Vertex) v) {
 }
 
 // Writes a query of the photon map for the estimated lobes.
-FN void leave_query(IN(Vertex) v) {
+FN void leave_query(INOUT(Vertex) v) {
     uint kind = query_kind_map;
     uint flags = v.surface.front ? query_front : 0u;
     uint scatterings = batch.bounces; // most scatterings of a photon that counts
@@ -561,19 +562,24 @@ FN void leave_query(IN(Vertex) v) {
             query_bsdf(reflection_parameters(v.material), direction, shading_normal);
     }
     vec3 p = v.surface.position;
-    query_kinds[v.index] = kind;
+    v.query = kind;
+    query_kinds[v.slot] = kind;
     queries[v.slot] = QueryRecord(p.x, p.y, p.z, pack_unit(v.surface.geometric_normal), counts_by.x,
                                   counts_by.y, counts_by.z, flags, reflectance.x, reflectance.y,
                                   reflectance.z, material_key(v));
 }
 
-// Writes the path that continues on rays[v.slot].
+// Writes the path that continues on rays[v.slot], once its query is answered.
 FN void leave_path(IN(Vertex) v, PathRecord path, vec3 throughput) {
     path.throughput_r = throughput.x;
     path.throughput_g = throughput.y;
     path.throughput_b = throughput.z;
     paths[v.slot] = path;
-    alive[v.index] = 1u;
+    if (v.query != 0u) {
+        query_kinds[v.slot] = v.query | query_then_continues;
+    } else {
+        alive[v.index] = 1u;
+    }
 }
 
 // Below this throughput, Russian roulette decides whether a path goes straight on.
@@ -698,6 +704,7 @@ FN void main() {
     Vertex v;
     v.index = i;
     v.slot = active_slots[i];
+    v.query = 0u;
     v.path = paths[v.slot];
     HitRecord hit = hits[v.slot];
     v.direction =
@@ -706,9 +713,6 @@ FN void main() {
     alive[i] = 0u;
     if (direct_light) {
         shadow_rays[v.slot] = no_ray();
-    }
-    if (photon_map) {
-        query_kinds[i] = 0u;
     }
     if (hit.triangle == no_triangle) {
         add_sky(v.slot, v.path, v.direction, v.throughput);

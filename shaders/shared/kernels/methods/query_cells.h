@@ -35,7 +35,7 @@ FN void main() {
     }
     uint slot = active_slots[i];
     uint source = no_query;
-    if (query_kinds[i] == params.query_kind) {
+    if ((query_kinds[slot] & query_kind_mask) == params.query_kind) {
         if (params.cell > real(0.0)) {
             Cell cell = cell_of(slot);
             uint entry = pcg4d(cell.place ^ uvec4(cell.lobes, cell.lobes.x)).x & params.mask;

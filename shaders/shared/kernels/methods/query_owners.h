@@ -6,10 +6,10 @@ FN void main() {
         return;
     }
     chosen[i] = 0u;
-    if (query_kinds[i] != params.query_kind) {
+    uint slot = active_slots[i];
+    if ((query_kinds[slot] & query_kind_mask) != params.query_kind) {
         return;
     }
-    uint slot = active_slots[i];
     uint entry = sources[slot];
     uint owner = entry == no_query ? slot : slot_of_shuffled(owners[entry]);
     sources[slot] = owner;

@@ -1,0 +1,11 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/query_record.h"
+
+layout(set = 0, binding = 0) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 2) buffer QueryKinds { uint query_kinds[]; };
+layout(set = 0, binding = 3) writeonly buffer Alive { uint alive[]; };
+
+#include "shared/kernels/methods/query_ends.h"
