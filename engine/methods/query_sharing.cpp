@@ -157,9 +157,8 @@ void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                       .pixel_sized = true},
                      lookup.map, lookup.estimator);
     }
-    // A path's first estimated vertex leaves no such query. A final gather's goes on without
-    // waiting where it has no caustics.
-    const bool gathers = queries.final_gather || (lookup.untaken != untaken_never && !paths.first);
+    // A path's first estimated vertex leaves no such query.
+    const bool gathers = !paths.first && (queries.final_gather || lookup.untaken != untaken_never);
     if (gathers) {
         answer_round(device, queries, paths,
                      {.kind = query_kind_gathers, .cell = sharing.cell, .least_coverage = least},

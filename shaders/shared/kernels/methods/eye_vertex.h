@@ -526,13 +526,19 @@ FN void leave_query(INOUT(Vertex) v) {
         flags |= query_caustics;
     }
     // Without shadow rays, photons that were not scattered yet count, too.
-    bool wanted = v.estimated != 0u && (scatterings > 0u || !direct_light) &&
-                  (kind != query_kind_caustics || followed_paths);
+    bool wanted = v.estimated != 0u && (scatterings > 0u || !direct_light);
     // If paths share estimates, every path queries; else every few samples do, and their answers
     // count for all.
     bool shares = batch.shares_queries != 0u;
     if (!wanted ||
         !(shares || (v.path.sample_index - batch.first_sample) % batch.query_step == 0u)) {
+        return;
+    }
+    v.query = kind;
+    query_kinds[v.slot] = kind;
+    if (kind == query_kind_caustics && !followed_paths) {
+        // There are none. The path waits nevertheless: which queries share answers must not depend
+        // on what the scene requires.
         return;
     }
     // Lambertian surfaces share irradiance, which their albedo turns into radiance.
@@ -562,8 +568,6 @@ FN void leave_query(INOUT(Vertex) v) {
             query_bsdf(reflection_parameters(v.material), direction, shading_normal);
     }
     vec3 p = v.surface.position;
-    v.query = kind;
-    query_kinds[v.slot] = kind;
     queries[v.slot] = QueryRecord(p.x, p.y, p.z, pack_unit(v.surface.geometric_normal), counts_by.x,
                                   counts_by.y, counts_by.z, flags, reflectance.x, reflectance.y,
                                   reflectance.z, material_key(v));
