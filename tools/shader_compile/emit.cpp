@@ -232,7 +232,7 @@ void emit_lean(Out out, const Kernel& kernel) {
         for (std::size_t i = 0; i < kernel.lean.size(); ++i) {
             fmt::format_to(out, "    {{.spirv = {0}_lean{1}_spirv, .limits = {0}_lean{1}_limits,\n",
                            name, i);
-            if (&kernel.lean[i] == kernel.plain_twin) {
+            if (kernel.lean[i].has_twin) {
                 emit_twin_pointers(out, kernel.twin + "_plain");
             }
             fmt::format_to(out, "    }},\n");
@@ -358,7 +358,7 @@ std::string emit_source(const Kernel& kernel) {
                    "{}#include <cstddef>\n#include <utility>\n\nnamespace argand::kernels "
                    "{{\n\n",
                    headers.empty() ? "" : "\n");
-    if (kernel.plain_twin != nullptr) {
+    if (plain_twin(kernel) != nullptr) {
         declare_twin(out, kernel.twin + "_plain");
     }
     fmt::format_to(out, "namespace {{\n\n");

@@ -13,6 +13,7 @@ struct Lean {
     std::string macro; ///< with which it is compiled
     Spirv spirv;       ///< final
     std::vector<Limit> limits;
+    bool has_twin = false; ///< NAME.plain.cu
 };
 
 /// A kernel, a raster program, or a group of bindings, of which files are generated.
@@ -24,7 +25,6 @@ struct Kernel {
     std::string twin; ///< the kernel whose body other backends run; empty: none
     std::vector<Lean> lean = {};
     std::optional<Spirv> fragment = {}; ///< the fragment shader of a raster program
-    const Lean* plain_twin = nullptr;   ///< the one of `lean` that has a twin; null: none
 };
 
 /// NAME.hpp: the typed binding.
@@ -45,7 +45,10 @@ std::string emit_twin_header(const Kernel& kernel);
 /// body: the header that holds it, as twin_body() returns it.
 std::string emit_twin_source(const Kernel& kernel, const std::string& body);
 
-/// NAME.plain.cu: the same for the kernel's plain_twin, as NAME_plain.
+/// The one of the kernel's lean modules that has a twin; null: none.
+const Lean* plain_twin(const Kernel& kernel);
+
+/// NAME.plain.cu: the same for the kernel's plain_twin(), as NAME_plain.
 std::string emit_plain_twin_source(const Kernel& kernel, const std::string& body);
 
 /// The included header that holds the body of the kernel `twin`: shared/kernels/.../TWIN.h, as C++

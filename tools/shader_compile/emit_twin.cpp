@@ -6,12 +6,16 @@
 
 namespace argand::shader_compile {
 
+const Lean* plain_twin(const Kernel& kernel) {
+    const auto found = std::ranges::find(kernel.lean, true, &Lean::has_twin);
+    return found == kernel.lean.end() ? nullptr : &*found;
+}
+
 namespace {
 
-/// Whether the kernel's plain twin lacks this constant: it is false there.
-bool plain_lacks(const Kernel& kernel, std::size_t constant) {
-    return kernel.plain_twin != nullptr &&
-           std::ranges::any_of(kernel.plain_twin->limits, [&](const Lean::Limit& limit) {
+/// Whether a twin of this module lacks this constant: it is false there.
+bool lacks(const Lean* module, std::size_t constant) {
+    return module != nullptr && std::ranges::any_of(module->limits, [&](const Lean::Limit& limit) {
                return limit.constant == constant && limit.bits == "false";
            });
 }
@@ -20,6 +24,7 @@ bool plain_lacks(const Kernel& kernel, std::size_t constant) {
 
 std::string emit_twin_header(const Kernel& kernel) {
     const Reflection& interface = kernel.interface;
+    const Lean* plain = plain_twin(kernel);
     std::string text;
     const auto out = std::back_inserter(text);
     fmt::format_to(
@@ -42,11 +47,11 @@ std::string emit_twin_header(const Kernel& kernel) {
     }
     for (std::size_t i = 0; i < interface.constants.size(); ++i) {
         const Constant& constant = interface.constants[i];
-        if (plain_lacks(kernel, i)) {
+        if (lacks(plain, i)) {
             fmt::format_to(out,
                            "#ifdef {2}\n    static constexpr {0} {1} = false;\n#else\n"
                            "    {0} {1};\n#endif\n",
-                           constant.type, constant.name, kernel.plain_twin->macro);
+                           constant.type, constant.name, plain->macro);
         } else {
             fmt::format_to(out, "    {} {};\n", constant.type, constant.name);
         }
@@ -66,9 +71,7 @@ std::string emit_twin_header(const Kernel& kernel) {
     for (std::size_t i = 0; i < interface.constants.size(); ++i) {
         const std::string get =
             fmt::format("    from.get_constant({}, to.{});\n", i, interface.constants[i].name);
-        text += plain_lacks(kernel, i)
-                    ? fmt::format("#ifndef {}\n{}#endif\n", kernel.plain_twin->macro, get)
-                    : get;
+        text += lacks(plain, i) ? fmt::format("#ifndef {}\n{}#endif\n", plain->macro, get) : get;
     }
     fmt::format_to(out, "    return to;\n}}\n\n}} // namespace argand::ARGAND_TWINS\n");
     return text;
@@ -101,7 +104,7 @@ std::string emit_twin_source(const Kernel& kernel, const std::string& body) {
 }
 
 std::string emit_plain_twin_source(const Kernel& kernel, const std::string& body) {
-    return twin_source(kernel, fmt::format("#define {}\n", kernel.plain_twin->macro), body,
+    return twin_source(kernel, fmt::format("#define {}\n", plain_twin(kernel)->macro), body,
                        kernel.name + "_plain");
 }
 

@@ -165,16 +165,15 @@ std::vector<Lean> compile_lean(const Options& options, const Compiled& whole,
     return result;
 }
 
-/// The kernel's module for plain scenes. Throws Error if it has none.
-const Lean* plain_module(const Kernel& kernel) {
+/// Gives the kernel's module for plain scenes a twin. Throws Error if it has no such module.
+void add_plain_twin(Kernel& kernel) {
     const auto found = std::ranges::find(kernel.lean, lean_macros[0], &Lean::macro);
     if (found == kernel.lean.end()) {
         fail("{}:1: error: its module for {} is missing or hardly shorter than the whole kernel; "
-             "take it "
-             "off PLAIN_TWINS",
+             "take it off PLAIN_TWINS",
              kernel.path, lean_macros[0]);
     }
-    return &*found;
+    found->has_twin = true;
 }
 
 std::string name_of(const Options& options) {
@@ -249,7 +248,7 @@ void run(const Options& options) {
     validate(kernel.spirv, options.kernel);
     kernel.lean = compile_lean(options, compiled, kernel);
     if (options.plain_twin) {
-        kernel.plain_twin = plain_module(kernel);
+        add_plain_twin(kernel);
     }
 
     const std::string header = in(options.out, name + ".hpp");
@@ -266,7 +265,7 @@ void run(const Options& options) {
             outputs.push_back(in(options.out, name + ".cu"));
             write_if_changed(outputs.back(), emit_twin_source(kernel, body));
         }
-        if (kernel.plain_twin != nullptr) {
+        if (options.plain_twin) {
             outputs.push_back(in(options.out, name + ".plain.cu"));
             write_if_changed(outputs.back(), emit_plain_twin_source(kernel, body));
         }
