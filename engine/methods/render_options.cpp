@@ -267,8 +267,8 @@ std::vector<Option> progressive_options() {
         [](RenderSettings & s) -> auto& { return s.progressive.first_radius; }, 1e-18, 1e18);
     Option exponent = member_option(
         "radius-exponent",
-        "a of the progressive radius r1 n^(-a) of the n-th pass, between 0 and 1/2: larger ones "
-        "lower the bias faster, and the noise more slowly",
+        "a of the progressive radius r1 (n / n1)^(-a), n photons so far and n1 in the first pass, "
+        "between 0 and 1/2: larger ones lower the bias faster, and the noise more slowly",
         [](RenderSettings & s) -> auto& { return s.progressive.exponent; }, 1e-6, 0.499999);
     return {progressive, passes, first_radius, exponent};
 }

@@ -13,8 +13,9 @@ using ::testing::HasSubstr;
 
 class Checkpoints : public ArgandTest {
 protected:
-    static std::string render(const std::string& options) {
-        return "render '" + asset("cornell_glass.glb") + "' --size 12x12 --spp 4 -q " + options;
+    static std::string render(const std::string& options, const std::string& quiet = "-q ") {
+        return "render '" + asset("cornell_glass.glb") + "' --size 12x12 --spp 4 " + quiet +
+               options;
     }
     /// Eight passes.
     static constexpr const char* long_render = "--method photons --photons 2000000 ";
@@ -39,7 +40,7 @@ protected:
                         "2>error & "
                         "render=$!; while kill -0 $render && ! test -e {}; do sleep 0.05; done; "
                         "kill -TERM $render; wait $render; echo $? >status; }} >/dev/null 2>&1",
-                        file("."), on_host, ARGAND_EXECUTABLE, render(options), name);
+                        file("."), on_host, ARGAND_EXECUTABLE, render(options, ""), name);
         EXPECT_NE(std::system(command.c_str()), -1);
         return read_text(file("status"));
     }
@@ -49,6 +50,7 @@ protected:
         ASSERT_EQ(status_if_interrupted_at("c", options + "-o part.exr --checkpoint c --every 0"),
                   "0\n")
             << read_text(file("error"));
+        EXPECT_THAT(read_text(file("error")), HasSubstr("--resume c goes on with it"));
         EXPECT_NE(pixels("whole.exr"), pixels("part.exr"));
         ASSERT_EQ(run(options + "-o resumed.exr --resume c").exit_code, 0);
         EXPECT_EQ(pixels("whole.exr"), pixels("resumed.exr"));

@@ -259,7 +259,7 @@ TEST_F(Commands, InspectSaysWhatWouldBeDone) {
     EXPECT_THAT(maps.out, HasSubstr("  cube maps: the method; 8 bytes per texel"));
     EXPECT_THAT(text.out, ::testing::Not(HasSubstr("\nwidths ")));
     EXPECT_THAT(text.out, HasSubstr("\nqueries     find photons through a tree; with --query "
-                                    "simultaneous all together, in up to 256 MiB\n"));
+                                    "simultaneous all together, with up to 256 MiB for photons\n"));
     const Outcome falling =
         argand("inspect '" + asset("cornell_glass.glb") + "' --method progressive");
     EXPECT_THAT(falling.out, HasSubstr("\nwidths      fall from pass to pass, as n^-0.25 "));

@@ -99,7 +99,7 @@ std::string plan_text(const nlohmann::ordered_json& plan, bool is_default) {
     if (plan.contains("frontier_memory")) {
         fmt::format_to(std::back_inserter(text),
                        "{:<12}find photons through a tree; with --query simultaneous all together, "
-                       "in up to {} MiB\n",
+                       "with up to {} MiB for photons\n",
                        "queries", plan["frontier_memory"].get<std::uint64_t>() >> 20);
     }
     std::vector<std::string> names;

@@ -169,6 +169,9 @@ RenderResult render_and_save(RenderJob& job, const OnProgress& on_progress, Watc
             return plan;
         });
     result.statistics.interrupted = stopped;
+    if (stopped && can_save) {
+        notes.push_back(fmt::format("--resume {} goes on with it", options.checkpoint));
+    }
     return result;
 }
 
