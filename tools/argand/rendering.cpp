@@ -88,6 +88,29 @@ private:
     std::optional<RunningError> error_;
 };
 
+/// Begins the image of a job, or goes on with a saved one.
+void begin_or_resume(RenderJob& job, const CheckpointKey& key, std::vector<std::string>& notes) {
+    const RenderOptions& options = job.options;
+    Session& session = *job.session;
+    if (options.resume.empty()) {
+        session.begin_frame(job.settings.seed);
+        return;
+    }
+    const LoadedCheckpoint loaded = load_checkpoint(options.resume, key);
+    if (!options.checkpoint.empty()) {
+        check_checkpoints_replaced(options.checkpoint, key);
+    }
+    session.resume(loaded.state, job.settings.seed);
+    if (loaded.note) {
+        notes.push_back(*loaded.note);
+    }
+    if (session.share(0) > 1) {
+        notes.push_back(fmt::format("'{}' holds {} passes, more than --passes asks for; the "
+                                    "picture has all of them",
+                                    options.resume, session.passes()));
+    }
+}
+
 /// Renders an image, or the rest of one, and saves checkpoints and pictures on the way. An
 /// interrupted render ends with a whole pass, which is saved.
 RenderResult render_and_save(RenderJob& job, const OnProgress& on_progress, Watched& watched,
@@ -96,23 +119,7 @@ RenderResult render_and_save(RenderJob& job, const OnProgress& on_progress, Watc
     Session& session = *job.session;
     const MethodInfo& method = options.methods.at(job.settings.method);
     const CheckpointKey key = checkpoint_key(job.scene, job.settings, method, job.device->info());
-    if (options.resume.empty()) {
-        session.begin_frame(job.settings.seed);
-    } else {
-        const LoadedCheckpoint loaded = load_checkpoint(options.resume, key);
-        if (!options.checkpoint.empty()) {
-            check_checkpoints_replaced(options.checkpoint, key);
-        }
-        session.resume(loaded.state, job.settings.seed);
-        if (loaded.note) {
-            notes.push_back(*loaded.note);
-        }
-        if (session.share(0) > 1) {
-            notes.push_back(fmt::format("'{}' holds {} passes, more than --passes asks for; the "
-                                        "picture has all of them",
-                                        options.resume, session.passes()));
-        }
-    }
+    begin_or_resume(job, key, notes);
     bool can_save = !options.checkpoint.empty();
     bool can_show = is_progressive(method, job.settings); // such a render may have no end
     const auto save = [&] {
