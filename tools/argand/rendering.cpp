@@ -121,10 +121,12 @@ RenderResult render_and_save(RenderJob& job, const OnProgress& on_progress, Watc
     const CheckpointKey key = checkpoint_key(job.scene, job.settings, method, job.device->info());
     begin_or_resume(job, key, notes);
     bool can_save = !options.checkpoint.empty();
+    bool has_saved = false;
     bool can_show = is_progressive(method, job.settings); // such a render may have no end
     const auto save = [&] {
         try {
             save_checkpoint(options.checkpoint, key, session.save());
+            has_saved = true;
         } catch (const DeviceFault&) {
             throw;
         } catch (const Error& error) { // such as a full disk: the picture is worth more
@@ -176,7 +178,7 @@ RenderResult render_and_save(RenderJob& job, const OnProgress& on_progress, Watc
             return plan;
         });
     result.statistics.interrupted = stopped;
-    if (stopped && can_save) {
+    if (stopped && has_saved) {
         notes.push_back(fmt::format("--resume {} goes on with it", options.checkpoint));
     }
     return result;
