@@ -65,13 +65,14 @@ def digest(*files):
     return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
 
 
-# Light paths find the caustics of these scenes sooner than eye paths do; see docs/results/bidirectional.md.
-WITH_CAUSTICS = {"bulb", "cornell_glass", "cornell_mirror", "glass_marble", "gloss_only", "inside_glass", "marble_box"}
+# Light paths find the caustics or the many lamps of these scenes sooner than eye paths do; see docs/results/bidirectional.md.
+BY_LIGHT_PATHS = {"bulb", "cornell_glass", "cornell_mirror", "glass_marble", "gloss_only", "inside_glass", "marble_box",
+                  "small_emitters"}
 
 
 def reference_method(scene):
     """A method without bias, for the references of a scene."""
-    return "bidirectional" if scene.stem in WITH_CAUSTICS else "path"
+    return "bidirectional" if scene.stem in BY_LIGHT_PATHS else "path"
 
 
 def reference_files(argand, scene, folder, size, samples, seeds, *options):
