@@ -19,8 +19,8 @@ protected:
     /// Expects the mean of the indirect light of `photons`, and its picture, within these bounds.
     void expect_indirect_of_photons(const std::string& asset, double mean_tolerance, double error) {
         const Scene scene = load_asset(asset);
-        const RenderResult found = render(scene, cube_settings());
-        RenderSettings settings = cube_settings();
+        const RenderResult found = render(scene, cube_settings(32));
+        RenderSettings settings = cube_settings(32);
         settings.method = "photons";
         const RenderResult expected = render(scene, settings);
         EXPECT_TRUE(same_bits(layer(found, "direct"), layer(expected, "direct")));
