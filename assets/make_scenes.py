@@ -341,11 +341,11 @@ def courtyard():
     return scene
 
 
-def room(strength=20, paint=lambertian):
+def room(strength=20, paint=lambertian, low=ROOM[0]):
     """A closed room of 4 × 4 × 2.5 m with a table and a lamp under the ceiling (unless its strength is 0), seen from a
-    corner."""
+    corner. It is larger with another low end."""
     scene = Scene()
-    scene.add("room", box(*ROOM).inside_out(), paint(WHITE))
+    scene.add("room", box(low, ROOM[1]).inside_out(), paint(WHITE))
     scene.add("table", box((-0.5, -SUNK, -0.8), (0.6, 0.7, 0.2)), paint(WOOD))
     if strength:
         scene.add("lamp", ceiling(-0.3, 0.3, -0.3, 0.3, 2.49), emitter(scaled((1, 0.9, 0.75), strength)))
@@ -378,6 +378,16 @@ def forty_rooms():
     for i in range(1, 40):
         scene.nodes += [{**node, "name": f"{node['name']} {i}", "translation": [5 * (i % 8), 0, 5 * (i // 8)]}
                         for node in furnished]
+    return scene
+
+
+def two_rooms():
+    """The closed room, one wall of which hides a room with a lamp 100 times as strong. Floor, ceiling and two walls go on
+    behind it."""
+    (left, bottom, back), (_, top, front) = ROOM
+    scene = room(low=(left - 4.1, bottom, back))
+    scene.add("wall", box((left - 0.1, bottom - SUNK, back - SUNK), (left, top + SUNK, front + SUNK)), lambertian(WHITE))
+    scene.add("bright lamp", ceiling(left - 2.4, left - 1.8, -0.3, 0.3, 2.49), emitter(scaled((1, 0.9, 0.75), 2000)))
     return scene
 
 
@@ -625,7 +635,7 @@ def dynamic_camera():
 
 BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, drink, cornell_mirror, ring, furnace, glossy,
           varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground,
-          forty_rooms, window_room, blind, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
+          forty_rooms, two_rooms, window_room, blind, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
           shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,
           dynamic_block, dynamic_occluder, dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)

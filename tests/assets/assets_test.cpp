@@ -50,6 +50,7 @@ const std::vector<Expected> scenes = {
     {"closed_room.glb", 26, 3, 1, 0},
     {"sunlit_ground.glb", 40, 5, 1, 1},
     {"forty_rooms.glb", 1040, 3, 1, 0},
+    {"two_rooms.glb", 40, 5, 2, 0},
     {"window_room.glb", 58, 5, 0, 1},
     {"blind.glb", 756, 7, 1, 1},
     {"glass_marble.glb", 2906, 4, 1, 0},
