@@ -6,6 +6,7 @@
 #include "kernels/query_ends.hpp"
 #include "kernels/shadow_add.hpp"
 #include "methods/lens.hpp"
+#include "methods/wall_finder.hpp"
 #include "parallel/compact.hpp"
 #include "shared/alpha.h"
 #include "shared/geometry_records.h"
@@ -207,6 +208,11 @@ void end_waiting(Device& device, EyeWorkspace& w, std::uint64_t slots) {
     advance(device, w, Count(w.counts, 0, slots));
 }
 
+WallFinder wall_finder(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                       PhotonEstimator& estimator) {
+    return {device, scene, estimator, w.traversal, w.shadow_rays, w.occluded};
+}
+
 /// Traces the paths of a batch to their end. All paths that wait at some vertex have their queries
 /// answered together: few dispatches of many queries keep a GPU busy, and more of them share an
 /// answer.
@@ -221,6 +227,11 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         return;
     }
     device.fill(w.queries.kinds, 0);
+    PhotonEstimator& gathers = lookup->gathers != nullptr ? *lookup->gathers : lookup->estimator;
+    WallFinder walled = wall_finder(device, scene, w, lookup->estimator);
+    WallFinder walled_gathers = wall_finder(device, scene, w, gathers);
+    PhotonLookup walled_lookup{lookup->map, walled, &walled_gathers, lookup->untaken};
+    const bool takes_all = lookup->untaken == untaken_never;
     for (bool first = true;; first = false) {
         trace_until_queries(device, scene, w, batch, true, found);
         if (!find_waiting(device, w, slots)) {
@@ -235,7 +246,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                         .bounces = batch.bounces,
                         .first = first,
                         .traversal = w.traversal},
-                       *lookup);
+                       takes_all ? *lookup : walled_lookup);
         end_waiting(device, w, slots);
         if (download_word(device, w.counts) == 0) {
             return;
@@ -508,8 +519,8 @@ std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspa
     const double cell = std::exchange(w.queries.sharing.cell, 0.0);
     const bool careful = std::exchange(w.traversal.careful, true);
     const bool gathers = w.queries.final_gather && lookup.gathers != nullptr;
-    CoverageProbe probe(device, batch.pixels, settings.least_coverage,
-                        gathers ? *lookup.gathers : lookup.estimator);
+    WallFinder walled = wall_finder(device, scene, w, gathers ? *lookup.gathers : lookup.estimator);
+    CoverageProbe probe(device, batch.pixels, settings.least_coverage, walled);
     const PhotonLookup probed{.map = lookup.map, .estimator = probe};
     trace_paths(device, scene, w, small_image, batch, &probed);
     w.queries.sharing.cell = cell;

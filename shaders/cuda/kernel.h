@@ -84,6 +84,7 @@ FN uint atomicMin(uint& to, uint value) {
 #define HitRecord(...) HitRecord{__VA_ARGS__}
 #define LayersRecord(...) LayersRecord{__VA_ARGS__}
 #define LeafSums(...) LeafSums{__VA_ARGS__}
+#define Moments(...) Moments{__VA_ARGS__}
 #define NearestRecord(...) NearestRecord{__VA_ARGS__}
 #define PathRecord(...) PathRecord{__VA_ARGS__}
 #define PathVertex(...) PathVertex{__VA_ARGS__}

@@ -52,6 +52,7 @@ struct NearestRecord {
     lane4 indirect, indirect_compensation, caustic, caustic_compensation;
     lane4 indirect_moment, indirect_moment_compensation, caustic_moment,
         caustic_moment_compensation;
+    lane4 moments; // offset and square of Moments, of equal weights
 };
 
 ARGAND_SHARED_END

@@ -74,11 +74,19 @@ CONSTANT real flat_tolerance = real(0.002);
 // Error of the height of a point of a plane over that plane, relative to the largest coordinate:
 // some units of single precision, as hits have.
 CONSTANT real position_rounding = real(9.5e-7);
-// Square of the most that a unit chord then rises over the tangent plane: the sine of half the
-// angle between the normals, at most 60°, and of the tolerance.
-CONSTANT real steepest_chord = real(0.302);
-// Photons whose normal is at an angle with a cosine below this belong to another surface.
-CONSTANT real same_surface_cosine = real(0.5);
+// Photons whose normal is at an angle with a cosine below this belong to another surface: 32°. With
+// 60°, estimates on columns and mouldings thinner than the disc mix lit and shaded sides.
+CONSTANT real same_surface_cosine = real(0.85);
+// Square of the most that a unit chord then rises over the tangent plane: the sine of half that
+// angle, and half the tolerance.
+CONSTANT real steepest_chord = real(0.105);
+
+// A ray looks for a wall between a query and the centroid of its photons' flux if the square of
+// that offset is above this share of the mean of the squared offsets. Light that grows linearly
+// over a disc, from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one.
+CONSTANT real most_one_sided = real(0.1875);
+// Height of that ray over the query's plane, over its length. Smooth surfaces curve less.
+CONSTANT real wall_ray_height = real(0.1);
 
 // The logarithm to base 2, rounded down, of the density of aimed photons over that without aiming;
 // 0 where it is below 2.

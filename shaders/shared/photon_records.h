@@ -150,8 +150,9 @@ struct GatherRecord {
     uint node;
     float32 caustic_r, caustic_g, caustic_b;
     float32 coverage;
-    float32 indirect_compensation_r, indirect_compensation_g, indirect_compensation_b, pad0;
-    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, pad1;
+    float32 indirect_compensation_r, indirect_compensation_g, indirect_compensation_b, square;
+    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, pad0;
+    float32 moment_x, moment_y, moment_z, pad1; // see Moments
 };
 
 // Slots that one invocation counts (photon_tally).

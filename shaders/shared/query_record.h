@@ -59,7 +59,16 @@ CONSTANT uint query_then_continues = 4u; // the path goes on after the answer
 struct EstimateRecord {
     float32 indirect_r, indirect_g, indirect_b;
     float32 coverage; // share of the disc that lies on surfaces; 1 where it is not known
-    float32 caustic_r, caustic_g, caustic_b, pad1;
+    float32 caustic_r, caustic_g, caustic_b;
+    // To the centroid of the indirect flux, where a wall may hide that; else 0. See one_sided.h.
+    float32 offset_x, offset_y, offset_z;
+};
+
+// Rays from queries to the centroids of their photons' flux.
+struct WallParams {
+    uint count_index; // index of the number of queries
+    float32 error;    // bound of the rounding errors of positions
+    uint pad0, pad1;
 };
 
 // How nearby queries share an answer (query_cells).

@@ -172,21 +172,59 @@ TEST_F(GatherPhotons, KeepsFlatSurfacesFarFromTheOrigin) {
     EXPECT_RELATIVE(sum.indirect.g, flux * 2 / double(pi) * albedo / double(pi), 0.001);
 }
 
-// On a sphere of half the disc's radius photons count up to where its normal turns away.
+// On a sphere of half the disc's radius photons count as far as its normal has turned by 32°.
 TEST_F(GatherPhotons, KeepsCurvedSurfaces) {
     const float radius = 0.5f, curvature = 4;
     std::vector<PhotonRecord> photons;
-    for (const float angle : {0.1f, 0.5f, 1.0f}) {
+    for (const float angle : {0.1f, 0.3f, 0.54f, 0.58f, 1.0f}) {
         const glm::vec3 normal(std::sin(angle), std::cos(angle), 0);
         photons.push_back(photon((normal - glm::vec3(0, 1, 0)) / curvature, false, normal));
     }
     const Gathered sum = gather(photons, {Query{}}, radius, gather_budget)[0];
     double flux = 0;
-    for (const PhotonRecord& p : photons) {
+    for (const PhotonRecord& p : std::span(photons).first(3)) {
         flux += p.flux_r * (1 - p.x * p.x / (radius * radius));
     }
     EXPECT_RELATIVE(sum.indirect.r, flux * 2 / (double(pi) * radius * radius) * albedo / double(pi),
                     1e-4);
+}
+
+// Where light comes from one side, an estimate tells its centroid: of none, of one photon, and of a
+// floor that is bright behind a line, as behind a wall.
+TEST_F(GatherPhotons, TellTheCentroidOfLightFromOneSide) {
+    const float radius = 0.5f;
+    const auto offset = [&](const std::vector<PhotonRecord>& photons) {
+        return gather(photons, {Query{}}, radius, gather_budget)[0].offset;
+    };
+    EXPECT_EQ(offset({}), glm::dvec3(0));
+    EXPECT_EQ(offset({photon({0, 0, 0})}), glm::dvec3(0));
+    const glm::dvec3 single = offset({photon({0.25f, 0, -0.125f})});
+    EXPECT_RELATIVE(single.x, 0.25, 1e-6);
+    EXPECT_RELATIVE(single.z, -0.125, 1e-6);
+    for (const double line : {-0.3, 0.0, 0.3}) {
+        for (const double ratio : {1.0, 3.0, 100.0}) {
+            std::vector<PhotonRecord> photons;
+            glm::dvec3 sum(0);
+            double weights = 0, squares = 0;
+            for (int i = 0; i < 20'000; ++i) {
+                PhotonRecord p = photon({uniform(-0.6f, 0.6f), 0, uniform(-0.6f, 0.6f)});
+                p.flux_r = p.flux_g = p.flux_b = p.x > line ? static_cast<float>(ratio) : 1.0f;
+                photons.push_back(p);
+                const double d2 = double(p.x) * p.x + double(p.z) * p.z;
+                const double weight = p.flux_r * std::max(0.0, 1 - d2 / (radius * radius));
+                sum += weight * glm::dvec3(p.x, 0, p.z);
+                weights += weight;
+                squares += weight * d2;
+            }
+            SCOPED_TRACE(::testing::Message() << line << ", " << ratio);
+            const glm::dvec3 found = offset(photons), centroid = sum / weights;
+            const bool one_sided =
+                glm::dot(centroid, centroid) > double(most_one_sided) * squares / weights;
+            EXPECT_EQ(one_sided, ratio > 10 && line >= 0);
+            EXPECT_NEAR(found.x, one_sided ? centroid.x : 0, 1e-5);
+            EXPECT_NEAR(found.z, one_sided ? centroid.z : 0, 1e-5);
+        }
+    }
 }
 
 TEST_F(GatherPhotons, FewPhotons) {

@@ -327,7 +327,7 @@ TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
     };
     const std::vector<Splat> reach{circle({0.1f, 0, 0}), circle({0.1f, 0.9f * above, 0}),
                                    circle({0.1f, -0.9f * above, 0}),
-                                   circle({0, 0, 0}, glm::normalize(glm::vec3(1, 0.9f, 0)))};
+                                   circle({0, 0, 0}, glm::normalize(glm::vec3(1, 1.8f, 0)))};
     const std::vector<Splat> others{
         circle({0.31f, 0, 0}),         circle({0.1f, 1.1f * above, 0}),
         circle({0, 0, 0}, {0, -1, 0}), circle({0.01f, -5e-6f, 0}, {0, -1, 0}),

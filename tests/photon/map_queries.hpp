@@ -21,6 +21,7 @@ struct Query {
 /// The estimate at a query.
 struct Gathered {
     glm::dvec3 indirect{0}, caustic{0};
+    glm::dvec3 offset{0}; ///< to the flux's centroid, where light comes from one side
     bool operator==(const Gathered&) const = default;
 };
 
@@ -96,8 +97,9 @@ inline std::vector<Gathered> answers(Device& device, PhotonEstimator& estimator,
     std::vector<Gathered> result;
     for (const EstimateRecord& e :
          download<EstimateRecord>(device, on_device.estimates, queries.size())) {
-        result.push_back(
-            {{e.indirect_r, e.indirect_g, e.indirect_b}, {e.caustic_r, e.caustic_g, e.caustic_b}});
+        result.push_back({{e.indirect_r, e.indirect_g, e.indirect_b},
+                          {e.caustic_r, e.caustic_g, e.caustic_b},
+                          {e.offset_x, e.offset_y, e.offset_z}});
     }
     return result;
 }

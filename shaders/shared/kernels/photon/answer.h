@@ -12,8 +12,8 @@ FN real known_coverage(IN(vec3) p, real coverage) { return is_corrected(p) ? cov
 
 FN real answer_scale(real coverage) { return real(1.0) / max(coverage, least_divisor); }
 
-// coverage: known_coverage() of the query's disc.
-FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic, real coverage) {
+// coverage: known_coverage() of the query's disc; offset: one_sided_offset(), or 0.
+FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic, real coverage, vec3 offset) {
     estimates[slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, coverage, caustic.x,
-                                     caustic.y, caustic.z, real(0.0));
+                                     caustic.y, caustic.z, offset.x, offset.y, offset.z);
 }

@@ -49,7 +49,9 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
         } else if (is_caustic(place)) {
             leaf.caustic += scattered(q, carried) * disc_weight(d2 * b.inverse_caustic_r2);
         } else {
-            leaf.indirect += scattered(q, carried) * disc_weight(d2 * b.inverse_r2);
+            vec3 flux = scattered(q, carried) * disc_weight(d2 * b.inverse_r2);
+            leaf.indirect += flux;
+            add_flux(leaf.moments, flux, d, d2);
         }
     }
 }
@@ -61,6 +63,7 @@ FN void add_leaf(IN(Bandwidth) b, IN(LeafSums) leaf, INOUT(Query) q) {
         add(q.caustic, leaf.caustic * (kernel_scale * b.inverse_caustic_r2));
     }
     q.coverage += leaf.area * (kernel_scale * b.inverse_r2);
+    add_moments(q.moments, leaf.moments, kernel_scale * b.inverse_r2);
 }
 
 // Area samples tell the coverage of the larger disc only.

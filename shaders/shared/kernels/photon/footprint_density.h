@@ -34,7 +34,9 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
             } else if (is_caustic(place)) {
                 leaf.caustic += scattered(q, carried) * weight;
             } else {
-                leaf.indirect += scattered(q, carried) * weight;
+                vec3 flux = scattered(q, carried) * weight;
+                leaf.indirect += flux;
+                add_flux(leaf.moments, flux, -offset, dot3(offset, offset));
             }
         }
     }
@@ -45,6 +47,7 @@ FN void add_leaf(IN(Bandwidth), IN(LeafSums) leaf, INOUT(Query) q) {
     if (caustics) {
         add(q.caustic, leaf.caustic);
     }
+    add_moments(q.moments, leaf.moments, real(1.0));
 }
 
 // Area samples have the footprints of the diffusely scattered photons around them, and tell nothing

@@ -1,4 +1,6 @@
 // Turns the sums of queries into their answers.
+#include "shared/kernels/photon/one_sided.h"
+
 #include "shared/kernels/photon/answer.h"
 
 FN void main() {
@@ -12,6 +14,8 @@ FN void main() {
     real coverage = known_coverage(p, g.coverage);
     real scale = answer_scale(coverage);
     real caustic_scale = params.caustic_correction != 0u ? scale : real(1.0);
-    store_estimate(slot, scale * vec3(g.indirect_r, g.indirect_g, g.indirect_b),
-                   caustic_scale * vec3(g.caustic_r, g.caustic_g, g.caustic_b), coverage);
+    vec3 indirect = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
+    store_estimate(slot, scale * indirect,
+                   caustic_scale * vec3(g.caustic_r, g.caustic_g, g.caustic_b), coverage,
+                   one_sided_offset(moments_of(g), indirect));
 }

@@ -17,7 +17,7 @@ FN void main() {
     for (uint j = node.first + params.first_photon; j < end;) {
         // As many as in a leaf of the map's tree are summed up before they are added.
         uint block_end = min(j + 16u, end);
-        LeafSums leaf = LeafSums(vec3(real(0.0)), vec3(real(0.0)), real(0.0));
+        LeafSums leaf = no_leaf_sums();
         for (; j < block_end; ++j) {
             uvec4 photon = REFERENCES(j);
             if (may_reach(bandwidth, bits_float(uvec3(photon)) - q.p)) {

@@ -13,6 +13,6 @@ FN void main() {
     if (params.first == 0u) {
         real zero = real(0.0);
         gathers[slot] = GatherRecord(zero, zero, zero, 0u, zero, zero, zero, zero, zero, zero, zero,
-                                     zero, zero, zero, zero, zero);
+                                     zero, zero, zero, zero, zero, zero, zero, zero, zero);
     }
 }

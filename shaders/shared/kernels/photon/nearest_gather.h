@@ -12,9 +12,10 @@
 //   which the nearest are selected.
 // Epanechnikov's kernel is linear in the squared distance, so the sums of flux and of flux times
 // squared distance are enough: the kernel's radius need not be known during the walk.
+#include "shared/kernels/photon/query.h"
+
 #include "shared/kernels/photon/answer.h"
 #include "shared/kernels/photon/map_walk.h"
-#include "shared/kernels/photon/query.h"
 
 // Bin 0 holds bits below `low`, bin i those from low + ((i - 1) << shift) to low + (i << shift); no
 // bin holds bits of `high` or more.
@@ -164,6 +165,7 @@ FN void judge_count(INOUT(Query) q, INOUT(Search) s) {
     q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.coverage = real(0.0);
+    q.moments = no_moments();
     q.node = first_node(params.part);
 }
 
@@ -229,6 +231,7 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
                 } else {
                     indirect += term;
                     indirect_moment += term * share;
+                    add_flux(q.moments, term, chord, dot3(chord, chord));
                 }
             }
         }
@@ -260,7 +263,7 @@ FN uint select_last(INOUT(Search) s) {
     return s.high; // nothing is missing
 }
 
-FN void finish(Query q, INOUT(Search) s) {
+FN void finish(INOUT(Query) q, INOUT(Search) s) {
     bool one_distance = s.high - s.low == 1u;
     real unit = max(bits_float(s.high), least_r2());
     uint last_bits = one_distance ? s.low : select_last(s);
@@ -272,6 +275,7 @@ FN void finish(Query q, INOUT(Search) s) {
     real ratio = unit * inverse_r2;
     // Negative differences come from rounding only.
     vec3 indirect = max(q.indirect.value - s.indirect_moment.value * ratio, vec3(real(0.0)));
+    vec3 equal_flux = q.indirect.value; // of equal weights, as in the moments
     vec3 caustic = caustics ? max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0)))
                             : vec3(real(0.0));
     real coverage = max(q.coverage - s.coverage_moment * ratio, real(0.0));
@@ -284,13 +288,18 @@ FN void finish(Query q, INOUT(Search) s) {
             continue;
         }
         real weight = kernel_weight(bits_float(bits) * inverse_r2);
+        uvec4 place = PHOTONS(2u * index);
+        vec3 chord = bits_float(uvec3(place)) - q.p;
         uvec4 carried = PHOTONS(2u * index + 1u);
         if (is_area) {
             coverage += open_area(q, carried) * weight;
-        } else if (caustics && photon_is_caustic(PHOTONS(2u * index).w)) {
+        } else if (caustics && photon_is_caustic(place.w)) {
             caustic += scattered(q, carried) * weight;
         } else {
-            indirect += scattered(q, carried) * weight;
+            vec3 flux = scattered(q, carried);
+            indirect += flux * weight;
+            equal_flux += flux;
+            add_flux(q.moments, flux, chord, dot3(chord, chord));
         }
     }
     real density = kernel_scale * inverse_r2;
@@ -302,7 +311,7 @@ FN void finish(Query q, INOUT(Search) s) {
     real known = known_coverage(q.p, coverage * density);
     real scale = mix(real(1.0), answer_scale(known), trust);
     store_estimate(q.slot, scale * density * indirect, scale * density * caustic,
-                   mix(real(1.0), known, trust));
+                   mix(real(1.0), known, trust), one_sided_offset(q.moments, equal_flux));
     s.low = last_bits;
     s.phase = nearest_done;
 }
@@ -331,6 +340,7 @@ FN void put_aside(uint place, Query q, Search s) {
     r.caustic_compensation = vec4(q.caustic.compensation, real(0.0));
     r.indirect_moment = vec4(s.indirect_moment.value, real(0.0));
     r.indirect_moment_compensation = vec4(s.indirect_moment.compensation, real(0.0));
+    r.moments = vec4(q.moments.offset, q.moments.square);
     r.caustic_moment = vec4(s.caustic_moment.value, real(0.0));
     r.caustic_moment_compensation = vec4(s.caustic_moment.compensation, real(0.0));
     states[place] = r;
@@ -355,6 +365,7 @@ FN void resume(uint place, INOUT(Query) q, OUT(Search) s) {
     s.listed = r.listed;
     s.last = r.last;
     q.coverage = r.coverage;
+    q.moments = Moments(vec3(r.moments), r.moments.w);
     s.coverage_moment = r.coverage_moment;
     s.overflown = r.overflown != 0u;
     q.indirect = Sum(vec3(r.indirect), vec3(r.indirect_compensation));

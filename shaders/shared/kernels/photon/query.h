@@ -1,6 +1,8 @@
 // Shared by all estimators: reading a query, and the flux of a photon that the query's surface
 // scatters towards the eye.
 
+#include "shared/kernels/photon/one_sided.h"
+
 // A compensated sum, in which a million photons at one point add up.
 struct Sum {
     vec3 value, compensation;
@@ -25,7 +27,8 @@ struct Query {
     real rounding; // of a height over the query's plane, by the positions' single precision
     Sum indirect, caustic;
     real coverage; // sum of the weighted areas
-    uint node;     // at which a walk through the map's tree continues
+    Moments moments;
+    uint node; // at which a walk through the map's tree continues
 };
 
 // The query of a slot, without any photon yet.
@@ -36,6 +39,7 @@ FN Query make_query(uint slot) {
     q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
     q.coverage = real(0.0);
+    q.moments = no_moments();
     q.node = 0u;
     q.lobes = record.flags >> query_lobes_shift;
     q.most_scatterings = (record.flags >> query_scatterings_shift) & query_scatterings_mask;

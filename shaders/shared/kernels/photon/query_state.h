@@ -1,7 +1,8 @@
 // Queries that take one walk through the map's tree and may be suspended between two dispatches.
+#include "shared/kernels/photon/query_sums.h"
+
 #include "shared/kernels/photon/answer.h"
 #include "shared/kernels/photon/map_walk.h"
-#include "shared/kernels/photon/query_sums.h"
 
 // The query of this invocation, as it was suspended if this is not its first dispatch. False: there
 // is none, or it is complete.
@@ -28,5 +29,5 @@ FN void store_query(IN(Query) q, real indirect_scale, real caustic_scale, real c
     }
     gathers[q.slot].node = lbvh_end;
     store_estimate(q.slot, indirect_scale * q.indirect.value, caustic_scale * q.caustic.value,
-                   coverage);
+                   coverage, one_sided_offset(q.moments, q.indirect.value));
 }

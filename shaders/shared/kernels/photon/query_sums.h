@@ -6,7 +6,12 @@
 struct LeafSums {
     vec3 indirect, caustic;
     real area; // of area samples, weighted
+    Moments moments;
 };
+
+FN LeafSums no_leaf_sums() {
+    return LeafSums(vec3(real(0.0)), vec3(real(0.0)), real(0.0), no_moments());
+}
 
 FN void load_sums(INOUT(Query) q) {
     GatherRecord g = gathers[q.slot];
@@ -17,13 +22,16 @@ FN void load_sums(INOUT(Query) q) {
     q.caustic.compensation =
         vec3(g.caustic_compensation_r, g.caustic_compensation_g, g.caustic_compensation_b);
     q.coverage = g.coverage;
+    q.moments = moments_of(g);
     q.node = g.node;
 }
 
 FN void store_sums(IN(Query) q) {
     vec3 a = q.indirect.compensation;
     vec3 b = q.caustic.compensation;
+    Moments m = q.moments;
     gathers[q.slot] = GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z,
                                    q.node, q.caustic.value.x, q.caustic.value.y, q.caustic.value.z,
-                                   q.coverage, a.x, a.y, a.z, real(0.0), b.x, b.y, b.z, real(0.0));
+                                   q.coverage, a.x, a.y, a.z, m.square, b.x, b.y, b.z, real(0.0),
+                                   m.offset.x, m.offset.y, m.offset.z, real(0.0));
 }

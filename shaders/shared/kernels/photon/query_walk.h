@@ -18,7 +18,7 @@ FN void main() {
         if (range.end == 0u) {
             break;
         }
-        LeafSums leaf = LeafSums(vec3(real(0.0)), vec3(real(0.0)), real(0.0));
+        LeafSums leaf = no_leaf_sums();
         steps += range.end - range.first;
         for (uint j = range.first; j < range.end; ++j) {
             add_photon(bandwidth, j, q, leaf);

@@ -1,0 +1,12 @@
+#version 460
+layout(local_size_x = 64) in;
+#include "kernel.glsl"
+#include "shared/query_record.h"
+
+layout(set = 0, binding = 0) readonly buffer Active { uint active_slots[]; };
+layout(set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 2) readonly buffer Occluded { uint occluded[]; };
+layout(set = 0, binding = 3) buffer Estimates { EstimateRecord estimates[]; };
+layout(push_constant) uniform Push { WallParams params; };
+
+#include "shared/kernels/photon/wall_marks.h"
