@@ -208,6 +208,8 @@ void end_waiting(Device& device, EyeWorkspace& w, std::uint64_t slots) {
     advance(device, w, Count(w.counts, 0, slots));
 }
 
+/// For lookups that do not take every estimate. Then there is direct light (learn_untaken), and so
+/// memory for a shadow ray in each slot.
 WallFinder wall_finder(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                        PhotonEstimator& estimator) {
     return {device, scene, estimator, w.traversal, w.shadow_rays, w.occluded};
@@ -338,7 +340,7 @@ private:
     std::size_t slots_;
 };
 
-/// Counts answers, and those that lack the least coverage.
+/// Counts answers, and those that lack the least coverage, also because of a wall.
 class CoverageProbe final : public PhotonEstimator {
 public:
     CoverageProbe(Device& device, std::size_t slots, double least_coverage,

@@ -6,9 +6,9 @@
 namespace argand {
 
 /// Estimates as another estimator does, and takes the coverage from estimates whose photons lie
-/// behind a wall: where it stands on a floor, the floor goes on behind it within the disc, in the
-/// light of another room. Paths go on where coverage lacks. A ray from each query whose light comes
-/// from one side finds the wall.
+/// behind a wall, so that eye paths go on there. Where a wall stands on a floor, the floor goes on
+/// behind it, within the disc but in the light of another room. A ray from each query whose light
+/// comes from one side finds the wall, or glass or a veil, which count as walls.
 class WallFinder final : public PhotonEstimator {
 public:
     /// rays, occluded: RayRecord and uint per slot of the queries, which are overwritten.

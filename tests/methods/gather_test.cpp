@@ -191,7 +191,7 @@ TEST_F(GatherPhotons, KeepsCurvedSurfaces) {
 
 // Where light comes from one side, an estimate tells its centroid: of none, of one photon, and of a
 // floor that is bright behind a line, as behind a wall.
-TEST_F(GatherPhotons, TellTheCentroidOfLightFromOneSide) {
+TEST_F(GatherPhotons, TellsTheCentroidOfLightFromOneSide) {
     const float radius = 0.5f;
     const auto offset = [&](const std::vector<PhotonRecord>& photons) {
         return gather(photons, {Query{}}, radius, gather_budget)[0].offset;
@@ -201,6 +201,11 @@ TEST_F(GatherPhotons, TellTheCentroidOfLightFromOneSide) {
     const glm::dvec3 single = offset({photon({0.25f, 0, -0.125f})});
     EXPECT_RELATIVE(single.x, 0.25, 1e-6);
     EXPECT_RELATIVE(single.z, -0.125, 1e-6);
+    for (const float extreme : {1e-25f, 1e25f}) {
+        PhotonRecord p = photon({0.25f, 0, -0.125f});
+        p.flux_r = p.flux_g = p.flux_b = extreme;
+        EXPECT_RELATIVE(offset({p}).x, 0.25, 1e-6);
+    }
     for (const double line : {-0.3, 0.0, 0.3}) {
         for (const double ratio : {1.0, 3.0, 100.0}) {
             std::vector<PhotonRecord> photons;

@@ -283,6 +283,17 @@ TEST_F(GatherNearest, OneAndTwoInOnePoint) {
     }
 }
 
+TEST_F(GatherNearest, TellsTheCentroidOfLightFromOneSide) {
+    // Of equal weights, of the two nearest.
+    std::vector<PhotonRecord> photons{photon({0.25f, 0, -0.125f}), photon({0.3f, 0, 0.1f}),
+                                      photon({-0.4f, 0, 0})};
+    photons[0].flux_r = photons[0].flux_g = photons[0].flux_b = 1;
+    photons[1].flux_r = photons[1].flux_g = photons[1].flux_b = 3;
+    const glm::dvec3 offset = gather(device(), photons, {{}}, 2, 0.5f).of[0].sums.offset;
+    EXPECT_RELATIVE(offset.x, (0.25 + 3 * 0.3) / 4, 1e-6);
+    EXPECT_RELATIVE(offset.z, (-0.125 + 3 * 0.1) / 4, 1e-6);
+}
+
 TEST_F(GatherNearest, SlowMillionInOnePoint) {
     std::vector<PhotonRecord> photons;
     for (int i = 0; i < 1'000'000; ++i) {

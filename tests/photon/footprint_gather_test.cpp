@@ -314,6 +314,13 @@ TEST_F(GatherFootprints, InterruptedQueriesGiveTheSameBits) {
               gather(device(), few, queries).sums);
 }
 
+TEST_F(GatherFootprints, TellsTheCentroidOfLightFromOneSide) {
+    const glm::dvec3 offset =
+        gather(device(), {splat({0.1f, 0, -0.05f}, 1, false)}, {Query{}}).sums[0].offset;
+    EXPECT_RELATIVE(offset.x, 0.1, 1e-6);
+    EXPECT_RELATIVE(offset.z, -0.05, 1e-6);
+}
+
 TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {
     const float height = 0.3f;
     // Height of a surface that is taken for another one at 0.1 from the query.

@@ -2,8 +2,9 @@
 
 // Adds the estimates from the photon map to the layers of the paths that have queries. An estimate
 // whose disc hardly lies on surfaces is not taken: on leaves and bars much thinner than the disc,
-// its few area samples do not tell its share. There the path that seeks emission goes on, and
-// queries the map at its next vertex, as in a final gather.
+// its few area samples do not tell its share. Nor is one of light behind a wall (wall_marks). There
+// the path that seeks emission goes on, and queries the map at its next vertex, as in a final
+// gather.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {

@@ -29,10 +29,14 @@ FN void add_moments(INOUT(Moments) sum, IN(Moments) term, real scale) {
 }
 
 // The offset of the flux's centroid, if it is larger than light that varies linearly over the disc
-// can bring about; else 0. flux: the sum without offsets.
+// can bring about; else 0. flux: the sum without offsets. Divides first: the square of a flux may
+// be out of range.
 FN vec3 one_sided_offset(IN(Moments) moments, vec3 flux) {
     real sum = sum_of_channels(flux);
-    bool one_sided = sum > real(0.0) &&
-                     dot3(moments.offset, moments.offset) > most_one_sided * (sum * moments.square);
-    return one_sided ? moments.offset / sum : vec3(real(0.0));
+    if (!(sum > real(0.0))) {
+        return vec3(real(0.0));
+    }
+    vec3 offset = moments.offset / sum;
+    bool one_sided = dot3(offset, offset) > most_one_sided * (moments.square / sum);
+    return one_sided ? offset : vec3(real(0.0));
 }

@@ -1,5 +1,5 @@
 // Takes the coverage from estimates whose photons' flux has its centroid behind something, so that
-// estimate_add does not take them. Whatever lies there, the path that goes on has the right mean.
+// estimate_add does not take them, and the eye path goes on. Glass and veils hide as walls do.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[params.count_index]) {
