@@ -53,9 +53,9 @@ MapSplit split(const RenderSettings& settings, std::uint64_t photons, std::uint6
 struct ImageState {
     std::uint64_t emitted = 0; ///< photons of the whole image, as the settings request
     MapSplit split;
-    double flux_unit = 0; ///< of the fixed-point sums
-    Bandwidth learnt;     ///< for split.maps maps; progressive: for the first one
-    ViewParts view;       ///< in which areas are sampled
+    double flux_unit = 0;  ///< of the fixed-point sums
+    Bandwidth learnt;      ///< for split.maps maps; progressive: for the first one
+    double view_reach = 0; ///< distance from the camera, see view_areas.hpp
     // Of the last map.
     PhotonPass emission; ///< all but the bounces, which the settings have
     Bandwidth bandwidth;
@@ -80,7 +80,7 @@ void persist_image(Archive& archive, ImageState& image) {
     archive.value(image.split.samples);
     archive.value(image.flux_unit);
     persist_bandwidth(archive, image.learnt);
-    persist_view(archive, image.view);
+    archive.value(image.view_reach);
     archive.value(image.emission.seed);
     archive.value(image.emission.first);
     archive.value(image.emission.count);
@@ -138,8 +138,8 @@ public:
                 settings.radius = settings.progressive.first_radius;
             }
             const Bandwidth learnt = strategy_->learn(first, settings);
-            image_.view = parts_of_view(queries, c_.scene.cameras[c_.settings.camera]);
-            sample_areas_in_view(c_, image_.view, strategy_->typical_radius(learnt), 1);
+            image_.view_reach = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
+            sample_areas_in_view(c_, image_.view_reach, strategy_->typical_radius(learnt), 1);
             return learnt;
         });
         image_.in_view = in_view_per_emitted(c_, photons_, *first_, queries);
@@ -331,7 +331,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
     const double radius = strategy_->typical_radius(image_.bandwidth);
     std::uint64_t samples = 0;
     if (strategy_->corrects_boundaries(c_.settings)) {
-        sample_areas_in_view(c_, image_.view, radius, area_share());
+        sample_areas_in_view(c_, image_.view_reach, radius, area_share());
         samples = area_samples(c_.on_device.areas.area, radius, area_share());
     }
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,

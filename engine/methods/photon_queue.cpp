@@ -168,7 +168,7 @@ void QueueMethod::persist(Archive& archive) {
     archive.values(moved_.moments);
     archive.value(still_);
     persist_bandwidth(archive, learnt_);
-    persist_view(archive, view_);
+    archive.value(view_reach_);
     archive.value(sampled_);
     archive.flag(areas_moved_);
     archive.value(sized_blocks_);

@@ -102,7 +102,7 @@ private:
     std::uint32_t still_ = 0;           ///< blocks traced since anything changed
     SeenScene seen_;
     Bandwidth learnt_;
-    ViewParts view_;
+    double view_reach_ = 0;
     SampledPart sampled_;            ///< where the area samples lie
     bool areas_moved_ = true;        ///< they have to be sampled anew
     std::uint32_t sized_blocks_ = 0; ///< blocks of which photons made area samples' footprints

@@ -79,7 +79,7 @@ void QueueMethod::add_areas(const PassNumbers& numbers, const StoredPhotons& sto
         return;
     }
     const double radius = strategy_->typical_radius(learnt_);
-    sample_areas_in_view(c_, view_, radius, 1);
+    sample_areas_in_view(c_, view_reach_, radius, 1);
     // Half of the room is left to photons, if they need it.
     const std::uint64_t room = max_stored_photons(c_.device);
     const std::uint64_t most = room - std::min(room / 2, 2 * options_.window * stored.photons);
@@ -135,7 +135,7 @@ double QueueMethod::learn(const PassNumbers& numbers, std::span<const glm::vec4>
                                 .evenness = evenness_in_view(c_, photons_.workspace(), stored)},
                                c_.settings);
     learnt_ = for_all_photons(learnt_, whole, c_.settings);
-    view_ = parts_of_view(queries, c_.scene.cameras[c_.settings.camera]);
+    view_reach_ = reach_of_view(queries, c_.scene.cameras[c_.settings.camera]);
     const double in_view = in_view_per_emitted(c_, photons_.workspace(), stored, queries);
     c_.device.fill(photons_.workspace().flux_sums, 0); // these photons are traced again
     return in_view;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The last byte is the format's version.
-constexpr std::array<std::uint8_t, 8> magic = {'A', 'r', 'g', 'a', 'n', 'd', 'C', '3'};
+constexpr std::array<std::uint8_t, 8> magic = {'A', 'r', 'g', 'a', 'n', 'd', 'C', '2'};
 
 /// Precedes the contents of a checkpoint.
 struct Header {

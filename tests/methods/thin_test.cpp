@@ -38,46 +38,21 @@ Scene small_cube_scene() {
     return scene;
 }
 
-/// A close-up of a column with 24 sides, 20 cm across, in the room. Discs are much smaller than
-/// what is around, and samples of its area would be too many.
-Scene column_scene() {
-    Scene scene = room_scene();
-    scene.name = "column";
-    const std::uint32_t material = add_material(scene, lambertian(glm::vec3(0.7f)));
-    const auto around = [](int side) {
-        const float angle = 2 * pi * static_cast<float>(side) / 24;
-        return 0.1f * glm::vec3(std::cos(angle), 0, std::sin(angle));
-    };
-    const glm::vec3 foot(0.5f, -1, 0.5f);
-    for (int side = 0; side < 24; ++side) {
-        add_quad(scene, foot + around(side), {0, 2, 0}, around(side + 1) - around(side), material);
-    }
-    scene.cameras = {look_at({-0.1f, -0.2f, 0.1f}, {0.5f, -0.2f, 0.5f}, 10)};
-    return scene;
-}
-
 class Thin : public EveryMethod {
 protected:
-    void expect_light_of_path(const Scene& scene, RenderSettings settings, double tolerance,
-                              std::uint64_t photons = 50'000) {
+    void expect_light_of_path(const Scene& scene, RenderSettings settings, double tolerance) {
         RenderSettings traced = settings;
         traced.method = "path";
         traced.samples = 2048;
         const RenderResult& expected = render_once(scene.name, scene, traced);
         settings.samples = 256;
-        settings.photons = photons;
+        settings.photons = 50'000;
         expect_same_layers(render(scene, settings), expected, tolerance);
     }
 };
 
 TEST_P(Thin, LeavesHaveTheirIndirectLight) {
     expect_light_of_path(plant_scene(), settings_of(GetParam(), 16, 64), 0.02);
-}
-
-TEST_P(Thin, ACloseUpOfAColumnHasItsIndirectLight) {
-    // All pixels share the few hundred photons nearest to any of them.
-    const double tolerance = GetParam() == "knn" ? 0.12 : 0.03;
-    expect_light_of_path(column_scene(), settings_of(GetParam(), 16, 64), tolerance, 400'000);
 }
 
 TEST_P(Thin, ASmallCubeInALargeRoomHasItsIndirectLight) {

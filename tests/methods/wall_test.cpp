@@ -33,8 +33,9 @@ protected:
         RenderSettings settings = settings_of(GetParam(), 24, 64);
         settings.photons = 50'000;
         const RenderResult found = render(scene, settings);
-        expect_same_layers(found, expected, 0.03);
-        EXPECT_LT(compare(layer(found, "indirect"), layer(expected, "indirect")).rel_mse, 0.02)
+        // Without the rays, a lamp 1,000 times as strong makes it 1,000 (docs/results/rooms.md).
+        expect_same_layers(found, expected, 0.05);
+        EXPECT_LT(compare(layer(found, "indirect"), layer(expected, "indirect")).rel_mse, 0.1)
             << scene.name;
     }
 };
