@@ -309,8 +309,9 @@ TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
         }
         return sum / static_cast<double>(image.pixels.size()) / mean(image).g;
     };
+    // Beside the ring, which hides photons behind it, eye paths go on with their noise.
     EXPECT_LT(roughness(layer(footprints, "indirect")),
-              0.7 * roughness(layer(footprints, "caustic")));
+              0.9 * roughness(layer(footprints, "caustic")));
 }
 
 // All variants estimate the same light.
