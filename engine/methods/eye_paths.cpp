@@ -229,10 +229,9 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         return;
     }
     device.fill(w.queries.kinds, 0);
-    PhotonEstimator& gathers = lookup->gathers != nullptr ? *lookup->gathers : lookup->estimator;
     WallFinder walled = wall_finder(device, scene, w, lookup->estimator);
-    WallFinder walled_gathers = wall_finder(device, scene, w, gathers);
-    PhotonLookup walled_lookup{lookup->map, walled, &walled_gathers, lookup->untaken};
+    WallFinder walled_gathers = wall_finder(device, scene, w, lookup->gathering_estimator());
+    const PhotonLookup walled_lookup{lookup->map, walled, &walled_gathers, lookup->untaken};
     const bool takes_all = lookup->untaken == untaken_never;
     for (bool first = true;; first = false) {
         trace_until_queries(device, scene, w, batch, true, found);
@@ -520,8 +519,8 @@ std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspa
     const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
     const double cell = std::exchange(w.queries.sharing.cell, 0.0);
     const bool careful = std::exchange(w.traversal.careful, true);
-    const bool gathers = w.queries.final_gather && lookup.gathers != nullptr;
-    WallFinder walled = wall_finder(device, scene, w, gathers ? *lookup.gathers : lookup.estimator);
+    WallFinder walled = wall_finder(
+        device, scene, w, w.queries.final_gather ? lookup.gathering_estimator() : lookup.estimator);
     CoverageProbe probe(device, batch.pixels, settings.least_coverage, walled);
     const PhotonLookup probed{.map = lookup.map, .estimator = probe};
     trace_paths(device, scene, w, small_image, batch, &probed);

@@ -162,7 +162,7 @@ void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
     if (gathers) {
         answer_round(device, queries, paths,
                      {.kind = query_kind_gathers, .cell = sharing.cell, .least_coverage = least},
-                     lookup.map, lookup.gathers != nullptr ? *lookup.gathers : lookup.estimator);
+                     lookup.map, lookup.gathering_estimator());
     }
 }
 

@@ -45,6 +45,10 @@ struct PhotonLookup {
     /// Answers the queries of paths behind their first estimated vertices; none: `estimator` does.
     PhotonEstimator* gathers = nullptr;
     std::uint32_t untaken = untaken_never; ///< untaken_* of shared/path_records.h
+
+    PhotonEstimator& gathering_estimator() const {
+        return gathers != nullptr ? *gathers : estimator;
+    }
 };
 
 } // namespace argand

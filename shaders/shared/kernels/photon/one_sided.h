@@ -16,7 +16,7 @@ FN Moments moments_of(IN(GatherRecord) g) {
 
 FN real sum_of_channels(vec3 flux) { return flux.x + flux.y + flux.z; }
 
-// squared: length of the offset.
+// squared: the squared length of the offset, or of its part along the query's plane.
 FN void add_flux(INOUT(Moments) moments, vec3 flux, vec3 offset, real squared) {
     real sum = sum_of_channels(flux);
     moments.offset += sum * offset;
