@@ -6,11 +6,12 @@
 #include "kernels/query_ends.hpp"
 #include "kernels/shadow_add.hpp"
 #include "methods/lens.hpp"
-#include "methods/wall_finder.hpp"
 #include "parallel/compact.hpp"
+#include "photon/view_points.hpp"
 #include "shared/alpha.h"
 #include "shared/geometry_records.h"
 #include "shared/light_path_records.h"
+#include "shared/photon.h"
 #include "shared/random.h"
 
 #include <algorithm>
@@ -208,13 +209,6 @@ void end_waiting(Device& device, EyeWorkspace& w, std::uint64_t slots) {
     advance(device, w, Count(w.counts, 0, slots));
 }
 
-/// For lookups that do not take every estimate. Then there is direct light (learn_untaken), and so
-/// memory for a shadow ray in each slot.
-WallFinder wall_finder(Device& device, const DeviceScene& scene, EyeWorkspace& w,
-                       PhotonEstimator& estimator) {
-    return {device, scene, estimator, w.traversal, w.shadow_rays, w.occluded};
-}
-
 /// Traces the paths of a batch to their end. All paths that wait at some vertex have their queries
 /// answered together: few dispatches of many queries keep a GPU busy, and more of them share an
 /// answer.
@@ -229,10 +223,6 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
         return;
     }
     device.fill(w.queries.kinds, 0);
-    WallFinder walled = wall_finder(device, scene, w, lookup->estimator);
-    WallFinder walled_gathers = wall_finder(device, scene, w, lookup->gathering_estimator());
-    const PhotonLookup walled_lookup{lookup->map, walled, &walled_gathers, lookup->untaken};
-    const bool takes_all = lookup->untaken == untaken_never;
     for (bool first = true;; first = false) {
         trace_until_queries(device, scene, w, batch, true, found);
         if (!find_waiting(device, w, slots)) {
@@ -247,7 +237,7 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
                         .bounces = batch.bounces,
                         .first = first,
                         .traversal = w.traversal},
-                       takes_all ? *lookup : walled_lookup);
+                       *lookup);
         end_waiting(device, w, slots);
         if (download_word(device, w.counts) == 0) {
             return;
@@ -327,23 +317,25 @@ public:
         for (const std::uint32_t slot : answered_slots(device_, queries)) {
             const QueryRecord& record = records[slot];
             if ((record.flags & query_caustics) == 0) {
-                points.emplace_back(record.x, record.y, record.z, 0);
+                const std::uint32_t normal =
+                    pack_photon_normal(unpack_unit(record.geometric_normal), false);
+                points.push_back({record.x, record.y, record.z, normal, {}});
             }
         }
     }
 
-    std::vector<glm::vec4> points;
+    std::vector<ViewPointRecord> points;
 
 private:
     Device& device_;
     std::size_t slots_;
 };
 
-/// Counts answers, and those that lack the least coverage, also because of a wall.
-class CoverageProbe final : public PhotonEstimator {
+/// Counts answers, and those that are not to be taken.
+class AnswerProbe final : public PhotonEstimator {
 public:
-    CoverageProbe(Device& device, std::size_t slots, double least_coverage,
-                  PhotonEstimator& estimator)
+    AnswerProbe(Device& device, std::size_t slots, double least_coverage,
+                PhotonEstimator& estimator)
         : device_(device), slots_(slots), least_coverage_(least_coverage), estimator_(estimator) {}
 
     void estimate(const PhotonMap& map, const PhotonQueries& queries) override {
@@ -355,13 +347,17 @@ public:
         const auto estimates = download<EstimateRecord>(device_, queries.estimates, slots_);
         for (const std::uint32_t slot : answered_slots(device_, queries)) {
             if ((records[slot].flags & query_caustics) == 0) {
+                const EstimateRecord& e = estimates[slot];
+                const bool lacks = e.coverage < least_coverage_;
                 ++answers;
-                lacking += estimates[slot].coverage < least_coverage_ ? 1 : 0;
+                strongly += lacks || e.uneven > Untaken::strongly_uneven ? 1 : 0;
+                mildly += lacks || e.uneven > Untaken::mildly_uneven ? 1 : 0;
             }
         }
     }
 
-    std::uint64_t answers = 0, lacking = 0;
+    /// Answers, and those that lack the least coverage or are uneven.
+    std::uint64_t answers = 0, strongly = 0, mildly = 0;
 
 private:
     Device& device_;
@@ -401,6 +397,18 @@ Buffer camera_of(Device& device, const EyeBatch& batch, const Camera& camera,
         camera_record(camera, static_cast<int>(batch.width), static_cast<int>(batch.height));
     copy_lens(of_image, record);
     return upload<CameraRecord>(device, "camera", std::span(&record, 1));
+}
+
+std::vector<ViewPointRecord> collect_queries(Device& device, const DeviceScene& scene,
+                                             EyeWorkspace& w, const RenderSettings& settings,
+                                             const Camera& camera, int longer_side) {
+    const EyeBatch batch = batch_of_small_image(w, settings, longer_side);
+    const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
+    QueryCollector collector(device, batch.pixels);
+    const PhotonMap no_map;
+    const PhotonLookup lookup{.map = no_map, .estimator = collector};
+    trace_paths(device, scene, w, small_image, batch, &lookup);
+    return std::move(collector.points);
 }
 
 } // namespace
@@ -476,8 +484,9 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
     bool interrupted = false;
     for (std::uint64_t sample = 0; sample < pass.samples; sample += most.samples) {
         for (std::uint64_t pixel = 0; pixel < w.film.pixels();) {
-            const EyeBatch batch = make_batch(w, pass, most, sample, pixel,
-                                              lookup != nullptr ? lookup->untaken : untaken_never);
+            const EyeBatch batch =
+                make_batch(w, pass, most, sample, pixel,
+                           lookup != nullptr ? lookup->untaken.often : untaken_never);
             pixel += batch.pixels;
             trace_batch(device, scene, w, batch, lookup);
             if (!w.traversal.careful && download_word(device, w.traversal.unfinished) > 0) {
@@ -497,21 +506,25 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, 
 
 std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                                       const RenderSettings& settings, const Camera& camera) {
-    const EyeBatch batch = batch_of_small_image(w, settings, 48);
-    const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
-    QueryCollector collector(device, batch.pixels);
-    const PhotonMap no_map;
-    const PhotonLookup lookup{.map = no_map, .estimator = collector};
-    trace_paths(device, scene, w, small_image, batch, &lookup);
-    return std::move(collector.points);
+    std::vector<glm::vec4> points;
+    for (const ViewPointRecord& p : collect_queries(device, scene, w, settings, camera, 48)) {
+        points.emplace_back(p.x, p.y, p.z, 0);
+    }
+    return points;
 }
 
-std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
-                            const RenderSettings& settings, const Camera& camera,
-                            const PhotonLookup& lookup) {
-    constexpr double small_share = 0.005;
+ViewPoints sample_view_points(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                              const RenderSettings& settings, const Camera& camera, double radius) {
+    return make_view_points(device, collect_queries(device, scene, w, settings, camera, 96),
+                            radius);
+}
+
+Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                      const RenderSettings& settings, const Camera& camera,
+                      const PhotonLookup& lookup) {
+    constexpr double small_share = 0.005, large_share = 0.02;
     if (!(settings.least_coverage > 0) || !scene.plan.needs(Feature::direct_light)) {
-        return untaken_never;
+        return {};
     }
     EyeBatch batch = batch_of_small_image(w, settings, 48);
     // Other paths than the image's own, whose estimates it decides about.
@@ -519,16 +532,18 @@ std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspa
     const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
     const double cell = std::exchange(w.queries.sharing.cell, 0.0);
     const bool careful = std::exchange(w.traversal.careful, true);
-    WallFinder walled = wall_finder(
-        device, scene, w, w.queries.final_gather ? lookup.gathering_estimator() : lookup.estimator);
-    CoverageProbe probe(device, batch.pixels, settings.least_coverage, walled);
+    AnswerProbe probe(device, batch.pixels, settings.least_coverage,
+                      w.queries.final_gather ? lookup.gathering_estimator() : lookup.estimator);
     const PhotonLookup probed{.map = lookup.map, .estimator = probe};
     trace_paths(device, scene, w, small_image, batch, &probed);
     w.queries.sharing.cell = cell;
     w.traversal.careful = careful;
-    return static_cast<double>(probe.lacking) > small_share * static_cast<double>(probe.answers)
-               ? untaken_often
-               : untaken_seldom;
+    const auto answers = static_cast<double>(probe.answers);
+    if (static_cast<double>(probe.mildly) > large_share * answers) {
+        return {untaken_often, Untaken::mildly_uneven};
+    }
+    const bool often = static_cast<double>(probe.strongly) > small_share * answers;
+    return {often ? untaken_often : untaken_seldom, Untaken::strongly_uneven};
 }
 
 FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,

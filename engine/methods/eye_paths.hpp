@@ -70,11 +70,17 @@ std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene,
                                       EyeWorkspace& workspace, const RenderSettings& settings,
                                       const Camera& camera);
 
-/// How many of the lookup's estimates are not taken (untaken_*), from the eye paths of such a small
-/// version. Its map must have area samples. Waits for the device.
-std::uint32_t learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
-                            const RenderSettings& settings, const Camera& camera,
-                            const PhotonLookup& lookup);
+/// The points at which the eye paths of a somewhat larger version query the photon map, for maps
+/// whose discs have about this radius. Waits for the device.
+ViewPoints sample_view_points(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
+                              const RenderSettings& settings, const Camera& camera, double radius);
+
+/// Which of the lookup's estimates are not to be taken, and how often that is, from the eye paths
+/// of such a small version: mildly uneven ones only where many are, because looking for the few
+/// costs every path some time. The lookup's map must have area samples. Waits for the device.
+Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
+                      const RenderSettings& settings, const Camera& camera,
+                      const PhotonLookup& lookup);
 
 /// Light that a path received by a shadow ray.
 struct FoundLight {

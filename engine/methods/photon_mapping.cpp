@@ -70,7 +70,7 @@ struct ImageState {
     std::uint64_t first_paths = 0;
     std::uint64_t most_photons = 1; ///< of a pass of which the law asks for more than for the first
     double in_view = 0;             ///< photons stored in view per photon emitted
-    std::optional<std::uint32_t> untaken; ///< learn_untaken() of the first map with area samples
+    std::optional<Untaken> untaken; ///< learn_untaken() of the first map with area samples
 };
 
 void persist_image(Archive& archive, ImageState& image) {
@@ -109,6 +109,7 @@ public:
     void begin_frame(Budget& budget) override {
         image_ = {};
         made_ = nullptr;
+        view_points_.reset();
         // Without bounces no photon is ever looked up.
         image_.emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
@@ -195,6 +196,7 @@ private:
     std::optional<StoredPhotons> first_; ///< traced before the first pass, which uses them up
     /// The last map, until all of its samples are traced; null after a load.
     std::unique_ptr<MadeMap> made_;
+    std::optional<ViewPoints> view_points_; ///< none before the first map, and after a load
 };
 
 /// The photons of the map with this index, as the settings request them. If there are more maps
@@ -333,11 +335,17 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
     if (strategy_->corrects_boundaries(c_.settings)) {
         sample_areas_in_view(c_, image_.view_reach, radius, area_share());
         samples = area_samples(c_.on_device.areas.area, radius, area_share());
+        if (goes_on() && !view_points_) {
+            view_points_ = sample_view_points(c_.device, c_.on_device, c_.eye, c_.settings,
+                                              c_.scene.cameras[c_.settings.camera],
+                                              strategy_->typical_radius(image_.learnt));
+        }
     }
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,
                                      {.area_samples = samples,
                                       .cover_height = disc_half_height * radius,
                                       .drops_covered = goes_on(),
+                                      .view = view_points_ ? &*view_points_ : nullptr,
                                       .seed = area_seed(numbers),
                                       .leaf_size = c_.settings.leaf_size,
                                       .wide_codes = c_.settings.wide_codes,
@@ -392,14 +400,14 @@ void PhotonMapping::make_estimator(const PassNumbers& numbers, const StoredPhoto
     made_->estimator = strategy_->make(c_, made_->map, image_.bandwidth);
     made_->gathers = strategy_->make_for_gathers(c_, image_.bandwidth);
     if (c_.on_device.record.follows_near != 0) {
-        made_->untaken = untaken_often;
+        made_->untaken = {untaken_often, Untaken::mildly_uneven};
         return;
     }
     if (!image_.untaken && made_->map.area_samples > 0) {
         image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
                                        c_.scene.cameras[c_.settings.camera], made_->lookup());
     }
-    made_->untaken = image_.untaken.value_or(untaken_never);
+    made_->untaken = image_.untaken.value_or(Untaken{});
 }
 
 /// Traces the photons of the last map once more, after a load. Their flux is in the sums already.
@@ -459,6 +467,7 @@ void PhotonMapping::persist(Archive& archive) {
     if (archive.loads()) {
         first_.reset();
         made_ = nullptr;
+        view_points_.reset();
         make_room(split.photons);
     }
     persist_buffer(archive, c_.device, photons_.flux_sums, flux_words * sizeof(std::int64_t));

@@ -119,7 +119,7 @@ void QueueMethod::make_lookup() {
         image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
                                        c_.scene.cameras[c_.settings.camera], made_->lookup());
     }
-    made_->untaken = image_.untaken.value_or(untaken_never);
+    made_->untaken = image_.untaken.value_or(Untaken{});
 }
 
 bool QueueMethod::pass(const Pass& pass, const OnProgress& on_part) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct Round {
     std::uint32_t part = map_whole;
     double cell = 0;
     bool pixel_sized = false;
-    double least_coverage = 0; ///< of an answer that is taken
+    double least_coverage = 0;                                  ///< of an answer that is taken
+    float most_uneven = std::numeric_limits<float>::infinity(); ///< the same
 };
 
 QueryShareParams share_params(const EyeQueries& queries, const Round& round) {
@@ -93,17 +95,18 @@ void answer_round(Device& device, const EyeQueries& queries, const WaitingPaths&
                              .limits_scatterings = round.kind == query_kind_gathers &&
                                                    paths.bounces < unlimited_bounces});
     const StageScope stage(device, "share queries");
-    dispatch_indirect(device,
-                      kernels::estimate_add{
-                          .active_slots = paths.slots,
-                          .counts = paths.counts,
-                          .sources = queries.sources,
-                          .queries = queries.points,
-                          .estimates = queries.estimates,
-                          .layers = paths.layers,
-                          .paths = paths.records,
-                          .params = {.least_coverage = static_cast<float>(round.least_coverage)}},
-                      paths.counts);
+    dispatch_indirect(
+        device,
+        kernels::estimate_add{.active_slots = paths.slots,
+                              .counts = paths.counts,
+                              .sources = queries.sources,
+                              .queries = queries.points,
+                              .estimates = queries.estimates,
+                              .layers = paths.layers,
+                              .paths = paths.records,
+                              .params = {.least_coverage = static_cast<float>(round.least_coverage),
+                                         .most_uneven = round.most_uneven}},
+        paths.counts);
 }
 
 } // namespace
@@ -141,12 +144,16 @@ EyeQueries make_eye_queries(Device& device, const Plan& plan, std::uint64_t slot
 void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                     const WaitingPaths& paths, const PhotonLookup& lookup) {
     const QuerySharing& sharing = queries.sharing;
-    const double least = lookup.untaken == untaken_never ? 0.0 : queries.least_coverage;
+    const bool takes_all = lookup.untaken.often == untaken_never;
+    const double least = takes_all ? 0.0 : queries.least_coverage;
+    const float most_uneven =
+        takes_all ? std::numeric_limits<float>::infinity() : lookup.untaken.most_uneven;
     if (!queries.final_gather) {
         answer_round(device, queries, paths,
                      {.part = sharing.caustics_apart ? map_indirect : map_whole,
                       .cell = sharing.cell,
-                      .least_coverage = least},
+                      .least_coverage = least,
+                      .most_uneven = most_uneven},
                      lookup.map, lookup.estimator);
     }
     if (queries.final_gather ? plan.needs(Feature::caustics) : sharing.caustics_apart) {
@@ -158,10 +165,13 @@ void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                      lookup.map, lookup.estimator);
     }
     // A path's first estimated vertex leaves no such query.
-    const bool gathers = !paths.first && (queries.final_gather || lookup.untaken != untaken_never);
+    const bool gathers = !paths.first && (queries.final_gather || !takes_all);
     if (gathers) {
         answer_round(device, queries, paths,
-                     {.kind = query_kind_gathers, .cell = sharing.cell, .least_coverage = least},
+                     {.kind = query_kind_gathers,
+                      .cell = sharing.cell,
+                      .least_coverage = least,
+                      .most_uneven = most_uneven},
                      lookup.map, lookup.gathering_estimator());
     }
 }

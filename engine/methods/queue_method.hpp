@@ -28,8 +28,8 @@ struct QueueImage {
     double in_view = 0;                            ///< photons stored in view per photon emitted
     std::optional<FootprintScale> footprint_scale; ///< of the last pass
     double mean_footprints = 0;
-    bool traced = false;                  ///< the photons of the next pass are in the queue already
-    std::optional<std::uint32_t> untaken; ///< learn_untaken()
+    bool traced = false;            ///< the photons of the next pass are in the queue already
+    std::optional<Untaken> untaken; ///< learn_untaken()
 };
 
 /// The photons queue (Shi 2012, chapter 3): each frame traces a block of photons, which takes the

@@ -15,7 +15,7 @@ struct MadeMap {
     PhotonMap map;
     std::unique_ptr<PhotonEstimator> estimator;
     std::unique_ptr<PhotonEstimator> gathers; ///< see PhotonLookup; may be null
-    std::uint32_t untaken = untaken_never;    ///< untaken_* of shared/path_records.h
+    Untaken untaken;
 
     PhotonLookup lookup() const {
         return {.map = map, .estimator = *estimator, .gathers = gathers.get(), .untaken = untaken};

@@ -4,6 +4,9 @@
 #include "kernels/area_rays.hpp"
 #include "kernels/photon_cover.hpp"
 #include "kernels/photon_cover_rays.hpp"
+#include "kernels/view_link_rays.hpp"
+#include "kernels/view_link_search.hpp"
+#include "kernels/view_links.hpp"
 #include "parallel/compact.hpp"
 #include "shared/bsdf.h"
 
@@ -26,7 +29,6 @@ void trace_to_places(Device& device, const DeviceScene& scene, PhotonWorkspace& 
         (scene.plan.material_features() & (LOBE_TRANSMIT | LOBE_CLEAR | MATERIAL_ALPHA)) != 0;
     const int surfaces = some_pass ? 3 : 1;
     params.error = position_error(scene.record);
-    device.fill(w.traversal.unfinished, 0);
     for (std::uint64_t first = 0; first < count; first += w.slots) {
         params.first = static_cast<std::uint32_t>(first);
         params.count = static_cast<std::uint32_t>(std::min(w.slots, count - first));
@@ -47,17 +49,97 @@ void trace_to_places(Device& device, const DeviceScene& scene, PhotonWorkspace& 
     }
 }
 
-/// The same, once more and with care if a ray ran out of iterations: what a cover was found for
+/// Calls `drop`, and once more and with care if a ray of it ran out of iterations: what was dropped
 /// stays dropped.
-template <class Params, class WriteRays, class Look>
-void find_covers(Device& device, const DeviceScene& scene, PhotonWorkspace& w, std::uint64_t count,
-                 const Params& params, const WriteRays& write_rays, const Look& look) {
-    trace_to_places(device, scene, w, count, params, write_rays, look);
+template <class Drop> void drop_with_care(Device& device, PhotonWorkspace& w, const Drop& drop) {
+    device.fill(w.traversal.unfinished, 0);
+    drop();
     if (!w.traversal.careful && download_word(device, w.traversal.unfinished) > 0) {
         w.traversal.careful = true;
-        trace_to_places(device, scene, w, count, params, write_rays, look);
+        drop();
         w.traversal.careful = false;
     }
+}
+
+/// Makes the places of this batch that view_links marked the active ones, and writes their next
+/// rays. next_counter: that holds their number.
+void search_links(Device& device, PhotonWorkspace& w, const ViewPoints& view,
+                  ViewLinkParams& params, std::uint32_t& next_counter) {
+    compact(device, w.alive, w.active, w.next_active, {w.counters, next_counter},
+            Count(w.counters, params.counter, params.count));
+    std::swap(w.active, w.next_active);
+    std::swap(params.counter, next_counter);
+    dispatch(device,
+             kernels::view_link_search{.photons = w.photons,
+                                       .counters = w.counters,
+                                       .view_points = view.table,
+                                       .rays = w.rays,
+                                       .active_slots = w.active,
+                                       .unlinked_cells = view.unlinked,
+                                       .params = params},
+             Count(w.counters, params.counter, params.count));
+}
+
+/// Traces the rays of a batch of places to points in view.
+void drop_unlinked_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                         const ViewPoints& view, ViewLinkParams params) {
+    constexpr int most_rays = 3; // of a place
+    dispatch(device,
+             kernels::view_link_rays{.photons = w.photons,
+                                     .counters = w.counters,
+                                     .view_points = view.table,
+                                     .rays = w.rays,
+                                     .active_slots = w.active,
+                                     .tested_cells = params.sides == 2 ? view.near : view.unlinked,
+                                     .params = params},
+             params.count);
+    params.counter = counter_active;
+    std::uint32_t next_counter = counter_next_active;
+    upload_word(device, w.counters, params.counter, params.count);
+    for (int ray = 0; ray <= most_rays; ++ray) { // the first is in the place's own cell, or none
+        if (ray > 0) {
+            search_links(device, w, view, params, next_counter);
+        }
+        const Count rays(w.counters, params.counter, params.count);
+        trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, rays});
+        params.last = ray == most_rays ? 1 : 0;
+        dispatch(
+            device,
+            kernels::view_links{.triangles = scene.triangles,
+                                .materials = scene.materials,
+                                .hits = w.hits,
+                                .counters = w.counters,
+                                .photons = w.photons,
+                                .rays = w.rays,
+                                .active_slots = w.active,
+                                .alive = w.alive,
+                                .unlinked_cells = view.unlinked,
+                                .params = params,
+                                .constants = {.material_features = scene.plan.material_features()}},
+            rays);
+    }
+}
+
+void drop_unlinked(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                   std::uint64_t count, std::uint32_t sides, const ViewPoints& view,
+                   const SampledPart& corrected) {
+    const glm::vec3 center(corrected.center);
+    ViewLinkParams params{
+        .sides = sides,
+        .cells = static_cast<float>(1 / view.cell),
+        .mask = static_cast<std::uint32_t>(view.table.size() / sizeof(ViewPointRecord) - 1),
+        .error = position_error(scene.record),
+        .corrected_x = center.x,
+        .corrected_y = center.y,
+        .corrected_z = center.z,
+        .corrected_distance = static_cast<float>(corrected.reach)};
+    drop_with_care(device, w, [&] {
+        for (std::uint64_t first = 0; first < count; first += w.slots) {
+            params.first = static_cast<std::uint32_t>(first);
+            params.count = static_cast<std::uint32_t>(std::min(w.slots, count - first));
+            drop_unlinked_batch(device, scene, w, view, params);
+        }
+    });
 }
 
 } // namespace
@@ -85,8 +167,10 @@ void drop_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspac
             .params = params,
             .constants = {.material_features = scene.plan.material_features()}};
     };
-    find_covers(device, scene, w, 2 * std::uint64_t(samples),
-                AreaCoverParams{.height = static_cast<float>(height)}, write_rays, look);
+    drop_with_care(device, w, [&] {
+        trace_to_places(device, scene, w, 2 * std::uint64_t(samples),
+                        AreaCoverParams{.height = static_cast<float>(height)}, write_rays, look);
+    });
 }
 
 void drop_covered_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
@@ -109,13 +193,26 @@ void drop_covered_photons(Device& device, const DeviceScene& scene, PhotonWorksp
             .constants = {.material_features = scene.plan.material_features()}};
     };
     const glm::vec3 center(corrected.center);
-    find_covers(device, scene, w, slots,
-                PhotonCoverParams{.height = static_cast<float>(height),
-                                  .corrected_x = center.x,
-                                  .corrected_y = center.y,
-                                  .corrected_z = center.z,
-                                  .corrected_distance = static_cast<float>(corrected.reach)},
-                write_rays, look);
+    const PhotonCoverParams params{.height = static_cast<float>(height),
+                                   .corrected_x = center.x,
+                                   .corrected_y = center.y,
+                                   .corrected_z = center.z,
+                                   .corrected_distance = static_cast<float>(corrected.reach)};
+    drop_with_care(device, w,
+                   [&] { trace_to_places(device, scene, w, slots, params, write_rays, look); });
+}
+
+void drop_unlinked_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                         std::uint32_t samples, const ViewPoints& view,
+                         const SampledPart& corrected) {
+    device.fill(view.unlinked, 0);
+    drop_unlinked(device, scene, w, 2 * std::uint64_t(samples), 2, view, corrected);
+}
+
+void drop_unlinked_photons(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
+                           std::uint64_t slots, const ViewPoints& view,
+                           const SampledPart& corrected) {
+    drop_unlinked(device, scene, w, slots, 1, view, corrected);
 }
 
 } // namespace argand

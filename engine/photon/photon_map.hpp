@@ -6,6 +6,7 @@
 #include "shared/footprint_records.h"
 #include "shared/photon_records.h"
 #include "shared/sampling.h"
+#include "shared/view_points.h"
 #include "world/device_scene.hpp"
 
 #include <array>
@@ -119,14 +120,24 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
                                            PhotonWorkspace& workspace, const PhotonPass& pass,
                                            float flux_unit, const OnPhotonHits& on_hits = {});
 
+/// Points in view, to which places nearby must be linked (covered.hpp).
+struct ViewPoints {
+    Buffer table;    ///< ViewPointRecord per entry of a hash table of cells
+    Buffer near;     ///< filter of cells: a place in another one is near no point
+    Buffer unlinked; ///< filter of the cells in which some area of the last map was not linked
+    double cell = 0; ///< edge of a cell
+};
+
 struct PhotonMapSettings {
-    std::uint64_t area_samples = 0; ///< wanted; the map has none if there is no room for them
-    double cover_height = 0;        ///< of surfaces that cover photons and areas (covered.hpp)
-    bool drops_covered = false;     ///< covered photons are not in the map
-    std::uint32_t seed = 0;         ///< of the area samples
-    std::uint32_t leaf_size = 0;    ///< photons in a leaf at most, up to most_photons_a_leaf; 0: 16
-    bool wide_codes = false;        ///< 63-bit Morton codes, for photons that lie in a few places
-                                    ///< far from each other
+    std::uint64_t area_samples = 0;   ///< wanted; the map has none if there is no room for them
+    double cover_height = 0;          ///< of surfaces that cover photons and areas (covered.hpp)
+    bool drops_covered = false;       ///< covered photons are not in the map
+    const ViewPoints* view = nullptr; ///< with drops_covered: nor are photons and areas that are
+                                      ///< not linked to these
+    std::uint32_t seed = 0;           ///< of the area samples
+    std::uint32_t leaf_size = 0; ///< photons in a leaf at most, up to most_photons_a_leaf; 0: 16
+    bool wide_codes = false;     ///< 63-bit Morton codes, for photons that lie in a few places
+                                 ///< far from each other
     std::optional<FootprintScale> footprints; ///< leaves' boxes bound footprints of this scale;
                                               ///< none: they bound points
     std::optional<FrontierSettings> frontier; ///< the map is one without a tree, whose queries are

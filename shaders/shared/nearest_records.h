@@ -52,7 +52,8 @@ struct NearestRecord {
     lane4 indirect, indirect_compensation, caustic, caustic_compensation;
     lane4 indirect_moment, indirect_moment_compensation, caustic_moment,
         caustic_moment_compensation;
-    lane4 moments; // offset and square of Moments, of equal weights
+    // Moments, with equal weights: flux_offset and square; area_offset.
+    lane4 flux_moments, area_moments;
 };
 
 ARGAND_SHARED_END

@@ -81,13 +81,9 @@ CONSTANT real same_surface_cosine = real(0.85);
 // angle, and half the tolerance.
 CONSTANT real steepest_chord = real(0.105);
 
-// A ray looks for a wall between a query and the centroid of its photons' flux if the square of
-// that offset is above this share of the mean of the squared offsets. Light that grows linearly
-// over a disc, from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one.
-CONSTANT real most_one_sided = real(0.1875);
-// Height of that ray over the query's plane, over its length. What curves up more hides as a wall
-// does.
-CONSTANT real wall_ray_height = real(0.1);
+// Height of the rays from photons and area samples to points in view, over their length. What
+// curves up more hides as a wall does.
+CONSTANT real view_link_height = real(0.1);
 
 // The logarithm to base 2, rounded down, of the density of aimed photons over that without aiming;
 // 0 where it is below 2.

@@ -151,8 +151,10 @@ struct GatherRecord {
     float32 caustic_r, caustic_g, caustic_b;
     float32 coverage;
     float32 indirect_compensation_r, indirect_compensation_g, indirect_compensation_b, square;
-    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, pad0;
-    float32 moment_x, moment_y, moment_z, pad1; // see Moments
+    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, pad2;
+    // These and `square`: see Moments.
+    float32 flux_offset_x, flux_offset_y, flux_offset_z, pad1;
+    float32 area_offset_x, area_offset_y, area_offset_z, pad0;
 };
 
 // Slots that one invocation counts (photon_tally).

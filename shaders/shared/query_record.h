@@ -60,15 +60,7 @@ struct EstimateRecord {
     float32 indirect_r, indirect_g, indirect_b;
     float32 coverage; // share of the disc that lies on surfaces; 1 where it is not known
     float32 caustic_r, caustic_g, caustic_b;
-    // To the centroid of the indirect flux, where a wall may hide that; else 0. See one_sided.h.
-    float32 offset_x, offset_y, offset_z;
-};
-
-// Rays from queries to the centroids of their photons' flux.
-struct WallParams {
-    uint count_index; // index of the number of queries
-    float32 error;    // bound of the rounding errors of positions
-    uint pad0, pad1;
+    float32 uneven; // unevenness() of the indirect light (uneven.h); 0 where it is not known
 };
 
 // How nearby queries share an answer (query_cells).
@@ -85,7 +77,8 @@ CONSTANT uint no_query = 0xffffffffu;
 
 // How answers are added to paths (estimate_add).
 struct EstimateAddParams {
-    float32 least_coverage; // of an answer that is taken; with less, the path goes on instead
+    // Of an answer that is taken; else the path goes on instead.
+    float32 least_coverage, most_uneven;
 };
 
 ARGAND_SHARED_END

@@ -189,47 +189,45 @@ TEST_F(GatherPhotons, KeepsCurvedSurfaces) {
                     1e-4);
 }
 
-// Where light comes from one side, an estimate tells its centroid: of none, of one photon, and of a
-// floor that is bright behind a line, as behind a wall.
-TEST_F(GatherPhotons, TellsTheCentroidOfLightFromOneSide) {
-    const float radius = 0.5f;
-    const auto offset = [&](const std::vector<PhotonRecord>& photons) {
-        return gather(photons, {Query{}}, radius, gather_budget)[0].offset;
+// Of no photons, of one, and of light that differs over the disc, with centroids that can be
+// written down: even light, light that grows linearly from 0 at the rim, and light on half of the
+// disc. At the floor's edge, half of a disc has light, but no more of it is on the floor.
+TEST_F(GatherPhotons, TellsHowUnevenLightIs) {
+    const float radius = 0.3f;
+    const auto uneven = [&](const std::vector<PhotonRecord>& photons, glm::vec3 at = glm::vec3(0),
+                            std::uint64_t area_samples = 40'000) {
+        return gather(photons, {Query{at}}, radius, gather_budget, true, area_samples)[0].uneven;
     };
-    EXPECT_EQ(offset({}), glm::dvec3(0));
-    EXPECT_EQ(offset({photon({0, 0, 0})}), glm::dvec3(0));
-    const glm::dvec3 single = offset({photon({0.25f, 0, -0.125f})});
-    EXPECT_RELATIVE(single.x, 0.25, 1e-6);
-    EXPECT_RELATIVE(single.z, -0.125, 1e-6);
+    const PhotonRecord aside = photon({0.1f, 0, -0.05f});
+    EXPECT_EQ(uneven({photon({0.9f, 0, 0})}), 0);
+    EXPECT_EQ(uneven({photon({0, 0, 0})}), 0);
+    EXPECT_EQ(uneven({aside}, {0, 0, 0}, 0), 0); // without areas nothing is known
+    EXPECT_NEAR(uneven({aside}), 1, 0.02);
     for (const float extreme : {1e-25f, 1e25f}) {
-        PhotonRecord p = photon({0.25f, 0, -0.125f});
+        PhotonRecord p = aside;
         p.flux_r = p.flux_g = p.flux_b = extreme;
-        EXPECT_RELATIVE(offset({p}).x, 0.25, 1e-6);
+        EXPECT_NEAR(uneven({p}), 1, 0.02);
     }
-    for (const double line : {-0.3, 0.0, 0.3}) {
-        for (const double ratio : {1.0, 3.0, 100.0}) {
-            std::vector<PhotonRecord> photons;
-            glm::dvec3 sum(0);
-            double weights = 0, squares = 0;
-            for (int i = 0; i < 20'000; ++i) {
-                PhotonRecord p = photon({uniform(-0.6f, 0.6f), 0, uniform(-0.6f, 0.6f)});
-                p.flux_r = p.flux_g = p.flux_b = p.x > line ? static_cast<float>(ratio) : 1.0f;
-                photons.push_back(p);
-                const double d2 = double(p.x) * p.x + double(p.z) * p.z;
-                const double weight = p.flux_r * std::max(0.0, 1 - d2 / (radius * radius));
-                sum += weight * glm::dvec3(p.x, 0, p.z);
-                weights += weight;
-                squares += weight * d2;
-            }
-            SCOPED_TRACE(::testing::Message() << line << ", " << ratio);
-            const glm::dvec3 found = offset(photons), centroid = sum / weights;
-            const bool one_sided =
-                glm::dot(centroid, centroid) > double(most_one_sided) * squares / weights;
-            EXPECT_EQ(one_sided, ratio > 10 && line >= 0);
-            EXPECT_NEAR(found.x, one_sided ? centroid.x : 0, 1e-5);
-            EXPECT_NEAR(found.z, one_sided ? centroid.z : 0, 1e-5);
+    const auto lit = [&](const auto& irradiance) {
+        std::vector<PhotonRecord> photons;
+        constexpr int side = 200;
+        for (int i = 0; i < side * side; ++i) {
+            PhotonRecord p = photon({(2 * static_cast<float>(i % side) + 1) / side - 1, 0,
+                                     (2 * static_cast<float>(i / side) + 1) / side - 1});
+            p.flux_r = p.flux_g = p.flux_b = irradiance(p.x);
+            photons.push_back(p);
         }
-    }
+        return photons;
+    };
+    const std::vector<PhotonRecord> even = lit([](float) { return 1.0f; });
+    EXPECT_NEAR(uneven(even), 0, 0.003);
+    EXPECT_NEAR(uneven(even, {1, 0, 0.2f}), 0, 0.003);
+    EXPECT_NEAR(uneven(even, {-1, 0, -1}), 0, 0.003);
+    EXPECT_NEAR(uneven(lit([&](float x) { return std::max(1 + x / radius, 0.0f); })), 1 / 12.0,
+                0.005);
+    const double half = std::pow(16 / (15 * double(pi)), 2) * 3;
+    EXPECT_NEAR(uneven(lit([](float x) { return x > 0 ? 1.0f : 0.0f; })), half, 0.01);
+    EXPECT_GT(half, Untaken::strongly_uneven);
 }
 
 TEST_F(GatherPhotons, FewPhotons) {

@@ -283,15 +283,27 @@ TEST_F(GatherNearest, OneAndTwoInOnePoint) {
     }
 }
 
-TEST_F(GatherNearest, TellsTheCentroidOfLightFromOneSide) {
-    // Of equal weights, of the two nearest.
-    std::vector<PhotonRecord> photons{photon({0.25f, 0, -0.125f}), photon({0.3f, 0, 0.1f}),
-                                      photon({-0.4f, 0, 0})};
-    photons[0].flux_r = photons[0].flux_g = photons[0].flux_b = 1;
-    photons[1].flux_r = photons[1].flux_g = photons[1].flux_b = 3;
-    const glm::dvec3 offset = gather(device(), photons, {{}}, 2, 0.5f).of[0].sums.offset;
-    EXPECT_RELATIVE(offset.x, (0.25 + 3 * 0.3) / 4, 1e-6);
-    EXPECT_RELATIVE(offset.z, (-0.125 + 3 * 0.1) / 4, 1e-6);
+// The sums that tell it have equal weights.
+TEST_F(GatherNearest, TellsHowUnevenLightIs) {
+    std::vector<PhotonRecord> even, half;
+    for (int i = 0; i < 20'000; ++i) {
+        PhotonRecord p = photon({uniform(-1, 1), 0, uniform(-1, 1)});
+        p.flux_r = p.flux_g = p.flux_b = 1;
+        even.push_back(p);
+        if (p.x > 0) {
+            half.push_back(p);
+        }
+    }
+    const auto uneven = [&](const std::vector<PhotonRecord>& photons, glm::vec3 at,
+                            std::uint64_t area_samples) {
+        return gather(device(), photons, {{at}}, 1000, 0.5f, gather_budget, true, area_samples)
+            .of[0]
+            .sums.uneven;
+    };
+    EXPECT_NEAR(uneven(even, {0, 0, 0}, 20'000), 0, 0.01);
+    EXPECT_NEAR(uneven(even, {1, 0, 0}, 20'000), 0, 0.01);
+    EXPECT_NEAR(uneven(half, {0, 0, 0}, 20'000), std::pow(4 / (3 * double(pi)), 2) * 2, 0.03);
+    EXPECT_EQ(uneven(half, {0, 0, 0}, 0), 0);
 }
 
 TEST_F(GatherNearest, SlowMillionInOnePoint) {

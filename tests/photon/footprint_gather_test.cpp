@@ -314,11 +314,28 @@ TEST_F(GatherFootprints, InterruptedQueriesGiveTheSameBits) {
               gather(device(), few, queries).sums);
 }
 
-TEST_F(GatherFootprints, TellsTheCentroidOfLightFromOneSide) {
-    const glm::dvec3 offset =
-        gather(device(), {splat({0.1f, 0, -0.05f}, 1, false)}, {Query{}}).sums[0].offset;
-    EXPECT_RELATIVE(offset.x, 0.1, 1e-6);
-    EXPECT_RELATIVE(offset.z, -0.05, 1e-6);
+TEST_F(GatherFootprints, TellsHowUnevenLightIs) {
+    constexpr int side = 200;
+    std::vector<Splat> even, half;
+    for (int i = 0; i < side * side; ++i) {
+        Splat s = splat(
+            {(2.0f * float(i % side) + 1) / side - 1, 0, (2.0f * float(i / side) + 1) / side - 1},
+            1, false);
+        s.u = {std::pow(0.3f, 4.0f), 0, 0};
+        s.v = {0, 0, std::pow(0.3f, 4.0f)};
+        s.photon.flux_r = s.photon.flux_g = s.photon.flux_b = 1;
+        even.push_back(s);
+        s.photon.flux_r = s.photon.flux_g = s.photon.flux_b = s.photon.x > 0 ? 1.0f : 0.0f;
+        half.push_back(s);
+    }
+    const auto uneven = [&](const std::vector<Splat>& splats, glm::vec3 at,
+                            std::uint64_t area_samples) {
+        return gather(device(), splats, {{at}}, {.area_samples = area_samples}).sums[0].uneven;
+    };
+    EXPECT_NEAR(uneven(even, {0, 0, 0}, 40'000), 0, 0.003);
+    EXPECT_NEAR(uneven(even, {1, 0, 0.1f}, 40'000), 0, 0.003);
+    EXPECT_NEAR(uneven(half, {0, 0, 0}, 40'000), std::pow(16 / (15 * double(pi)), 2) * 3, 0.02);
+    EXPECT_EQ(uneven(half, {0, 0, 0}, 0), 0);
 }
 
 TEST_F(GatherFootprints, LeavesOutOtherSidesAndOtherSurfaces) {

@@ -21,7 +21,7 @@ struct Query {
 /// The estimate at a query.
 struct Gathered {
     glm::dvec3 indirect{0}, caustic{0};
-    glm::dvec3 offset{0}; ///< to the flux's centroid, where light comes from one side
+    double uneven = 0; ///< unevenness() of the indirect light
     bool operator==(const Gathered&) const = default;
 };
 
@@ -99,7 +99,7 @@ inline std::vector<Gathered> answers(Device& device, PhotonEstimator& estimator,
          download<EstimateRecord>(device, on_device.estimates, queries.size())) {
         result.push_back({{e.indirect_r, e.indirect_g, e.indirect_b},
                           {e.caustic_r, e.caustic_g, e.caustic_b},
-                          {e.offset_x, e.offset_y, e.offset_z}});
+                          e.uneven});
     }
     return result;
 }

@@ -2,9 +2,8 @@
 
 // Adds the estimates from the photon map to the layers of the paths that have queries. An estimate
 // whose disc hardly lies on surfaces is not taken: on leaves and bars much thinner than the disc,
-// its few area samples do not tell its share. Nor is one of light behind a wall (wall_marks). There
-// the path that seeks emission goes on, and queries the map at its next vertex, as in a final
-// gather.
+// its few area samples do not tell its share. Nor is one of too uneven light (uneven.h). There the
+// path that seeks emission goes on, and queries the map at its next vertex, as in a final gather.
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counts[0]) {
@@ -22,7 +21,7 @@ FN void main() {
     vec3 caustic = throughput * vec3(e.caustic_r, e.caustic_g, e.caustic_b);
     uint flags = queries[slot].flags;
     bool gathers = (flags & query_gathers) != 0u;
-    bool taken = !(e.coverage < params.least_coverage);
+    bool taken = !(e.coverage < params.least_coverage || e.uneven > params.most_uneven);
     if (!taken) {
         paths[slot].state &= ~path_seeks_emission;
     }

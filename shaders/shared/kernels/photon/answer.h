@@ -10,10 +10,15 @@ FN bool is_corrected(IN(vec3) p) {
 // that part once all of them have been seen.
 FN real known_coverage(IN(vec3) p, real coverage) { return is_corrected(p) ? coverage : real(1.0); }
 
+// unevenness() around a query at p; 0 where it is not known.
+FN real known_unevenness(IN(vec3) p, IN(Moments) moments, vec3 flux, real area) {
+    return is_corrected(p) ? unevenness(moments, flux, area) : real(0.0);
+}
+
 FN real answer_scale(real coverage) { return real(1.0) / max(coverage, least_divisor); }
 
-// coverage: known_coverage() of the query's disc; offset: one_sided_offset(), or 0.
-FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic, real coverage, vec3 offset) {
+// coverage: known_coverage() of the query's disc; uneven: known_unevenness().
+FN void store_estimate(uint slot, IN(vec3) indirect, IN(vec3) caustic, real coverage, real uneven) {
     estimates[slot] = EstimateRecord(indirect.x, indirect.y, indirect.z, coverage, caustic.x,
-                                     caustic.y, caustic.z, offset.x, offset.y, offset.z);
+                                     caustic.y, caustic.z, uneven);
 }

@@ -45,7 +45,9 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
             return;
         }
         if ((place.w & area_sample_bit) != 0u) {
-            leaf.area += open_area(q, carried) * disc_weight(d2 * b.inverse_r2);
+            real area = open_area(q, carried) * disc_weight(d2 * b.inverse_r2);
+            leaf.area += area;
+            add_area(leaf.moments, area, d);
         } else if (is_caustic(place)) {
             leaf.caustic += scattered(q, carried) * disc_weight(d2 * b.inverse_caustic_r2);
         } else {

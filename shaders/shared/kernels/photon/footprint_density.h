@@ -30,7 +30,9 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
         if (weight > real(0.0)) {
             uvec4 carried = PHOTONS(2u * j + 1u);
             if ((place.w & area_sample_bit) != 0u) {
-                q.coverage += open_area(q, carried) * weight;
+                real area = open_area(q, carried) * weight;
+                q.coverage += area;
+                add_area(leaf.moments, area, -offset);
             } else if (is_caustic(place)) {
                 leaf.caustic += scattered(q, carried) * weight;
             } else {

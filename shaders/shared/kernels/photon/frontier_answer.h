@@ -1,5 +1,5 @@
 // Turns the sums of queries into their answers.
-#include "shared/kernels/photon/one_sided.h"
+#include "shared/kernels/photon/uneven.h"
 
 #include "shared/kernels/photon/answer.h"
 
@@ -17,5 +17,5 @@ FN void main() {
     vec3 indirect = vec3(g.indirect_r, g.indirect_g, g.indirect_b);
     store_estimate(slot, scale * indirect,
                    caustic_scale * vec3(g.caustic_r, g.caustic_g, g.caustic_b), coverage,
-                   one_sided_offset(moments_of(g), indirect));
+                   known_unevenness(p, moments_of(g), indirect, g.coverage));
 }

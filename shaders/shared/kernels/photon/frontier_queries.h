@@ -12,7 +12,8 @@ FN void main() {
     segments[i] = 0u;
     if (params.first == 0u) {
         real zero = real(0.0);
-        gathers[slot] = GatherRecord(zero, zero, zero, 0u, zero, zero, zero, zero, zero, zero, zero,
-                                     zero, zero, zero, zero, zero, zero, zero, zero, zero);
+        gathers[slot] =
+            GatherRecord(zero, zero, zero, 0u, zero, zero, zero, zero, zero, zero, zero, zero, zero,
+                         zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero);
     }
 }

@@ -222,6 +222,7 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
             if (is_area) {
                 real area = open_area(q, carried);
                 q.coverage += area;
+                add_area(q.moments, area, chord);
                 s.coverage_moment += area * share;
             } else {
                 vec3 term = scattered(q, carried);
@@ -276,6 +277,7 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
     // Negative differences come from rounding only.
     vec3 indirect = max(q.indirect.value - s.indirect_moment.value * ratio, vec3(real(0.0)));
     vec3 equal_flux = q.indirect.value; // of equal weights, as in the moments
+    real equal_area = q.coverage;
     vec3 caustic = caustics ? max(q.caustic.value - s.caustic_moment.value * ratio, vec3(real(0.0)))
                             : vec3(real(0.0));
     real coverage = max(q.coverage - s.coverage_moment * ratio, real(0.0));
@@ -292,7 +294,10 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
         vec3 chord = bits_float(uvec3(place)) - q.p;
         uvec4 carried = PHOTONS(2u * index + 1u);
         if (is_area) {
-            coverage += open_area(q, carried) * weight;
+            real area = open_area(q, carried);
+            coverage += area * weight;
+            equal_area += area;
+            add_area(q.moments, area, chord);
         } else if (caustics && photon_is_caustic(place.w)) {
             caustic += scattered(q, carried) * weight;
         } else {
@@ -311,7 +316,8 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
     real known = known_coverage(q.p, coverage * density);
     real scale = mix(real(1.0), answer_scale(known), trust);
     store_estimate(q.slot, scale * density * indirect, scale * density * caustic,
-                   mix(real(1.0), known, trust), one_sided_offset(q.moments, equal_flux));
+                   mix(real(1.0), known, trust),
+                   known_unevenness(q.p, q.moments, equal_flux, equal_area));
     s.low = last_bits;
     s.phase = nearest_done;
 }
@@ -340,7 +346,8 @@ FN void put_aside(uint place, Query q, Search s) {
     r.caustic_compensation = vec4(q.caustic.compensation, real(0.0));
     r.indirect_moment = vec4(s.indirect_moment.value, real(0.0));
     r.indirect_moment_compensation = vec4(s.indirect_moment.compensation, real(0.0));
-    r.moments = vec4(q.moments.offset, q.moments.square);
+    r.flux_moments = vec4(q.moments.flux_offset, q.moments.square);
+    r.area_moments = vec4(q.moments.area_offset, real(0.0));
     r.caustic_moment = vec4(s.caustic_moment.value, real(0.0));
     r.caustic_moment_compensation = vec4(s.caustic_moment.compensation, real(0.0));
     states[place] = r;
@@ -365,7 +372,7 @@ FN void resume(uint place, INOUT(Query) q, OUT(Search) s) {
     s.listed = r.listed;
     s.last = r.last;
     q.coverage = r.coverage;
-    q.moments = Moments(vec3(r.moments), r.moments.w);
+    q.moments = Moments(vec3(r.flux_moments), r.flux_moments.w, vec3(r.area_moments));
     s.coverage_moment = r.coverage_moment;
     s.overflown = r.overflown != 0u;
     q.indirect = Sum(vec3(r.indirect), vec3(r.indirect_compensation));

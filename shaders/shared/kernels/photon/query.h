@@ -1,7 +1,7 @@
 // Shared by all estimators: reading a query, and the flux of a photon that the query's surface
 // scatters towards the eye.
 
-#include "shared/kernels/photon/one_sided.h"
+#include "shared/kernels/photon/uneven.h"
 
 // A compensated sum, in which a million photons at one point add up.
 struct Sum {

@@ -29,5 +29,5 @@ FN void store_query(IN(Query) q, real indirect_scale, real caustic_scale, real c
     }
     gathers[q.slot].node = lbvh_end;
     store_estimate(q.slot, indirect_scale * q.indirect.value, caustic_scale * q.caustic.value,
-                   coverage, one_sided_offset(q.moments, q.indirect.value));
+                   coverage, known_unevenness(q.p, q.moments, q.indirect.value, q.coverage));
 }

@@ -33,5 +33,6 @@ FN void store_sums(IN(Query) q) {
     gathers[q.slot] = GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z,
                                    q.node, q.caustic.value.x, q.caustic.value.y, q.caustic.value.z,
                                    q.coverage, a.x, a.y, a.z, m.square, b.x, b.y, b.z, real(0.0),
-                                   m.offset.x, m.offset.y, m.offset.z, real(0.0));
+                                   m.flux_offset.x, m.flux_offset.y, m.flux_offset.z, real(0.0),
+                                   m.area_offset.x, m.area_offset.y, m.area_offset.z, real(0.0));
 }
