@@ -404,10 +404,12 @@ std::vector<ViewPointRecord> collect_queries(Device& device, const DeviceScene& 
                                              const Camera& camera, int longer_side) {
     const EyeBatch batch = batch_of_small_image(w, settings, longer_side);
     const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
+    const QuerySharing sharing = std::exchange(w.queries.sharing, {});
     QueryCollector collector(device, batch.pixels);
     const PhotonMap no_map;
     const PhotonLookup lookup{.map = no_map, .estimator = collector};
     trace_paths(device, scene, w, small_image, batch, &lookup);
+    w.queries.sharing = sharing;
     return std::move(collector.points);
 }
 

@@ -335,7 +335,8 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
     if (strategy_->corrects_boundaries(c_.settings)) {
         sample_areas_in_view(c_, image_.view_reach, radius, area_share());
         samples = area_samples(c_.on_device.areas.area, radius, area_share());
-        if (goes_on() && !view_points_) {
+        // With several moments, what is in view moves from pass to pass.
+        if (goes_on() && (!view_points_ || c_.settings.least_passes > 1)) {
             view_points_ = sample_view_points(c_.device, c_.on_device, c_.eye, c_.settings,
                                               c_.scene.cameras[c_.settings.camera],
                                               strategy_->typical_radius(image_.learnt));

@@ -71,8 +71,8 @@ Option least_coverage_option() {
     Option option = member_option(
         "least-coverage",
         "Least share of an estimate's disc on surfaces; where there is less, as on leaves and "
-        "bars, or where its light lies behind a wall, the eye path goes on instead; 0: it never "
-        "does",
+        "bars, or where its light is uneven, as in crevices, the eye path goes on instead; 0: it "
+        "never does",
         [](RenderSettings & s) -> auto& { return s.least_coverage; }, 0, 1);
     option.sweep = {.full = {"0", "0.2"}, .matters = finds_photons};
     return option;

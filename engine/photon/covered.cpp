@@ -83,7 +83,7 @@ void search_links(Device& device, PhotonWorkspace& w, const ViewPoints& view,
 /// Traces the rays of a batch of places to points in view.
 void drop_unlinked_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                          const ViewPoints& view, ViewLinkParams params) {
-    constexpr int most_rays = 3; // of a place
+    constexpr int further_rays = 3; // of a place whose first is blocked
     dispatch(device,
              kernels::view_link_rays{.photons = w.photons,
                                      .counters = w.counters,
@@ -96,13 +96,14 @@ void drop_unlinked_batch(Device& device, const DeviceScene& scene, PhotonWorkspa
     params.counter = counter_active;
     std::uint32_t next_counter = counter_next_active;
     upload_word(device, w.counters, params.counter, params.count);
-    for (int ray = 0; ray <= most_rays; ++ray) { // the first is in the place's own cell, or none
+    for (int ray = 0; ray <= further_rays; ++ray) { // the first is in the place's own cell, or none
         if (ray > 0) {
+            params.searches = static_cast<std::uint32_t>(ray - 1);
             search_links(device, w, view, params, next_counter);
         }
         const Count rays(w.counters, params.counter, params.count);
         trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, rays});
-        params.last = ray == most_rays ? 1 : 0;
+        params.last = ray == further_rays ? 1 : 0;
         dispatch(
             device,
             kernels::view_links{.triangles = scene.triangles,

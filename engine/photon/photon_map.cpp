@@ -235,7 +235,7 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
     if (settings.cover_height > 0) {
         drop_covered_areas(device, scene, w, samples, settings.cover_height);
     }
-    if (settings.view != nullptr) {
+    if (settings.drops_covered && settings.view != nullptr) {
         drop_unlinked_areas(device, scene, w, samples, *settings.view, corrected_part(scene));
     }
     upload_word(device, w.counters, counter_stored_slots,

@@ -123,7 +123,7 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
 /// Points in view, to which places nearby must be linked (covered.hpp).
 struct ViewPoints {
     Buffer table;    ///< ViewPointRecord per entry of a hash table of cells
-    Buffer near;     ///< filter of cells: a place in another one is near no point
+    Buffer near;     ///< filter of the cells around these; no point is near a place elsewhere
     Buffer unlinked; ///< filter of the cells in which some area of the last map was not linked
     double cell = 0; ///< edge of a cell
 };

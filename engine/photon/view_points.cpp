@@ -10,7 +10,7 @@ namespace argand {
 
 namespace {
 
-/// Puts the points into random order: one from anywhere in a cell is to be its first.
+/// The points in random order, so that the first of a cell lies anywhere in it.
 std::vector<ViewPointRecord> shuffled(const std::vector<ViewPointRecord>& points) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order(points.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {

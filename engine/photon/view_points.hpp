@@ -6,8 +6,8 @@
 
 namespace argand {
 
-/// Makes the table of points in view, of which no cell is set. Places within `radius` of a point
-/// are near it, and some farther ones.
+/// Makes the table of points in view; their cells need not be set. A place is near a point if that
+/// is in the two rings of cells around its own, which reach at least one `radius`.
 ViewPoints make_view_points(Device& device, const std::vector<ViewPointRecord>& points,
                             double radius);
 

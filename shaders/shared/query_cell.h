@@ -17,7 +17,7 @@ CONSTANT real cell_height = real(0.25);
 CONSTANT real largest_cell_index = real(1073741824.0);
 
 FN uint cell_index(real x) {
-    return uint(int(floor(clamp(x, -largest_cell_index, largest_cell_index))) + 0x40000000);
+    return uint(int(floor(clamp(x, -largest_cell_index, largest_cell_index)))) + 0x40000000u;
 }
 
 // The cell of a point on a surface with this unit normal: its coordinates along two axes

@@ -5,7 +5,8 @@
 #define ARGAND_SHARED_VIEW_POINTS_H
 
 #include "shared/prelude.h"
-#include "shared/sampling.h"
+#include "shared/query_cell.h"
+#include "shared/random.h"
 
 ARGAND_SHARED_BEGIN
 
@@ -29,6 +30,7 @@ struct ViewLinkParams {
     float32 cells;     // per length
     uint mask;         // entries of the table - 1; the number of entries is a power of two
     float32 error;     // bound of the rounding errors of positions
+    uint searches;     // for rays to points in other cells than the place's own, so far
     uint last;         // 1: what this ray does not reach is not linked
     // Only records within this distance of this point are tested: area samples surround them.
     float32 corrected_x, corrected_y, corrected_z, corrected_distance;
@@ -36,12 +38,6 @@ struct ViewLinkParams {
 
 // Rings of cells around a place's own in which points are near it.
 CONSTANT int view_cell_rings = 2;
-
-CONSTANT real largest_view_cell = real(1073741824.0);
-
-FN uint view_cell_index(real x) {
-    return uint(int(floor(clamp(x, -largest_view_cell, largest_view_cell))) + 0x40000000);
-}
 
 // The coordinate of a point in cells. Shifted, so that planes at round coordinates do not lie
 // between two layers of cells, where rounding errors would put their points in both.
@@ -53,15 +49,14 @@ FN uvec4 view_cell(vec3 p, vec3 normal, real cells) {
     vec3 n = abs(normal);
     uint axis = n.x > n.y ? (n.x > n.z ? 0u : 2u) : (n.y > n.z ? 1u : 2u);
     real along = axis == 0u ? normal.x : (axis == 1u ? normal.y : normal.z);
-    return uvec4(
-        view_cell_index(in_view_cells(p.x, cells)), view_cell_index(in_view_cells(p.y, cells)),
-        view_cell_index(in_view_cells(p.z, cells)), 2u * axis + (along < real(0.0) ? 1u : 0u));
+    return uvec4(cell_index(in_view_cells(p.x, cells)), cell_index(in_view_cells(p.y, cells)),
+                 cell_index(in_view_cells(p.z, cells)), 2u * axis + (along < real(0.0) ? 1u : 0u));
 }
 
 // The entry of the table at which the search for a cell starts. mask: entries - 1.
 FN uint view_cell_entry(uvec4 cell, uint mask) { return pcg4d(cell).x & mask; }
 
-// A filter has a bit for each cell, which cells may share, and so many for each entry of the table.
+// A filter is a Bloom filter of cells with one hash, with so many bits for each entry of the table.
 CONSTANT uint view_filter_bits = 64u;
 FN uint view_filter_bit(uvec4 cell, uint mask) {
     return pcg4d(cell).y & ((mask + 1u) * view_filter_bits - 1u);

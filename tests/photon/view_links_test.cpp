@@ -46,12 +46,12 @@ protected:
     /// The records of a map of these photons and of area samples.
     std::vector<PhotonRecord> records(const Scene& scene, const std::vector<ViewPointRecord>& view,
                                       const std::vector<PhotonRecord>& photons,
-                                      std::uint64_t area_samples = 20'000,
-                                      std::uint64_t slots = 0) {
+                                      std::uint64_t area_samples = 20'000, std::uint64_t slots = 0,
+                                      double reach = radius) {
         Device& device = open();
         const DeviceScene on_device =
             upload_scene(device, scene, make_plan(scene, {.everything = true}));
-        const ViewPoints points = make_view_points(device, view, radius);
+        const ViewPoints points = make_view_points(device, view, reach);
         PhotonWorkspace workspace =
             make_photon_workspace(device, std::max<std::uint64_t>(photons.size(), area_samples));
         workspace.slots = slots > 0 ? slots : workspace.slots;
@@ -114,12 +114,17 @@ TEST_F(ViewLinks, PlacesInViewCount) {
     for (const glm::vec3& p : grid({-2, -1.9f}, {0, 1.9f}, 0.05f)) {
         photons.push_back(photon_at(p));
     }
+    std::size_t kept = 0, samples = 0;
     for (const PhotonRecord& r : records(walled_floor(0.06f, lambertian(glm::vec3(0.5f))),
                                          all_in_view(before_wall), photons)) {
+        kept += is_area(r) ? 0 : 1;
         if (is_area(r) && std::abs(r.y) < 1e-4f && r.x < -0.01f && std::abs(r.z) < 1.9f) {
+            ++samples;
             EXPECT_GT(r.flux_r, 0) << r.x << " " << r.z;
         }
     }
+    EXPECT_EQ(kept, photons.size());
+    EXPECT_GT(samples, 2000u);
 }
 
 TEST_F(ViewLinks, GlassAndLowStepsHideNothing) {
@@ -174,28 +179,44 @@ TEST_F(ViewLinks, PointsSpeakForTheirSideOnly) {
     EXPECT_EQ(hidden_below, 0);
 }
 
-// Far from the origin, where positions are rounded to 1 mm, and where a cell is tiny.
+// A scene a million times as large or small, and one 10 km from the origin, where positions are
+// rounded to 1 mm.
 TEST_F(ViewLinks, HoldAtTheExtremes) {
-    for (const float scale : {1e-6f, 1e6f}) {
+    struct Extreme {
+        float scale;
+        glm::vec3 at;
+    };
+    for (const Extreme& e :
+         {Extreme{1e-6f, {0, 0, 0}}, Extreme{1e6f, {0, 0, 0}}, Extreme{1, {10'000, 0, 0}}}) {
+        SCOPED_TRACE(::testing::Message() << e.scale << ", " << e.at.x);
         Scene scene;
         const std::uint32_t white = add_material(scene, lambertian(glm::vec3(0.5f)));
-        add_quad(scene, glm::vec3{-2, 0, 2} * scale, glm::vec3{4, 0, 0} * scale,
-                 glm::vec3{0, 0, -4} * scale, white);
-        for (const PhotonRecord& r :
-             records(scene, {in_view({0, 0, 0}), in_view(glm::vec3{0.1f, 0, 0.1f} * scale)},
-                     {photon_at({0, 0, 0})}, 500)) {
-            EXPECT_GT(r.flux_r, 0);
+        const auto place = [&](glm::vec3 p) { return e.at + e.scale * p; };
+        add_quad(scene, place({-1, 0, 1}), e.scale * glm::vec3{2, 0, 0},
+                 e.scale * glm::vec3{0, 0, -2}, white);
+        add_quad(scene, place({0, -0.1f, 1.1f}), e.scale * glm::vec3{0, 0, -2.2f},
+                 e.scale * glm::vec3{0, 1.1f, 0}, white);
+        std::vector<ViewPointRecord> view;
+        for (const glm::vec3& p : grid({-1, -1}, {0, 1}, 0.07f)) {
+            view.push_back(in_view(place(p)));
         }
-    }
-    Scene far;
-    const std::uint32_t white = add_material(far, lambertian(glm::vec3(0.5f)));
-    add_quad(far, {9998, 0, 2}, {4, 0, 0}, {0, 0, -4}, white);
-    std::vector<ViewPointRecord> view;
-    for (const glm::vec3& p : grid({9998, -2}, {10'002, 2}, 0.1f)) {
-        view.push_back(in_view(p));
-    }
-    for (const PhotonRecord& r : records(far, view, {photon_at({10'000, 0, 0})}, 1000)) {
-        EXPECT_GT(r.flux_r, 0) << r.x << " " << r.z;
+        int before = 0, behind = 0;
+        for (const PhotonRecord& r : records(scene, view, {photon_at(place({-0.5f, 0, 0}))}, 5000,
+                                             0, radius * double(e.scale))) {
+            const glm::vec3 p = (glm::vec3(r.x, r.y, r.z) - e.at) / e.scale;
+            if (!is_area(r) || unpack_photon_normal(r.normal).y < 0.5f || std::abs(p.z) > 0.9f) {
+                continue;
+            }
+            if (p.x < -0.02f) {
+                ++before;
+                EXPECT_GT(r.flux_r, 0) << p.x << " " << p.z;
+            } else if (p.x > 0.02f && p.x < 0.9 * radius) {
+                ++behind;
+                EXPECT_EQ(r.flux_r, 0) << p.x << " " << p.z;
+            }
+        }
+        EXPECT_GT(before, 500);
+        EXPECT_GT(behind, 100);
     }
 }
 

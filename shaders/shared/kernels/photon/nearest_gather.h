@@ -317,7 +317,7 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
     real scale = mix(real(1.0), answer_scale(known), trust);
     store_estimate(q.slot, scale * density * indirect, scale * density * caustic,
                    mix(real(1.0), known, trust),
-                   known_unevenness(q.p, q.moments, equal_flux, equal_area));
+                   trust * known_unevenness(q.p, q.moments, equal_flux, equal_area));
     s.low = last_bits;
     s.phase = nearest_done;
 }
@@ -347,7 +347,7 @@ FN void put_aside(uint place, Query q, Search s) {
     r.indirect_moment = vec4(s.indirect_moment.value, real(0.0));
     r.indirect_moment_compensation = vec4(s.indirect_moment.compensation, real(0.0));
     r.flux_moments = vec4(q.moments.flux_offset, q.moments.square);
-    r.area_moments = vec4(q.moments.area_offset, real(0.0));
+    r.area_moments = vec4(q.moments.area_offset, q.moments.flux2);
     r.caustic_moment = vec4(s.caustic_moment.value, real(0.0));
     r.caustic_moment_compensation = vec4(s.caustic_moment.compensation, real(0.0));
     states[place] = r;
@@ -372,7 +372,8 @@ FN void resume(uint place, INOUT(Query) q, OUT(Search) s) {
     s.listed = r.listed;
     s.last = r.last;
     q.coverage = r.coverage;
-    q.moments = Moments(vec3(r.flux_moments), r.flux_moments.w, vec3(r.area_moments));
+    q.moments =
+        Moments(vec3(r.flux_moments), r.flux_moments.w, vec3(r.area_moments), r.area_moments.w);
     s.coverage_moment = r.coverage_moment;
     s.overflown = r.overflown != 0u;
     q.indirect = Sum(vec3(r.indirect), vec3(r.indirect_compensation));

@@ -1,3 +1,4 @@
+// Rays from places to points in view.
 #include "shared/kernels/photon/linked_place.h"
 
 FN RayRecord no_ray(real why) {
@@ -24,15 +25,14 @@ FN bool ray_to_view_point(IN(LinkedPlace) place, IN(ViewPointRecord) point, OUT(
     return size > real(0.0);
 }
 
-// Finds the point in view of a cell. Returns false if there is none.
+// Finds the point in view of a cell. Returns false if there is none. With a return in the loop,
+// lavapipe 22.3 misses some.
 FN bool find_view_point(uvec4 cell, OUT(ViewPointRecord) point) {
-    for (uint entry = view_cell_entry(cell, params.mask);; entry = (entry + 1u) & params.mask) {
+    uint entry = view_cell_entry(cell, params.mask);
+    point = view_points[entry];
+    while (point.normal != no_view_point && !(point.cell == cell)) {
+        entry = (entry + 1u) & params.mask;
         point = view_points[entry];
-        if (point.normal == no_view_point) {
-            return false;
-        }
-        if (point.cell == cell) {
-            return true;
-        }
     }
+    return point.normal != no_view_point;
 }

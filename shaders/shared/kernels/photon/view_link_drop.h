@@ -1,3 +1,5 @@
+// What happens to places that are not linked (LinkedPlace).
+
 FN void mark_unlinked(uint bit) {
     uint mark = 1u << (bit & 31u);
     uint word = 0u;

@@ -4,7 +4,7 @@
 #include "shared/kernels/photon/view_link_drop.h"
 
 // Marks the places whose ray was blocked, or which have none yet, for a ray to another point in
-// view. Drops those that were blocked by the last one.
+// view. Drops those whose last one was blocked. Glass blocks no ray, whatever stands behind it.
 FN void main() {
     uint thread = THREAD_INDEX;
     if (thread >= counters[params.counter]) {
