@@ -21,6 +21,9 @@ protected:
         settings.photons = 8'000;
         settings.own["window"] = std::to_string(window);
         settings.own["queue-fill"] = fills ? "all" : "gradual";
+        // Other methods leave out what is not linked to the view. And where estimates are not taken
+        // if they are uneven, rounding decides about some.
+        settings.least_coverage = 0;
         return settings;
     }
 
