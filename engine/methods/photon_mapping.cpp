@@ -339,7 +339,7 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
         if (goes_on() && (!view_points_ || c_.settings.least_passes > 1)) {
             view_points_ = sample_view_points(c_.device, c_.on_device, c_.eye, c_.settings,
                                               c_.scene.cameras[c_.settings.camera],
-                                              strategy_->typical_radius(image_.learnt));
+                                              image_.learnt.radii.indirect);
         }
     }
     PhotonMap map = build_photon_map(c_.device, c_.on_device, photons_, stored,

@@ -52,7 +52,7 @@ struct NearestRecord {
     lane4 indirect, indirect_compensation, caustic, caustic_compensation;
     lane4 indirect_moment, indirect_moment_compensation, caustic_moment,
         caustic_moment_compensation;
-    // Moments, with equal weights: flux_offset and square, area_offset and most.
+    // Moments, with equal weights: flux_offset and square, area_offset and photons.
     lane4 flux_moments, area_moments;
 };
 

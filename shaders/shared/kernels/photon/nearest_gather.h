@@ -347,7 +347,7 @@ FN void put_aside(uint place, Query q, Search s) {
     r.indirect_moment = vec4(s.indirect_moment.value, real(0.0));
     r.indirect_moment_compensation = vec4(s.indirect_moment.compensation, real(0.0));
     r.flux_moments = vec4(q.moments.flux_offset, q.moments.square);
-    r.area_moments = vec4(q.moments.area_offset, q.moments.most);
+    r.area_moments = vec4(q.moments.area_offset, q.moments.photons);
     r.caustic_moment = vec4(s.caustic_moment.value, real(0.0));
     r.caustic_moment_compensation = vec4(s.caustic_moment.compensation, real(0.0));
     states[place] = r;

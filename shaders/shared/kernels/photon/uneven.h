@@ -8,14 +8,14 @@ struct Moments {
     vec3 flux_offset; // flux times the offset from the query
     real square;      // flux times the squared length of the offset
     vec3 area_offset; // area times the offset
-    real most;        // the largest flux, not a sum
+    real photons;     // their number
 };
 
 FN Moments no_moments() { return Moments(vec3(real(0.0)), real(0.0), vec3(real(0.0)), real(0.0)); }
 
 FN Moments moments_of(IN(GatherRecord) g) {
     return Moments(vec3(g.flux_offset_x, g.flux_offset_y, g.flux_offset_z), g.square,
-                   vec3(g.area_offset_x, g.area_offset_y, g.area_offset_z), g.most_flux);
+                   vec3(g.area_offset_x, g.area_offset_y, g.area_offset_z), g.photons);
 }
 
 FN real sum_of_channels(vec3 flux) { return flux.x + flux.y + flux.z; }
@@ -25,7 +25,7 @@ FN void add_flux(INOUT(Moments) moments, vec3 flux, vec3 offset, real squared) {
     real sum = sum_of_channels(flux);
     moments.flux_offset += sum * offset;
     moments.square += sum * squared;
-    moments.most = max(moments.most, sum);
+    moments.photons += real(1.0);
 }
 
 FN void add_area(INOUT(Moments) moments, real area, vec3 offset) {
@@ -37,15 +37,15 @@ FN void add_moments(INOUT(Moments) sum, IN(Moments) term, real scale) {
     sum.flux_offset += scale * term.flux_offset;
     sum.square += scale * term.square;
     sum.area_offset += scale * term.area_offset;
-    sum.most = max(sum.most, scale * term.most);
+    sum.photons += term.photons;
 }
 
 // How uneven the light is: the square of the offset from the area's centroid to that of the flux,
 // over the mean of the squared offsets of the flux. Light that grows linearly over a whole disc,
-// from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one. Evenly spread
-// photons have by chance the sum of the squares of their shares of the flux, which is at most the
-// largest share; half as much again is taken off. flux, area: the sums without offsets; without
-// area nothing is known. Squares no flux, which might be out of range.
+// from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one. Twice of what
+// so many photons of equal flux have by chance is taken off. A photon that is much brighter than
+// the others makes the light uneven: it may come from another room. flux, area: the sums without
+// offsets; without area nothing is known.
 FN real unevenness(IN(Moments) moments, vec3 flux, real area) {
     real sum = sum_of_channels(flux);
     if (!(sum > real(0.0)) || !(area > real(0.0))) {
@@ -53,7 +53,7 @@ FN real unevenness(IN(Moments) moments, vec3 flux, real area) {
     }
     vec3 between = moments.flux_offset / sum - moments.area_offset / area;
     real spread = moments.square / sum;
-    real chance = real(1.5) * (moments.most / sum);
+    real chance = real(2.0) / moments.photons;
     return spread > real(0.0) ? max(dot3(between, between) / spread - chance, real(0.0))
                               : real(0.0);
 }
