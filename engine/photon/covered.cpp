@@ -17,6 +17,24 @@ namespace argand {
 
 namespace {
 
+/// Makes all `params.count` places of a batch, which has begun, the active ones. Returns the
+/// counter for the number of those that go_on() keeps.
+template <class Params>
+std::uint32_t begin_rounds(Device& device, PhotonWorkspace& w, Params& params) {
+    params.counter = counter_active;
+    upload_word(device, w.counters, params.counter, params.count);
+    return counter_next_active;
+}
+
+/// Makes the places whose rays go on the active ones.
+template <class Params>
+void go_on(Device& device, PhotonWorkspace& w, Params& params, std::uint32_t& next_counter) {
+    compact(device, w.alive, w.active, w.next_active, {w.counters, next_counter},
+            Count(w.counters, params.counter, params.count));
+    std::swap(w.active, w.next_active);
+    std::swap(params.counter, next_counter);
+}
+
 /// Traces the short rays of `count` places in batches. write_rays and look: kernels that write a
 /// batch's rays, and that look at their hits, with its parameters; they hold what all batches
 /// share. Rays that go on behind a surface make up the next round.
@@ -33,17 +51,13 @@ void trace_to_places(Device& device, const DeviceScene& scene, PhotonWorkspace& 
         params.first = static_cast<std::uint32_t>(first);
         params.count = static_cast<std::uint32_t>(std::min(w.slots, count - first));
         dispatch(device, write_rays(params), params.count);
-        params.counter = counter_active;
-        std::uint32_t next_counter = counter_next_active;
-        upload_word(device, w.counters, params.counter, params.count);
+        std::uint32_t next_counter = begin_rounds(device, w, params);
         for (int surface = 0; surface < surfaces; ++surface) {
             const Count rays(w.counters, params.counter, params.count);
             trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, rays});
             dispatch(device, look(params), rays);
             if (surface + 1 < surfaces) {
-                compact(device, w.alive, w.active, w.next_active, {w.counters, next_counter}, rays);
-                std::swap(w.active, w.next_active);
-                std::swap(params.counter, next_counter);
+                go_on(device, w, params, next_counter);
             }
         }
     }
@@ -61,14 +75,11 @@ template <class Drop> void drop_with_care(Device& device, PhotonWorkspace& w, co
     }
 }
 
-/// Makes the places of this batch that view_links marked the active ones, and writes their next
-/// rays. next_counter: that holds their number.
+/// Writes the next rays of the places of this batch that view_links marked. next_counter: that
+/// holds their number.
 void search_links(Device& device, PhotonWorkspace& w, const ViewPoints& view,
                   ViewLinkParams& params, std::uint32_t& next_counter) {
-    compact(device, w.alive, w.active, w.next_active, {w.counters, next_counter},
-            Count(w.counters, params.counter, params.count));
-    std::swap(w.active, w.next_active);
-    std::swap(params.counter, next_counter);
+    go_on(device, w, params, next_counter);
     dispatch(device,
              kernels::view_link_search{.photons = w.photons,
                                        .counters = w.counters,
@@ -93,9 +104,7 @@ void drop_unlinked_batch(Device& device, const DeviceScene& scene, PhotonWorkspa
                                      .tested_cells = params.sides == 2 ? view.near : view.unlinked,
                                      .params = params},
              params.count);
-    params.counter = counter_active;
-    std::uint32_t next_counter = counter_next_active;
-    upload_word(device, w.counters, params.counter, params.count);
+    std::uint32_t next_counter = begin_rounds(device, w, params);
     for (int ray = 0; ray <= further_rays; ++ray) { // the first is in the place's own cell, or none
         if (ray > 0) {
             params.searches = static_cast<std::uint32_t>(ray - 1);
