@@ -8,6 +8,7 @@
 #include "methods/queue_method.hpp"
 #include "methods/show_photons.hpp"
 #include "methods/traced_photons.hpp"
+#include "photon/covered.hpp"
 
 #include <algorithm>
 
@@ -72,11 +73,9 @@ void QueueMethod::size_areas(const FootprintScale& scale) {
 }
 
 PhotonMap QueueMethod::make_map(const Bandwidth& widths) {
-    // A disc at the edge of the sampled part would lack some of its samples.
-    constexpr double inner_share = 0.9;
     const QueueMapSettings settings{
         .rebuild = options_.rebuild,
-        .corrected = {sampled_.center, inner_share * sampled_.reach},
+        .corrected = corrected_part(sampled_),
         .reach = strategy_->typical_radius(widths),
         .scale = strategy_->footprints(widths, c_.settings.footprints,
                                        static_cast<double>(photons_.all()), c_.on_device.record)};

@@ -154,6 +154,11 @@ void drop_unlinked(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
 
 } // namespace
 
+SampledPart corrected_part(const SampledPart& sampled) {
+    constexpr double inner_share = 0.9;
+    return {sampled.center, inner_share * sampled.reach};
+}
+
 void drop_covered_areas(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
                         std::uint32_t samples, double height) {
     const auto write_rays = [&](const AreaCoverParams& params) {

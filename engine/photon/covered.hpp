@@ -6,6 +6,10 @@
 
 namespace argand {
 
+/// The part of space in which area samples surround every query, of that in which they lie: a disc
+/// at its edge would lack some of them.
+SampledPart corrected_part(const SampledPart& sampled);
+
 // Surfaces that lie lower than `height` over a place cover it, unless light passes through them.
 // Hardly any light reaches such a place, or other light than the surface around it has: that in the
 // gap behind a panel, or between the slats of a blind. So neither its area nor its photons count

@@ -190,13 +190,6 @@ bool trace_batch(Device& device, const DeviceScene& scene, PhotonWorkspace& w, P
     return download_word(device, w.traversal.unfinished) == 0 || w.traversal.careful;
 }
 
-/// The part of space in which area samples surround every query.
-SampledPart corrected_part(const DeviceScene& scene) {
-    // A disc at the edge of the sampled part would lack some of its samples.
-    constexpr double inner_share = 0.9;
-    return {scene.areas.part.center, inner_share * scene.areas.part.reach};
-}
-
 /// Appends samples of the surfaces' area to the photons. Returns their number, 0 if there is too
 /// little room.
 std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonWorkspace& w,
@@ -236,7 +229,8 @@ std::uint32_t add_area_samples(Device& device, const DeviceScene& scene, PhotonW
         drop_covered_areas(device, scene, w, samples, settings.cover_height);
     }
     if (settings.drops_covered && settings.view != nullptr) {
-        drop_unlinked_areas(device, scene, w, samples, *settings.view, corrected_part(scene));
+        drop_unlinked_areas(device, scene, w, samples, *settings.view,
+                            corrected_part(scene.areas.part));
     }
     upload_word(device, w.counters, counter_stored_slots,
                 static_cast<std::uint32_t>(stored.slots + samples));
@@ -439,7 +433,7 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     map.area_samples = append_area_samples(device, scene, w, stored, settings);
     map.photons =
         unshared(device, w.last_sorted, "photons, sorted", w.capacity * sizeof(PhotonRecord));
-    map.corrected = corrected_part(scene);
+    map.corrected = corrected_part(scene.areas.part);
     if (map.area_samples > 0 && settings.drops_covered) {
         const StageScope stage(device, "sample areas");
         drop_covered_photons(device, scene, w, stored.slots, settings.cover_height, map.corrected);
