@@ -154,7 +154,7 @@ void collect_found(Device& device, const EyeWorkspace& w, bool alpha,
             continue;
         }
         found.push_back({.light = s.light,
-                         .path = slot,
+                         .pixel = slot, // paths are numbered pixel by pixel
                          .indirect = (s.layers & 3u) == layer_indirect,
                          .radiance = radiance,
                          .point = {ray.origin_x, ray.origin_y, ray.origin_z},
@@ -548,8 +548,9 @@ Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
     return {often ? untaken_often : untaken_seldom, Untaken::strongly_uneven};
 }
 
-FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,
-                          const RenderSettings& settings, const Camera& camera) {
+std::vector<FoundLight> sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,
+                                      const RenderSettings& settings, const Camera& camera,
+                                      std::uint32_t round) {
     constexpr std::uint64_t least_paths = 1024, most_paths = 16384;
     const std::vector<LightRecord>& lights = scene.light_table.lights;
     // Where photons start and in which directions is more to learn than how to choose lights.
@@ -558,15 +559,17 @@ FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace
     const std::uint64_t share_of_image = aims ? 4 : 16;
     EyeBatch batch = batch_of_small_image(w, settings, 32);
     // These paths must not be the image's own: a choice that depends on them would bias it.
-    batch.seed = pcg4d({settings.seed, 0x11947u, 0, 0}).x;
+    batch.seed = pcg4d({settings.seed, 0x11947u, round, 0}).x;
     const std::uint64_t paths = std::clamp(
         pixels_of_image(settings) * settings.samples / share_of_image, least_paths, most_paths);
     batch.samples = static_cast<std::uint32_t>(
         std::max<std::uint64_t>(std::min(paths, w.slots) / batch.pixels, 1));
     const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
-    FoundLights found;
-    found.paths_per_pixel = batch.samples;
-    trace_paths(device, scene, w, small_image, batch, nullptr, &found.lights);
+    std::vector<FoundLight> found;
+    trace_paths(device, scene, w, small_image, batch, nullptr, &found);
+    for (FoundLight& f : found) {
+        f.pixel /= batch.samples;
+    }
     return found;
 }
 

@@ -85,21 +85,17 @@ Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& wo
 /// Light that a path received by a shadow ray.
 struct FoundLight {
     std::uint32_t light = 0; ///< index among the scene's lights
-    std::uint32_t path = 0;  ///< paths are numbered pixel by pixel
+    std::uint32_t pixel = 0; ///< of the small version of the image
     bool indirect = false;   ///< the light is reflected again before it reaches the eye
     double radiance = 0;     ///< that it adds to the path's sample, as the sum of the channels
     glm::vec3 point{0};      ///< where it arrives
     glm::vec3 direction{0};  ///< unit, in which it travels
 };
 
-/// The lights that the paths of a small version of the image find.
-struct FoundLights {
-    std::vector<FoundLight> lights;
-    std::uint32_t paths_per_pixel = 1;
-};
-
-/// Traces these paths by path tracing, with random numbers of their own. Waits for the device.
-FoundLights sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
-                          const RenderSettings& settings, const Camera& camera);
+/// The lights that paths of a small version of the image find by path tracing. Each round has
+/// random numbers of its own. Waits for the device.
+std::vector<FoundLight> sample_lights(Device& device, const DeviceScene& scene,
+                                      EyeWorkspace& workspace, const RenderSettings& settings,
+                                      const Camera& camera, std::uint32_t round);
 
 } // namespace argand

@@ -27,18 +27,18 @@ void copy_learnt(const SceneRecord& from, SceneRecord& to) {
 
 /// Divides what was found in a pixel by the pixel's radiance, because errors count in relation to
 /// it: light in the dark parts of an image is as important as in bright ones.
-void make_relative(FoundLights& found) {
+void make_relative(std::vector<FoundLight>& found) {
     constexpr double least_share = 0.01; // of the mean; a pixel with less counts less
     std::unordered_map<std::uint32_t, double> radiance; // of pixels
     double sum = 0;
-    for (const FoundLight& f : found.lights) {
-        radiance[f.path / found.paths_per_pixel] += f.radiance;
+    for (const FoundLight& f : found) {
+        radiance[f.pixel] += f.radiance;
         sum += f.radiance;
     }
     const double least =
         least_share * sum / static_cast<double>(std::max<std::size_t>(radiance.size(), 1));
-    for (FoundLight& f : found.lights) {
-        f.radiance /= radiance[f.path / found.paths_per_pixel] + least;
+    for (FoundLight& f : found) {
+        f.radiance /= radiance[f.pixel] + least;
     }
 }
 
@@ -62,6 +62,37 @@ bool are_aims(const std::vector<LightAim>& aims) {
         const glm::vec3& m = aim.middle;
         return std::isfinite(m.x + m.y + m.z) && is_aim_tree(aim.tree);
     });
+}
+
+/// Whether paths found light from outside which is reflected again, but too little of it to tell
+/// where it comes from, as through the gaps of a blind.
+bool is_rarely_found(const LightTable& table, std::span<const FoundLight> found) {
+    constexpr std::uint32_t enough = 128;
+    std::vector<std::uint32_t> times(table.lights.size(), 0);
+    for (const FoundLight& f : found) {
+        const std::uint32_t row = row_of(table, f.light);
+        times[row] += f.indirect && is_from_outside(table.lights[row]) ? 1 : 0;
+    }
+    return std::any_of(times.begin(), times.end(),
+                       [](std::uint32_t n) { return n > 0 && n < enough; });
+}
+
+/// The lights that eye paths find: those of more paths if photons are to be aimed at what a few
+/// find.
+std::vector<FoundLight> find_lights(RenderContext& context, bool aims) {
+    constexpr std::uint32_t most_rounds = 8;
+    const DeviceScene& scene = context.on_device;
+    std::vector<FoundLight> found;
+    for (std::uint32_t round = 0; round < most_rounds; ++round) {
+        const std::vector<FoundLight> of_round =
+            sample_lights(context.device, scene, context.eye, context.settings,
+                          context.scene.cameras[context.settings.camera], round);
+        found.insert(found.end(), of_round.begin(), of_round.end());
+        if (!aims || !is_rarely_found(scene.light_table, found)) {
+            break;
+        }
+    }
+    return found;
 }
 
 void add(FoundShares& shares, std::uint32_t emitter, double light) {
@@ -121,8 +152,7 @@ void learn_lights(RenderContext& context) {
         return;
     }
     const StageScope stage(context.device, "learn lights");
-    FoundLights found = sample_lights(context.device, scene, context.eye, context.settings,
-                                      context.scene.cameras[context.settings.camera]);
+    std::vector<FoundLight> found = find_lights(context, photons && outside > 0);
     make_relative(found);
     // Where photons account for reflected light, shadow rays look for direct light only, but for
     // those of paths that go on where an estimate is not taken or surfaces are near.
@@ -130,7 +160,7 @@ void learn_lights(RenderContext& context) {
         photons && scene.plan.needs(Feature::photon_map) && !context.settings.final_gather;
     FoundShares for_rays{.light = std::vector<double>(emitters, 0.0)};
     FoundShares for_photons = for_rays;
-    for (const FoundLight& f : found.lights) {
+    for (const FoundLight& f : found) {
         const std::uint32_t emitter = table.emitter[row_of(table, f.light)];
         if (!f.indirect || !direct_only) {
             add(for_rays, emitter, f.radiance);
@@ -140,7 +170,7 @@ void learn_lights(RenderContext& context) {
         }
     }
     if (photons && outside > 0) {
-        set_aims(context.device, scene, learn_aims(scene, found.lights));
+        set_aims(context.device, scene, learn_aims(scene, found));
     }
     set_light_choices(context.device, scene, learnt_shares(table, for_rays),
                       learnt_shares(table, for_photons));
