@@ -89,7 +89,7 @@ TEST_P(OpenShutter, ShowsTheMeanOfTheMoments) {
         const glm::dvec3 found = mean(layer(blurred, name)),
                          expected = mean(layer(mean_of_moments, name));
         for (int channel = 0; channel < 3; ++channel) {
-            EXPECT_RELATIVE(found[channel], expected[channel], 0.08) << name << ", " << channel;
+            EXPECT_RELATIVE(found[channel], expected[channel], 0.06) << name << ", " << channel;
         }
     }
     const auto error_of = [&](const RenderResult& result) {

@@ -284,6 +284,7 @@ TEST_F(FootprintTrace, PictureDoesNotDependOnTheScale) {
 TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
     const Scene ring = load_asset("ring.glb");
     RenderSettings settings = settings_of("photons", 64, 8);
+    settings.least_coverage = 0; // as in the paper; beside the ring eye paths would go on
     settings.photons = 4'000'000;
     settings.photons_per_pass = settings.photons;
     settings.radius = 0.02; // an eightieth of the ring's
@@ -309,9 +310,8 @@ TEST_F(FootprintTrace, SlowRingCausticIsSharpAndTheRestSmooth) {
         }
         return sum / static_cast<double>(image.pixels.size()) / mean(image).g;
     };
-    // Beside the ring, which hides photons behind it, eye paths go on with their noise.
     EXPECT_LT(roughness(layer(footprints, "indirect")),
-              0.9 * roughness(layer(footprints, "caustic")));
+              0.7 * roughness(layer(footprints, "caustic")));
 }
 
 // All variants estimate the same light.

@@ -42,10 +42,11 @@ FN void add_moments(INOUT(Moments) sum, IN(Moments) term, real scale) {
 
 // How uneven the light is: the square of the offset from the area's centroid to that of the flux,
 // over the mean of the squared offsets of the flux. Light that grows linearly over a whole disc,
-// from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one. Twice of what
-// so many photons of equal flux have by chance is taken off. A photon that is much brighter than
-// the others makes the light uneven: it may come from another room. flux, area: the sums without
-// offsets; without area nothing is known.
+// from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one. Four times the
+// mean that so many photons of equal flux have by chance is taken off: an estimate that is left out
+// because of its photons' noise has more light than the others, so what remains would be too dark.
+// A photon that is much brighter than the others makes the light uneven: it may come from another
+// room. flux, area: the sums without offsets; without area nothing is known.
 FN real unevenness(IN(Moments) moments, vec3 flux, real area) {
     real sum = sum_of_channels(flux);
     if (!(sum > real(0.0)) || !(area > real(0.0))) {
@@ -53,7 +54,7 @@ FN real unevenness(IN(Moments) moments, vec3 flux, real area) {
     }
     vec3 between = moments.flux_offset / sum - moments.area_offset / area;
     real spread = moments.square / sum;
-    real chance = real(2.0) / moments.photons;
+    real chance = real(4.0) / moments.photons;
     return spread > real(0.0) ? max(dot3(between, between) / spread - chance, real(0.0))
                               : real(0.0);
 }
