@@ -307,12 +307,13 @@ std::vector<std::uint32_t> answered_slots(Device& device, const PhotonQueries& q
     return download<std::uint32_t>(device, queries.slots, count);
 }
 
-/// Collects query points instead of estimating radiance at them.
+/// Collects query points instead of estimating radiance at them: all estimates are 0.
 class QueryCollector final : public PhotonEstimator {
 public:
     QueryCollector(Device& device, std::size_t slots) : device_(device), slots_(slots) {}
 
     void estimate(const PhotonMap&, const PhotonQueries& queries) override {
+        device_.fill(queries.estimates, 0); // paths go on or end as their answers tell
         const auto records = download<QueryRecord>(device_, queries.points, slots_);
         for (const std::uint32_t slot : answered_slots(device_, queries)) {
             const QueryRecord& record = records[slot];
