@@ -4,6 +4,7 @@
 #include "methods/photon_targets.hpp"
 #include "methods/render_options.hpp"
 #include "methods/sample_passes.hpp"
+#include "methods/small_image.hpp"
 #include "methods/traced_photons.hpp"
 #include "shared/random.h"
 

@@ -27,6 +27,11 @@ struct EyeWorkspace {
     Film film;
 };
 
+/// Pixels of the whole image, whatever the crop.
+inline std::uint64_t pixels_of_image(const RenderSettings& settings) {
+    return static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+}
+
 /// Allocates only the buffers that the plan requires.
 EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSettings& settings,
                                 const CameraRecord& camera);
@@ -63,39 +68,5 @@ bool trace_eye_paths(Device& device, const DeviceScene& scene, EyeWorkspace& wor
 /// queries share estimates.
 std::uint32_t samples_together(const EyeWorkspace& workspace, std::uint32_t samples,
                                bool photon_map);
-
-/// Points at which the eye paths of a small version of the picture query the photon map, without
-/// those that look for caustics only; the fourth component is 0. Waits for the device.
-std::vector<glm::vec4> sample_queries(Device& device, const DeviceScene& scene,
-                                      EyeWorkspace& workspace, const RenderSettings& settings,
-                                      const Camera& camera);
-
-/// The points at which the eye paths of a somewhat larger version query the photon map, for maps
-/// whose discs have about this radius. Waits for the device.
-ViewPoints sample_view_points(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
-                              const RenderSettings& settings, const Camera& camera, double radius);
-
-/// Which of the lookup's estimates are not to be taken, and how often that is, from the eye paths
-/// of such a small version: mildly uneven ones only where many are, because looking for the few
-/// costs every path some time. The lookup's map must have area samples. Waits for the device.
-Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& workspace,
-                      const RenderSettings& settings, const Camera& camera,
-                      const PhotonLookup& lookup);
-
-/// Light that a path received by a shadow ray.
-struct FoundLight {
-    std::uint32_t light = 0; ///< index among the scene's lights
-    std::uint32_t pixel = 0; ///< of the small version of the image
-    bool indirect = false;   ///< the light is reflected again before it reaches the eye
-    double radiance = 0;     ///< that it adds to the path's sample, as the sum of the channels
-    glm::vec3 point{0};      ///< where it arrives
-    glm::vec3 direction{0};  ///< unit, in which it travels
-};
-
-/// The lights that paths of a small version of the image find by path tracing. Each round has
-/// random numbers of its own. Waits for the device.
-std::vector<FoundLight> sample_lights(Device& device, const DeviceScene& scene,
-                                      EyeWorkspace& workspace, const RenderSettings& settings,
-                                      const Camera& camera, std::uint32_t round);
 
 } // namespace argand

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "methods/outside_aims.hpp"
+#include "methods/small_image.hpp"
 
 #include <algorithm>
 #include <array>

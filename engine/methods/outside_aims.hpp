@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/eye_paths.hpp"
+#include "methods/eye_tracing.hpp"
 #include "world/device_scene.hpp"
 
 #include <glm/glm.hpp>

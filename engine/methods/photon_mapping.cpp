@@ -8,6 +8,7 @@
 #include "methods/photon_targets.hpp"
 #include "methods/sample_parts.hpp"
 #include "methods/search_options.hpp"
+#include "methods/small_image.hpp"
 #include "methods/traced_photons.hpp"
 #include "methods/view_areas.hpp"
 #include "photon/photon_map.hpp"

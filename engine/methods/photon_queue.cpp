@@ -7,6 +7,7 @@
 #include "methods/photon_targets.hpp"
 #include "methods/queue_method.hpp"
 #include "methods/show_photons.hpp"
+#include "methods/small_image.hpp"
 #include "methods/traced_photons.hpp"
 #include "photon/covered.hpp"
 
