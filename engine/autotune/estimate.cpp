@@ -20,6 +20,10 @@ constexpr double lost_by_smoothing = 2.5, spread_of_loss = 0.5;
 // Ordinary noise is seldom as large.
 constexpr float most_over_darker = 1.2f;
 
+// A pixel's guess is at most so many times what the pixel itself tells, whatever its neighbours do;
+// and where one of two images is black, a pixel tells at least this share of their mean.
+constexpr float most_over_pixel = 2.0f, least_of_mean = 0.25f;
+
 // The lesser of the squares of two normal numbers is 1 - 2/pi of the variance on average.
 constexpr double least_of_two = 1 - 2 / std::numbers::pi;
 
@@ -163,6 +167,17 @@ Image guess_from(const ImagePair& images) {
         const glm::vec3 a = glm::max(images[0].pixels[i], 0.0f),
                         b = glm::max(images[1].pixels[i], 0.0f);
         guess.pixels[i] = glm::min(glm::sqrt(a) * glm::sqrt(b), most_over_darker * glm::min(a, b));
+    }
+    return guess;
+}
+
+Image guess_from_few(const ImagePair& images) {
+    Image guess = guess_from({smoothed(images[0]), smoothed(images[1])});
+    const Image of_pixels = guess_from(images);
+    for (std::size_t i = 0; i < guess.pixels.size(); ++i) {
+        const glm::vec3 mean = 0.5f * (images[0].pixels[i] + images[1].pixels[i]);
+        guess.pixels[i] = glm::min(
+            guess.pixels[i], most_over_pixel * glm::max(of_pixels.pixels[i], least_of_mean * mean));
     }
     return guess;
 }

@@ -62,4 +62,9 @@ Image smoothed(const Image& image);
 /// there for small ones.
 Image guess_from(const ImagePair& images);
 
+/// The same for images of few passes: from smoothed images, because a penumbra may be black in one
+/// of the two. Beside a lamp a pixel does not take the lamp's brightness: an error there counts as
+/// what it is to the dark pixel.
+Image guess_from_few(const ImagePair& images);
+
 } // namespace argand

@@ -10,8 +10,7 @@ namespace argand {
 
 namespace {
 
-// From this number of passes on, the denominator of relMSE follows from single pixels. Earlier it
-// follows from smoothed images, because a penumbra may be black in one of the halves.
+// From this number of passes on, the denominator of relMSE follows from single pixels alone.
 constexpr double passes_for_pixels = 16;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 // A witness confirms that the error is at most so many times the target error.
@@ -140,9 +139,8 @@ void RunControl::add(const Image& mean_so_far, const Image& estimated_so_far,
 }
 
 Image RunControl::guess_of(const ImagePair& images) const {
-    return static_cast<double>(halves_.passes()) < passes_for_pixels
-               ? guess_from({smoothed(images[0]), smoothed(images[1])})
-               : guess_from(images);
+    return static_cast<double>(halves_.passes()) < passes_for_pixels ? guess_from_few(images)
+                                                                     : guess_from(images);
 }
 
 void RunControl::measure() {

@@ -125,6 +125,22 @@ TEST(Estimate, GuessIsTheImageWithoutFirefliesOfOneOfTheTwo) {
     }
 }
 
+TEST(Estimate, GuessFromFewPassesHeedsEdgesAndPenumbrae) {
+    // A lamp of 20 beside a wall of 1, and a corner that one of the two images has not seen lit.
+    Image lit{4, 4, std::vector<glm::vec3>(16, glm::vec3(1))};
+    for (std::size_t y = 0; y < 4; ++y) {
+        lit.pixels[4 * y] = glm::vec3(20);
+    }
+    Image unlit = lit;
+    unlit.pixels[15] = glm::vec3(0);
+    const Image guess = guess_from_few({lit, unlit});
+    EXPECT_GT(guess.pixels[4].g, 5); // the lamp
+    EXPECT_GE(guess.pixels[5].g, 1); // beside it, where the mean of 3 x 3 pixels is above 7
+    EXPECT_LE(guess.pixels[5].g, 2);
+    EXPECT_GT(guess.pixels[15].g, 0.2);
+    EXPECT_LE(guess.pixels[15].g, 1);
+}
+
 TEST(Estimate, SmoothingKeepsTheMeanInside) {
     Image dot{5, 5, std::vector<glm::vec3>(25, glm::vec3(0))};
     dot.pixels[12] = glm::vec3(9);
