@@ -78,8 +78,8 @@ bool is_rarely_found(const LightTable& table, std::span<const FoundLight> found)
                        [](std::uint32_t n) { return n > 0 && n < enough; });
 }
 
-/// The lights that eye paths find: those of more paths if photons are to be aimed at what a few
-/// find.
+/// The lights that eye paths find. If photons are aimed, further rounds of paths are traced as long
+/// as light from outside is rarely found.
 std::vector<FoundLight> find_lights(RenderContext& context, bool aims) {
     constexpr std::uint32_t most_rounds = 8;
     const DeviceScene& scene = context.on_device;
