@@ -33,8 +33,10 @@ public:
         if (control_ && control_->outcome() == RunOutcome::slow && !is_interrupted()) {
             render_as_witness();
         }
+        tuned_.result = std::move(best_so_far_->result);
+        tuned_.settings = std::move(best_so_far_->settings);
+        tuned_.measured = std::move(best_so_far_->error);
         if (control_) {
-            tuned_.measured = control_->measured();
             tuned_.outcome = control_->outcome();
         }
         tell_of_witness();
@@ -42,7 +44,7 @@ public:
     }
 
 private:
-    bool is_interrupted() const { return tuned_.result.statistics.interrupted; }
+    bool is_interrupted() const { return best_so_far_ && best_so_far_->is_interrupted(); }
     const Candidate& best() const { return pilots_.candidates().front(); }
     bool best_is_unbiased() const {
         return tuned_.target.methods.at(best().settings.method).abilities.unbiased;
@@ -56,23 +58,28 @@ private:
             if (!settings) {
                 return;
             }
-            keep(*settings, pilots_.run(*settings, exploration_.pilot_time_limit(),
-                                        [&] { return continuation(); }));
+            Picture picture = pilots_.run(*settings, exploration_.pilot_time_limit(),
+                                          [&] { return continuation(); });
+            if (control_) {
+                picture.error = control_->measured();
+            }
+            keep(std::move(picture));
         }
     }
 
-    /// Keeps the result of a pilot that continued as the final render, and the best pilot's for a
-    /// user who interrupts.
-    void keep(const RenderSettings& settings, RenderResult result) {
-        const bool interrupted = result.statistics.interrupted;
-        if (control_ ||
-            (interrupted ? tuned_.result.statistics.samples == 0 : pilots_.last_is_best())) {
-            tuned_.result = std::move(result);
-            tuned_.settings = settings;
+    /// Keeps this picture if it is the final one, or the best so far for a user who interrupts.
+    void keep(Picture picture) {
+        const bool interrupted = picture.is_interrupted(), is_final = control_ && !interrupted;
+        if (!best_so_far_ || is_final || is_better(picture, *best_so_far_)) {
+            best_so_far_ = std::move(picture);
         }
-        if (interrupted) {
-            tuned_.result.statistics.interrupted = true;
-        }
+        best_so_far_->result.statistics.interrupted = interrupted;
+    }
+
+    /// The final render from the start.
+    void render_picked(const RenderSettings& settings) {
+        RenderResult result = render_(settings, std::ref(*control_));
+        keep({.result = std::move(result), .settings = settings, .error = control_->measured()});
     }
 
     /// Picks the last pilot and returns what controls its further passes. Returns null if its
@@ -99,7 +106,6 @@ private:
                 scene_.name, *target.error, best().settings.method, best().seconds);
         }
         tuned_.candidates = pilots_.candidates();
-        tuned_.settings = best().settings;
         tuned_.pilot_seconds = seconds_since(start_);
         on_pick_(tuned_);
         call_witness();
@@ -156,23 +162,26 @@ private:
         Candidate& left = tuned_.candidates.front();
         left.error = control_->measured()->error();
         tuned_.candidates.insert(tuned_.candidates.begin(), control_->of_witness());
-        tuned_.settings = tuned_.candidates.front().settings;
         on_pick_(tuned_);
         control_.emplace(tuned_.target, tuned_.candidates.front(), Witnesses(), false,
                          seconds_since(start_));
-        tuned_.result = render_(tuned_.settings, std::ref(*control_));
+        render_picked(tuned_.candidates.front().settings);
     }
 
     /// Renders the best candidate from the start, after more paths where they improve the estimate
     /// of its bias.
     void render_best() {
         const bool needs_more_truth = !best_is_unbiased() && best().seconds <= default_time_limit;
-        if (needs_more_truth && !pilots_.improve_truth(share_of_truth * best().seconds)) {
-            tuned_.result.statistics.interrupted = true;
-            return;
+        if (needs_more_truth) {
+            if (std::optional<Picture> truth =
+                    pilots_.improve_truth(share_of_truth * best().seconds)) {
+                keep(*std::move(truth));
+            }
         }
-        pick();
-        tuned_.result = render_(tuned_.settings, std::ref(*control_));
+        if (!is_interrupted()) {
+            pick();
+            render_picked(tuned_.candidates.front().settings);
+        }
     }
 
     const RenderPasses& render_;
@@ -182,6 +191,7 @@ private:
     const OnPick& on_pick_;
     Clock::time_point start_;
     AutotunedRender tuned_;
+    std::optional<Picture> best_so_far_;     ///< once there is one; at last the result
     std::optional<Witness> witness_;         ///< of the final render, if its method has bias
     std::optional<Witness> caustic_witness_; ///< if eye paths find caustics, but only rarely
     std::optional<RunControl> control_;      ///< of the final render, once it is picked

@@ -14,9 +14,11 @@ namespace argand {
 /// A render whose method and numbers of photons and samples Argand picked.
 struct AutotunedRender {
     Target target;
-    RenderResult result;     ///< if the pilots were interrupted, the result of one of them
+    /// If the user interrupted it, the picture that is known to have the least error, which may be
+    /// a pilot's.
+    RenderResult result;
     RenderSettings settings; ///< of one pass of the result
-    /// Best first; the result uses the first. Empty if the pilots were interrupted.
+    /// Best first; the final render uses the first. Empty if the pilots were interrupted.
     std::vector<Candidate> candidates;
     double pilot_seconds = 0;
     std::optional<MeasuredError> measured; ///< of the result; none: it has too few passes

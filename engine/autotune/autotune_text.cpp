@@ -78,10 +78,9 @@ std::string describe_pick(const AutotunedRender& render) {
 }
 
 std::string describe_outcome(const AutotunedRender& render) {
-    const std::string missing = describe_target(render);
-    if (render.candidates.empty()) {
-        return "its error is unknown: it was interrupted while methods were tried";
-    }
+    const std::string missing = render.candidates.empty()
+                                    ? "; it was interrupted while methods were tried"
+                                    : describe_target(render);
     if (!render.measured) {
         return "its error is unknown: measuring noise takes two complete passes" + missing;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace argand {
@@ -24,70 +25,77 @@ bool takes_few_passes(const Pilot& pilot, const Target& target) {
 
 } // namespace
 
-RenderResult Pilots::run(const RenderSettings& settings, double seconds,
-                         const Continuation& continuation) {
+bool is_better(const Picture& a, const Picture& b) {
+    const auto known = [](const Picture& picture) {
+        return picture.error ? picture.error->error() : std::numeric_limits<double>::infinity();
+    };
+    return known(a) < known(b);
+}
+
+Picture Pilots::run(const RenderSettings& settings, double seconds,
+                    const Continuation& continuation) {
     std::optional<PilotControl> pilot; // empty once the pilot is complete
     pilot.emplace(target_.methods.at(settings.method), settings, [&](const Pilot& so_far) {
         return so_far.seconds > seconds || takes_few_passes(so_far, target_);
     });
     OnPass next;
-    RenderResult result =
-        render_(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
-            if (pilot) {
-                if (const std::optional<PassPlan> plan = (*pilot)(so_far)) {
-                    return plan;
-                }
-                add(std::move(*pilot).take());
-                pilot.reset();
-                next = continuation();
+    Picture picture{.result = {}, .settings = settings};
+    picture.result = render_(settings, [&](const PictureSoFar& so_far) -> std::optional<PassPlan> {
+        if (pilot) {
+            if (const std::optional<PassPlan> plan = (*pilot)(so_far)) {
+                return plan;
             }
-            return next ? next(so_far) : std::nullopt;
-        });
-    // The render may have ended by itself, because there are no random numbers for more passes.
-    if (pilot && !result.statistics.interrupted) {
-        add(std::move(*pilot).take());
+            add(std::move(*pilot).take());
+            pilot.reset();
+            picture.error = error_of(last());
+            next = continuation();
+        }
+        return next ? next(so_far) : std::nullopt;
+    });
+    if (pilot) {
+        // Interrupted, or there are no random numbers for more passes.
+        Pilot ended = std::move(*pilot).take();
+        picture.error = error_of(ended);
+        if (!picture.is_interrupted()) {
+            add(std::move(ended));
+        }
     }
     if (!next) {
         rank_candidates(false);
     }
-    return result;
+    return picture;
 }
 
-bool Pilots::improve_truth(double seconds) {
+std::optional<Picture> Pilots::improve_truth(double seconds) {
     const auto unbiased = std::find_if(pilots_.begin(), pilots_.end(), is_unbiased);
     if (unbiased == pilots_.end()) {
-        return true;
+        return std::nullopt;
     }
     RenderSettings more = unbiased->settings;
     const double samples =
         std::floor(seconds / (pilot_passes * unbiased->seconds_per_pass)) * more.samples;
     if (samples < 1) {
-        return true;
+        return std::nullopt;
     }
     more.samples = static_cast<std::uint32_t>(std::min(samples, 65'536.0));
     more.seed += 1;
     PilotControl control(*unbiased->method, more, [](const Pilot&) { return false; });
-    if (render_(more, std::ref(control)).statistics.interrupted) {
-        return false;
-    }
+    Picture picture{.result = render_(more, std::ref(control)), .settings = more};
     const Pilot pilot = std::move(control).take();
-    add_truth(pilot);
-    seconds_ += pilot.seconds;
-    fit_models();
-    rank_candidates(false);
-    return true;
+    picture.error = error_of(pilot);
+    if (!picture.is_interrupted()) {
+        add_truth(pilot);
+        seconds_ += pilot.seconds;
+        fit_models();
+        rank_candidates(false);
+    }
+    return picture;
 }
 
 std::size_t Pilots::count(const std::string& method) const {
     return static_cast<std::size_t>(
         std::count_if(pilots_.begin(), pilots_.end(),
                       [&](const Pilot& pilot) { return pilot.settings.method == method; }));
-}
-
-bool Pilots::last_is_best() const {
-    const RenderSettings &last = pilots_.back().settings, &best = candidates_.front().settings;
-    return last.method == best.method && last.samples == best.samples &&
-           last.photons == best.photons;
 }
 
 void Pilots::add(Pilot pilot) {
@@ -104,9 +112,27 @@ void Pilots::fit_models() {
     const Image guess = best_guess(pilots_);
     models_.clear();
     for (const Pilot& pilot : pilots_) {
-        models_.push_back(
-            model_of(pilot, truth_.images ? &truth_.images->estimated : nullptr, guess));
+        models_.push_back(fitted_to(pilot, guess));
     }
+}
+
+ErrorModel Pilots::fitted_to(const Pilot& pilot, const Image& guess) const {
+    return model_of(pilot, truth_.images ? &truth_.images->estimated : nullptr, guess);
+}
+
+/// Error of the picture that the pilot's passes make. Nothing if it has fewer than two passes, or
+/// if its method is no candidate.
+std::optional<MeasuredError> Pilots::error_of(const Pilot& pilot) const {
+    if (pilot.passes < 2 || (is_unbiased(pilot) && !with_unbiased_)) {
+        return std::nullopt;
+    }
+    ErrorModel model = fitted_to(pilot, best_guess({&pilot, 1}));
+    const auto passes = static_cast<double>(pilot.passes);
+    model.initial_passes = std::min(passes, static_cast<double>(initial_pilot_passes));
+    return MeasuredError{.passes = passes,
+                         .noise = noise_after(model, passes),
+                         .bias = bias_after(model, passes),
+                         .testimony = {}};
 }
 
 void Pilots::rank_candidates(bool last_continues) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "autotune/candidate.hpp"
+#include "autotune/measured_error.hpp"
 #include "autotune/witness.hpp"
 
 #include <functional>
@@ -9,6 +10,18 @@
 #include <vector>
 
 namespace argand {
+
+/// A picture that a user gets who interrupts.
+struct Picture {
+    RenderResult result;
+    RenderSettings settings;                 ///< of one pass
+    std::optional<MeasuredError> error = {}; ///< none: it has too few passes
+
+    bool is_interrupted() const { return result.statistics.interrupted; }
+};
+
+/// Whether less error is known of `a` than of `b`.
+bool is_better(const Picture& a, const Picture& b);
 
 /// Called when a pilot is complete. Returns the control of further passes that continue from the
 /// pilot's, or null to throw its passes away.
@@ -23,13 +36,13 @@ public:
         : render_(render), target_(target), with_unbiased_(with_unbiased) {}
 
     /// Runs one more pilot, which ends early after `seconds`, and the passes that continue from it.
-    /// While `continuation` is called, the candidates assume that the last pilot continues.
-    RenderResult run(const RenderSettings& settings, double seconds,
-                     const Continuation& continuation);
+    /// While `continuation` is called, the candidates assume that the last pilot continues. The
+    /// picture's error is that of the pilot.
+    Picture run(const RenderSettings& settings, double seconds, const Continuation& continuation);
 
     /// Spends `seconds` on more samples of the unbiased method, to measure the bias of the other
-    /// methods better. Returns false if it was interrupted.
-    bool improve_truth(double seconds);
+    /// methods better. Returns nothing if there is no such method, or no time for one sample.
+    std::optional<Picture> improve_truth(double seconds);
 
     /// Pictures without bias, once the unbiased method has run.
     const PooledImages& truth() const { return truth_; }
@@ -37,9 +50,6 @@ public:
     /// Number of pilots of this method so far.
     std::size_t count(const std::string& method) const;
     const Pilot& last() const { return pilots_.back(); }
-    /// Whether the last pilot has the settings of the best candidate.
-    bool last_is_best() const;
-
     /// Time of all pilots.
     double seconds() const { return seconds_; }
     /// Whether the unbiased method is a candidate.
@@ -53,6 +63,8 @@ public:
 
 private:
     void add(Pilot pilot);
+    ErrorModel fitted_to(const Pilot& pilot, const Image& guess) const;
+    std::optional<MeasuredError> error_of(const Pilot& pilot) const;
     void fit_models();
     void rank_candidates(bool last_continues);
     void add_truth(const Pilot& unbiased);

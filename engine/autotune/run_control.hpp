@@ -2,6 +2,7 @@
 
 #include "autotune/candidate.hpp"
 #include "autotune/independent_halves.hpp"
+#include "autotune/measured_error.hpp"
 #include "autotune/witness.hpp"
 #include "base/clock.hpp"
 #include "methods/budget.hpp"
@@ -12,15 +13,6 @@ namespace argand {
 
 /// Default time limit in seconds for a target error without a time budget.
 inline constexpr double default_time_limit = 3600;
-
-/// The error of an image, measured while it is rendered.
-struct MeasuredError {
-    double passes = 0;                  ///< after which it was measured
-    double noise = 0;                   ///< relMSE that is due to noise
-    Estimate bias{0, 0};                ///< squared
-    std::optional<Testimony> testimony; ///< of the witness, if there is one so far
-    double error() const { return noise + bias.value; }
-};
 
 /// How a final render ended.
 enum class RunOutcome : std::uint8_t {

@@ -332,12 +332,16 @@ TEST(Autotune, KeepsTheMethodAndTheNumbersThatTheUserSet) {
 
 TEST(Autotune, InterruptedPilotsLeaveTheBestResult) {
     FakePasses fake;
+    fake.map_bias = 0.08;
     fake.interrupted_after = 3;
     const AutotunedRender first = tune(fake, box(), {.error = 0.0005, .seconds = {}});
     EXPECT_TRUE(first.result.statistics.interrupted);
     EXPECT_EQ(first.result.statistics.passes, 3u);
     EXPECT_EQ(first.settings.method, fake.methods.back());
     EXPECT_TRUE(first.candidates.empty());
+    // Two passes are complete, and tell their error.
+    ASSERT_TRUE(first.measured);
+    EXPECT_NEAR(first.measured->error() / true_error(first.result.layers[0].image), 1, 0.6);
     EXPECT_THAT(describe_outcome(first), ::testing::HasSubstr("while methods were tried"));
     fake.total = 0;
     fake.interrupted_after = pilot_passes + 1;
@@ -345,6 +349,34 @@ TEST(Autotune, InterruptedPilotsLeaveTheBestResult) {
     EXPECT_TRUE(second.result.statistics.interrupted);
     EXPECT_EQ(second.result.statistics.passes, pilot_passes);
     EXPECT_NE(second.settings.method, fake.methods.back());
+    fake.total = 0;
+    fake.interrupted_after = 1;
+    const AutotunedRender none = tune(fake, box(), {.error = 0.0005, .seconds = {}});
+    EXPECT_EQ(none.result.statistics.passes, 1u);
+    EXPECT_FALSE(none.measured);
+    EXPECT_THAT(describe_outcome(none), ::testing::HasSubstr("error is unknown"));
+}
+
+TEST(Autotune, RenderThatIsInterruptedEarlyLeavesTheBestPilot) {
+    // Pilots have far more samples in all than the first passes of the final render.
+    FakePasses fake;
+    fake.direct_deviation = 1;
+    fake.map_bias = 0.02;
+    const Target target{.error = 1e-5, .seconds = {}};
+    std::uint64_t pilots = 0;
+    FakePasses counted = fake;
+    counted.interrupted_after = 200;
+    autotune(counted.passes(), box(), small(), {}, target,
+             [&](const AutotunedRender&) { pilots = counted.total; });
+    ASSERT_GT(pilots, 0u);
+    fake.interrupted_after = pilots + 1;
+    const AutotunedRender tuned = tune(fake, box(), target);
+    EXPECT_FALSE(tuned.candidates.empty());
+    EXPECT_TRUE(tuned.result.statistics.interrupted);
+    EXPECT_GE(tuned.result.statistics.passes, pilot_passes);
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_NEAR(tuned.measured->error() / true_error(tuned.result.layers[0].image), 1, 0.5);
+    EXPECT_THAT(describe_outcome(tuned), ::testing::HasSubstr("is not reached"));
 }
 
 TEST(Autotune, TriesOtherMethodsWhenRandomNumbersRunOut) {
