@@ -48,11 +48,12 @@ struct NearestRecord {
     uint last;
     float32 coverage, coverage_moment;
     uint overflown;
-    // Sums in the first three lanes each; see Sum.
+    // Sums in the first three lanes each; see Sum. The fourth of `indirect` is
+    // Moments::weight_square.
     lane4 indirect, indirect_compensation, caustic, caustic_compensation;
     lane4 indirect_moment, indirect_moment_compensation, caustic_moment,
         caustic_moment_compensation;
-    // Moments, with equal weights: flux_offset and square, area_offset and photons.
+    // Moments, with equal weights: flux_offset and square, area_offset and weight.
     lane4 flux_moments, area_moments;
 };
 

@@ -151,10 +151,10 @@ struct GatherRecord {
     float32 caustic_r, caustic_g, caustic_b;
     float32 coverage;
     float32 indirect_compensation_r, indirect_compensation_g, indirect_compensation_b, square;
-    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, photons;
-    // These, `square` and `photons`: see Moments.
+    float32 caustic_compensation_r, caustic_compensation_g, caustic_compensation_b, weight;
+    // These, `square` and `weight`: see Moments.
     float32 flux_offset_x, flux_offset_y, flux_offset_z, area_offset_x, area_offset_y,
-        area_offset_z;
+        area_offset_z, weight_square;
 };
 
 // Slots that one invocation counts (photon_tally).

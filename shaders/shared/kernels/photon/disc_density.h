@@ -49,11 +49,12 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
             leaf.area += area;
             add_area(leaf.moments, area, d);
         } else if (is_caustic(place)) {
-            leaf.caustic += scattered(q, carried) * disc_weight(d2 * b.inverse_caustic_r2);
+            leaf.caustic += scattered(q, carried).radiance * disc_weight(d2 * b.inverse_caustic_r2);
         } else {
-            vec3 flux = scattered(q, carried) * disc_weight(d2 * b.inverse_r2);
+            Scattered light = scattered(q, carried);
+            vec3 flux = light.radiance * disc_weight(d2 * b.inverse_r2);
             leaf.indirect += flux;
-            add_flux(leaf.moments, flux, d, d2);
+            add_flux(leaf.moments, flux, light.weight, d, d2);
         }
     }
 }

@@ -34,11 +34,12 @@ FN void add_photon(IN(Bandwidth) b, uint j, INOUT(Query) q, INOUT(LeafSums) leaf
                 q.coverage += area;
                 add_area(leaf.moments, area, -offset);
             } else if (is_caustic(place)) {
-                leaf.caustic += scattered(q, carried) * weight;
+                leaf.caustic += scattered(q, carried).radiance * weight;
             } else {
-                vec3 flux = scattered(q, carried) * weight;
+                Scattered light = scattered(q, carried);
+                vec3 flux = light.radiance * weight;
                 leaf.indirect += flux;
-                add_flux(leaf.moments, flux, -offset, dot3(offset, offset));
+                add_flux(leaf.moments, flux, light.weight, -offset, dot3(offset, offset));
             }
         }
     }

@@ -14,6 +14,6 @@ FN void main() {
         real zero = real(0.0);
         gathers[slot] =
             GatherRecord(zero, zero, zero, 0u, zero, zero, zero, zero, zero, zero, zero, zero, zero,
-                         zero, zero, zero, zero, zero, zero, zero, zero, zero);
+                         zero, zero, zero, zero, zero, zero, zero, zero, zero, zero);
     }
 }

@@ -225,14 +225,15 @@ FN bool sum_photons(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
                 add_area(q.moments, area, chord);
                 s.coverage_moment += area * share;
             } else {
-                vec3 term = scattered(q, carried);
+                Scattered light = scattered(q, carried);
+                vec3 term = light.radiance;
                 if (is_caustic(place)) {
                     caustic += term;
                     caustic_moment += term * share;
                 } else {
                     indirect += term;
                     indirect_moment += term * share;
-                    add_flux(q.moments, term, chord, dot3(chord, chord));
+                    add_flux(q.moments, term, light.weight, chord, dot3(chord, chord));
                 }
             }
         }
@@ -299,12 +300,12 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
             equal_area += area;
             add_area(q.moments, area, chord);
         } else if (caustics && photon_is_caustic(place.w)) {
-            caustic += scattered(q, carried) * weight;
+            caustic += scattered(q, carried).radiance * weight;
         } else {
-            vec3 flux = scattered(q, carried);
-            indirect += flux * weight;
-            equal_flux += flux;
-            add_flux(q.moments, flux, chord, dot3(chord, chord));
+            Scattered light = scattered(q, carried);
+            indirect += light.radiance * weight;
+            equal_flux += light.radiance;
+            add_flux(q.moments, light.radiance, light.weight, chord, dot3(chord, chord));
         }
     }
     real density = kernel_scale * inverse_r2;
@@ -340,14 +341,14 @@ FN void put_aside(uint place, Query q, Search s) {
     r.coverage = q.coverage;
     r.coverage_moment = s.coverage_moment;
     r.overflown = s.overflown ? 1u : 0u;
-    r.indirect = vec4(q.indirect.value, real(0.0));
+    r.indirect = vec4(q.indirect.value, q.moments.weight_square);
     r.indirect_compensation = vec4(q.indirect.compensation, real(0.0));
     r.caustic = vec4(q.caustic.value, real(0.0));
     r.caustic_compensation = vec4(q.caustic.compensation, real(0.0));
     r.indirect_moment = vec4(s.indirect_moment.value, real(0.0));
     r.indirect_moment_compensation = vec4(s.indirect_moment.compensation, real(0.0));
     r.flux_moments = vec4(q.moments.flux_offset, q.moments.square);
-    r.area_moments = vec4(q.moments.area_offset, q.moments.photons);
+    r.area_moments = vec4(q.moments.area_offset, q.moments.weight);
     r.caustic_moment = vec4(s.caustic_moment.value, real(0.0));
     r.caustic_moment_compensation = vec4(s.caustic_moment.compensation, real(0.0));
     states[place] = r;
@@ -372,8 +373,8 @@ FN void resume(uint place, INOUT(Query) q, OUT(Search) s) {
     s.listed = r.listed;
     s.last = r.last;
     q.coverage = r.coverage;
-    q.moments =
-        Moments(vec3(r.flux_moments), r.flux_moments.w, vec3(r.area_moments), r.area_moments.w);
+    q.moments = Moments(vec3(r.flux_moments), r.flux_moments.w, vec3(r.area_moments),
+                        r.area_moments.w, r.indirect.w);
     s.coverage_moment = r.coverage_moment;
     s.overflown = r.overflown != 0u;
     q.indirect = Sum(vec3(r.indirect), vec3(r.indirect_compensation));

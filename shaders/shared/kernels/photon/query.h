@@ -94,18 +94,33 @@ FN real open_area(IN(Query) q, uvec4 carried) {
     return bits_float(q.front ? carried.x : carried.y);
 }
 
-// Radiance that the surface scatters towards the eye from a photon's flux. carried: the photon's
-// second four words.
-FN vec3 scattered(IN(Query) q, uvec4 carried) {
+// What the surface scatters towards the eye from a photon's flux.
+struct Scattered {
+    vec3 radiance;
+    real weight; // its share of the flux, up to a factor common to all photons of the query
+};
+
+// carried: the photon's second four words.
+FN Scattered scattered(IN(Query) q, uvec4 carried) {
+    Scattered s;
+    s.radiance = vec3(real(0.0));
+    s.weight = real(0.0);
     if (limits_scatterings && photon_scatterings(carried.w) > q.most_scatterings) {
-        return vec3(real(0.0));
+        return s;
     }
     vec3 flux = bits_float(uvec3(carried));
     if (!glossy || q.lambertian) {
-        return flux * q.reflectance;
+        s.radiance = flux * q.reflectance;
+        s.weight = real(1.0);
+        return s;
     }
     vec3 wi = to_local(q.frame, unpack_unit(carried.w));
-    return flux * (wi.z > real(0.0) ? bsdf_eval(q.bsdf, q.wo, wi, q.lobes) : vec3(real(0.0)));
+    if (wi.z > real(0.0)) {
+        vec3 share = bsdf_eval(q.bsdf, q.wo, wi, q.lobes);
+        s.radiance = flux * share;
+        s.weight = sum_of_channels(share);
+    }
+    return s;
 }
 
 // place: a photon's first four words.

@@ -30,9 +30,9 @@ FN void store_sums(IN(Query) q) {
     vec3 a = q.indirect.compensation;
     vec3 b = q.caustic.compensation;
     Moments m = q.moments;
-    gathers[q.slot] =
-        GatherRecord(q.indirect.value.x, q.indirect.value.y, q.indirect.value.z, q.node,
-                     q.caustic.value.x, q.caustic.value.y, q.caustic.value.z, q.coverage, a.x, a.y,
-                     a.z, m.square, b.x, b.y, b.z, m.photons, m.flux_offset.x, m.flux_offset.y,
-                     m.flux_offset.z, m.area_offset.x, m.area_offset.y, m.area_offset.z);
+    gathers[q.slot] = GatherRecord(
+        q.indirect.value.x, q.indirect.value.y, q.indirect.value.z, q.node, q.caustic.value.x,
+        q.caustic.value.y, q.caustic.value.z, q.coverage, a.x, a.y, a.z, m.square, b.x, b.y, b.z,
+        m.weight, m.flux_offset.x, m.flux_offset.y, m.flux_offset.z, m.area_offset.x,
+        m.area_offset.y, m.area_offset.z, m.weight_square);
 }
