@@ -338,7 +338,7 @@ TEST_F(Progressive, EdgesAreCorrectedHoweverSmallTheRadius) {
 // Few photons lie in the glossy lobes of metals, which scatter very different shares of them. An
 // estimate that is left out because their noise makes its light uneven has more light than the
 // others.
-TEST_F(Progressive, PassesOfFewPhotonsKeepTheLightOfGlossySurfaces) {
+TEST_F(Progressive, SlowPassesOfFewPhotonsKeepTheLightOfGlossySurfaces) {
     const Scene scene = load_asset("gloss_only.glb");
     const RenderResult& expected = render_once("gloss", scene, settings_of("path", 24, 512));
     for (const char* method : {"photons", "footprints", "knn"}) {
