@@ -65,8 +65,8 @@ def digest(*files):
     return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
 
 
-# Light paths find the caustics or the many lamps of these scenes sooner than eye paths do, and light that caustics scatter on,
-# which eye paths alone miss where lights are points; see docs/results/bidirectional.md.
+# Light paths find the caustics or the many lamps of these scenes sooner than eye paths do. Where lights are points, eye paths
+# also miss the light that caustics scatter on. See docs/results/bidirectional.md.
 BY_LIGHT_PATHS = {"bulb", "classroom", "cornell_glass", "cornell_mirror", "glass_marble", "gloss_only", "inside_glass",
                   "living_room", "living_room_2", "marble_box", "small_emitters"}
 

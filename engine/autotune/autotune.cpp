@@ -6,12 +6,21 @@
 #include "plan/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace argand {
 
 namespace {
+
+// What decides between two pictures. A black pilot has no error that could be told, so 0 does not
+// count.
+double known_error(const Picture& picture) {
+    const double error = picture.error ? picture.error->error() : 0;
+    return std::isfinite(error) && error > 0 ? error : std::numeric_limits<double>::infinity();
+}
 
 // More paths that only measure the bias of other methods may take this share of the render's time.
 constexpr double share_of_truth = 0.1;
@@ -60,26 +69,31 @@ private:
             }
             Picture picture = pilots_.run(*settings, exploration_.pilot_time_limit(),
                                           [&] { return continuation(); });
-            if (control_) {
-                picture.error = control_->measured();
-            }
-            keep(std::move(picture));
+            keep(control_ ? final_picture(std::move(picture.result), *settings)
+                          : std::move(picture));
         }
     }
 
     /// Keeps this picture if it is the final one, or the best so far for a user who interrupts.
     void keep(Picture picture) {
         const bool interrupted = picture.is_interrupted(), is_final = control_ && !interrupted;
-        if (!best_so_far_ || is_final || is_better(picture, *best_so_far_)) {
+        if (best_so_far_ && best_so_far_->pilot) {
+            best_so_far_->error = pilots_.error_of(*best_so_far_->pilot); // more is known by now
+        }
+        if (!best_so_far_ || is_final || known_error(picture) < known_error(*best_so_far_)) {
             best_so_far_ = std::move(picture);
         }
         best_so_far_->result.statistics.interrupted = interrupted;
     }
 
+    Picture final_picture(RenderResult result, const RenderSettings& settings) const {
+        result.statistics.interrupted = result.statistics.interrupted || control_->is_interrupted();
+        return {.result = std::move(result), .settings = settings, .error = control_->measured()};
+    }
+
     /// The final render from the start.
     void render_picked(const RenderSettings& settings) {
-        RenderResult result = render_(settings, std::ref(*control_));
-        keep({.result = std::move(result), .settings = settings, .error = control_->measured()});
+        keep(final_picture(render_(settings, std::ref(*control_)), settings));
     }
 
     /// Picks the last pilot and returns what controls its further passes. Returns null if its

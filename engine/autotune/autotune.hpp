@@ -31,7 +31,7 @@ struct AutotunedRender {
     bool reached() const { return outcome == RunOutcome::reached; }
 };
 
-/// Called with the pick before it is rendered.
+/// Called with the pick before it is rendered: result and settings are not set yet.
 using OnPick = std::function<void(const AutotunedRender&)>;
 
 /// Renders with the method and the numbers of photons and samples that reach the target error
@@ -47,7 +47,7 @@ AutotunedRender autotune(const RenderPasses& render, const Scene& scene, const R
 
 /// One line for users: what was picked and why.
 std::string describe_pick(const AutotunedRender& render);
-/// One line for users: the error of the finished render, and whether it reached its target.
+/// One line for users: the error of the result, and whether it reached its target.
 std::string describe_outcome(const AutotunedRender& render);
 
 } // namespace argand

@@ -42,7 +42,11 @@ std::string describe_target(const AutotunedRender& render) {
                            "confirmed{}",
                            *render.target.error, judge);
     default:
-        return fmt::format("; the target of {:.2g} is not reached", *render.target.error);
+        return render.measured && render.measured->error() <= *render.target.error
+                   ? fmt::format("; the target of {:.2g} is not reached for certain: nothing has "
+                                 "confirmed it",
+                                 *render.target.error)
+                   : fmt::format("; the target of {:.2g} is not reached", *render.target.error);
     }
 }
 

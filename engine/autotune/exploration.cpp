@@ -59,7 +59,8 @@ std::optional<RenderSettings> Exploration::next_pilot() const {
     }
     // Path tracing also measures the bias of the other methods, unless it misses some light.
     const MethodInfo* unbiased = target.methods.unbiased();
-    if (eye_paths_find_all && unbiased && is_worth_trying(*unbiased)) {
+    const bool user_chose_unbiased = user_set.method && pilots.with_unbiased();
+    if (eye_paths_find_all && unbiased && !user_chose_unbiased && is_worth_trying(*unbiased)) {
         return of_method(unbiased->name);
     }
     const Candidate& best = pilots.candidates().front();

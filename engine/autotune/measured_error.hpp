@@ -2,7 +2,6 @@
 
 #include "autotune/witness.hpp"
 
-#include <limits>
 #include <optional>
 
 namespace argand {
@@ -15,5 +14,9 @@ struct MeasuredError {
     std::optional<Testimony> testimony; ///< of the witness, if there is one so far
     double error() const { return noise + bias.value; }
 };
+
+/// The error of the mean of the pilot's passes: noise by its halves, bias by its model. Requires
+/// two passes.
+MeasuredError error_of(const Pilot& pilot, const ErrorModel& model, const Image& guess);
 
 } // namespace argand

@@ -40,8 +40,9 @@ inline constexpr std::uint64_t initial_pilot_passes = pilot_passes / 2;
 struct Pilot {
     const MethodInfo* method; ///< of the settings
     RenderSettings settings;  ///< of one pass
-    /// Fewer than `pilot_passes` if it took too long. With 2, `reduced` repeats `initial`; with 1,
-    /// all images are the same one.
+    /// Fewer than `pilot_passes` if it took too long, or was interrupted. With 3, `reduced` has the
+    /// third pass and repeats the second; with 2, it repeats `initial`; with 1, all images are the
+    /// same one.
     std::uint64_t passes = 0;
     PilotImages initial, reduced;
     /// Measured over the reduced passes, or else the second pass, or else the first, which also

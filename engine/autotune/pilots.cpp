@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace argand {
@@ -25,13 +24,6 @@ bool takes_few_passes(const Pilot& pilot, const Target& target) {
 
 } // namespace
 
-bool is_better(const Picture& a, const Picture& b) {
-    const auto known = [](const Picture& picture) {
-        return picture.error ? picture.error->error() : std::numeric_limits<double>::infinity();
-    };
-    return known(a) < known(b);
-}
-
 Picture Pilots::run(const RenderSettings& settings, double seconds,
                     const Continuation& continuation) {
     std::optional<PilotControl> pilot; // empty once the pilot is complete
@@ -47,7 +39,7 @@ Picture Pilots::run(const RenderSettings& settings, double seconds,
             }
             add(std::move(*pilot).take());
             pilot.reset();
-            picture.error = error_of(last());
+            picture.pilot = pilots_.size() - 1;
             next = continuation();
         }
         return next ? next(so_far) : std::nullopt;
@@ -55,13 +47,18 @@ Picture Pilots::run(const RenderSettings& settings, double seconds,
     if (pilot) {
         // Interrupted, or there are no random numbers for more passes.
         Pilot ended = std::move(*pilot).take();
-        picture.error = error_of(ended);
-        if (!picture.is_interrupted()) {
+        if (picture.is_interrupted()) {
+            picture.error = error_of_unfinished(ended);
+        } else {
             add(std::move(ended));
+            picture.pilot = pilots_.size() - 1;
         }
     }
     if (!next) {
         rank_candidates(false);
+    }
+    if (picture.pilot) {
+        picture.error = error_of(*picture.pilot);
     }
     return picture;
 }
@@ -82,7 +79,7 @@ std::optional<Picture> Pilots::improve_truth(double seconds) {
     PilotControl control(*unbiased->method, more, [](const Pilot&) { return false; });
     Picture picture{.result = render_(more, std::ref(control)), .settings = more};
     const Pilot pilot = std::move(control).take();
-    picture.error = error_of(pilot);
+    picture.error = error_of_unfinished(pilot);
     if (!picture.is_interrupted()) {
         add_truth(pilot);
         seconds_ += pilot.seconds;
@@ -109,10 +106,10 @@ void Pilots::add(Pilot pilot) {
 }
 
 void Pilots::fit_models() {
-    const Image guess = best_guess(pilots_);
+    guess_ = best_guess(pilots_);
     models_.clear();
     for (const Pilot& pilot : pilots_) {
-        models_.push_back(fitted_to(pilot, guess));
+        models_.push_back(fitted_to(pilot, guess_));
     }
 }
 
@@ -120,19 +117,24 @@ ErrorModel Pilots::fitted_to(const Pilot& pilot, const Image& guess) const {
     return model_of(pilot, truth_.images ? &truth_.images->estimated : nullptr, guess);
 }
 
-/// Error of the picture that the pilot's passes make. Nothing if it has fewer than two passes, or
-/// if its method is no candidate.
-std::optional<MeasuredError> Pilots::error_of(const Pilot& pilot) const {
-    if (pilot.passes < 2 || (is_unbiased(pilot) && !with_unbiased_)) {
+bool Pilots::tells_error(const Pilot& pilot) const {
+    return pilot.passes >= 2 && (!is_unbiased(pilot) || with_unbiased_);
+}
+
+std::optional<MeasuredError> Pilots::error_of(std::size_t pilot) const {
+    if (!tells_error(pilots_[pilot])) {
         return std::nullopt;
     }
-    ErrorModel model = fitted_to(pilot, best_guess({&pilot, 1}));
-    const auto passes = static_cast<double>(pilot.passes);
-    model.initial_passes = std::min(passes, static_cast<double>(initial_pilot_passes));
-    return MeasuredError{.passes = passes,
-                         .noise = noise_after(model, passes),
-                         .bias = bias_after(model, passes),
-                         .testimony = {}};
+    return argand::error_of(pilots_[pilot], models_[pilot], guess_);
+}
+
+/// The same of a pilot that is none of these.
+std::optional<MeasuredError> Pilots::error_of_unfinished(const Pilot& pilot) const {
+    if (!tells_error(pilot)) {
+        return std::nullopt;
+    }
+    const Image guess = pilots_.empty() ? best_guess({&pilot, 1}) : guess_;
+    return argand::error_of(pilot, fitted_to(pilot, guess), guess);
 }
 
 void Pilots::rank_candidates(bool last_continues) {

@@ -11,17 +11,15 @@
 
 namespace argand {
 
-/// A picture that a user gets who interrupts.
+/// A picture to hand out if the user interrupts the render.
 struct Picture {
     RenderResult result;
     RenderSettings settings;                 ///< of one pass
+    std::optional<std::size_t> pilot = {};   ///< its number, if it is that of a complete one
     std::optional<MeasuredError> error = {}; ///< none: it has too few passes
 
     bool is_interrupted() const { return result.statistics.interrupted; }
 };
-
-/// Whether less error is known of `a` than of `b`.
-bool is_better(const Picture& a, const Picture& b);
 
 /// Called when a pilot is complete. Returns the control of further passes that continue from the
 /// pilot's, or null to throw its passes away.
@@ -50,6 +48,10 @@ public:
     /// Number of pilots of this method so far.
     std::size_t count(const std::string& method) const;
     const Pilot& last() const { return pilots_.back(); }
+    /// Error of the picture of a complete pilot, as far as it is known by now. Nothing if it has
+    /// fewer than two passes, or if its method is no candidate.
+    std::optional<MeasuredError> error_of(std::size_t pilot) const;
+
     /// Time of all pilots.
     double seconds() const { return seconds_; }
     /// Whether the unbiased method is a candidate.
@@ -64,7 +66,8 @@ public:
 private:
     void add(Pilot pilot);
     ErrorModel fitted_to(const Pilot& pilot, const Image& guess) const;
-    std::optional<MeasuredError> error_of(const Pilot& pilot) const;
+    bool tells_error(const Pilot& pilot) const;
+    std::optional<MeasuredError> error_of_unfinished(const Pilot& pilot) const;
     void fit_models();
     void rank_candidates(bool last_continues);
     void add_truth(const Pilot& unbiased);
@@ -75,6 +78,7 @@ private:
     PooledImages truth_;
     double seconds_ = 0;
     std::vector<Pilot> pilots_;
+    Image guess_;                    ///< best_guess() of all pilots
     std::vector<ErrorModel> models_; ///< of each pilot
     std::vector<Candidate> candidates_;
 };

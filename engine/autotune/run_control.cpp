@@ -279,10 +279,11 @@ bool RunControl::has_time_for(const Witness& witness) const {
 
 /// Renders more passes of a witness. Returns false if the user has interrupted it.
 bool RunControl::ask(const Request& request) {
-    return budget_.once([&] {
+    is_interrupted_ = !budget_.once([&] {
         return request.witness->render_more(request.passes, seconds_of_witness_left(),
                                             std::max(expected_, measured_->passes));
     });
+    return !is_interrupted_;
 }
 
 double RunControl::seconds_of_witnesses() const {

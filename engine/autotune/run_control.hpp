@@ -48,6 +48,8 @@ public:
     /// The last measurement. Nothing before both halves have a pass.
     const std::optional<MeasuredError>& measured() const { return measured_; }
     RunOutcome outcome() const { return outcome_; }
+    /// Whether the user has interrupted a witness.
+    bool is_interrupted() const { return is_interrupted_; }
     /// The candidate that reaches the target error with the witness's method. Requires a
     /// measurement with pictures of the witness.
     Candidate of_witness() const;
@@ -105,6 +107,7 @@ private:
     bool judges_caustics_ = false;       ///< there are caustics that need their witness
     std::optional<MeasuredError> measured_;
     RunOutcome outcome_ = RunOutcome::unfinished;
+    bool is_interrupted_ = false;
 };
 
 } // namespace argand

@@ -2,17 +2,28 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <unistd.h>
 
 namespace argand {
 
 namespace {
 
-std::atomic<bool> signalled{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may use nothing else");
+// Milliseconds of the monotonic clock at the first signal; 0: there was none.
+std::atomic<std::int64_t> first_signal{0};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free,
+              "a signal handler may use nothing else");
+
+// `timeout` sends its signal to the program and to its group: two signals that are one.
+constexpr std::int64_t one_signal = 500;
 
 void note_signal(int signal) {
-    if (signalled.exchange(true)) {
+    timespec time{};
+    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    const std::int64_t now = std::int64_t{time.tv_sec} * 1'000 + time.tv_nsec / 1'000'000;
+    std::int64_t first = 0;
+    if (!first_signal.compare_exchange_strong(first, now) && now - first > one_signal) {
         ::_exit(128 + signal);
     }
 }
@@ -34,8 +45,8 @@ void catch_interrupts() {
     }
 }
 
-bool interrupted() { return signalled.load(std::memory_order_relaxed); }
+bool interrupted() { return first_signal.load(std::memory_order_relaxed) != 0; }
 
-void forget_interrupt() { signalled.store(false); }
+void forget_interrupt() { first_signal.store(0); }
 
 } // namespace argand

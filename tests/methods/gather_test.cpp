@@ -227,7 +227,10 @@ TEST_F(GatherPhotons, TellsHowUnevenLightIs) {
     EXPECT_NEAR(uneven(lit([&](float x) { return std::max(1 + x / radius, 0.0f); })), 1 / 12.0,
                 0.005);
     const double half = std::pow(16 / (15 * double(pi)), 2) * 3;
-    EXPECT_NEAR(uneven(lit([](float x) { return x > 0 ? 1.0f : 0.0f; })), half, 0.01);
+    const std::vector<PhotonRecord> one_side = lit([](float x) { return x > 0 ? 1.0f : 0.0f; });
+    EXPECT_NEAR(uneven(one_side), half, 0.01);
+    EXPECT_NEAR(gather(one_side, {Query{}}, radius, 512, true, 40'000)[0].uneven, uneven(one_side),
+                1e-5); // in several dispatches
     EXPECT_GT(half, Untaken::strongly_uneven);
 }
 

@@ -50,13 +50,14 @@ FN void add_moments(INOUT(Moments) sum, IN(Moments) term, real scale) {
 // from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one. Four times the
 // mean that photons of equal flux have by chance is taken off: an estimate that is left out because
 // of its photons' noise has more light than the others, so what remains would be too dark. Where a
-// glossy lobe scatters different shares of them, they count as those that have the same noise with
-// equal shares (Kish 1965, "Survey Sampling"). A photon that itself is much brighter than the
-// others makes the light uneven: it may come from another room. flux, area: the sums without
-// offsets; without area nothing is known.
+// glossy lobe scatters different shares of them, they count as the number of equally weighted
+// photons that would have the same noise (Kish 1965, "Survey Sampling"). A photon that itself is
+// much brighter than the others makes the light uneven: it may come from another room. flux, area:
+// the sums without offsets; without area nothing is known.
 FN real unevenness(IN(Moments) moments, vec3 flux, real area) {
     real sum = sum_of_channels(flux);
-    if (!(sum > real(0.0)) || !(area > real(0.0))) {
+    // Squares of tiny weights have no digits left.
+    if (!(sum > real(0.0)) || !(area > real(0.0)) || !(moments.weight_square > real(1e-37))) {
         return real(0.0);
     }
     vec3 between = moments.flux_offset / sum - moments.area_offset / area;
