@@ -44,7 +44,7 @@ public:
         }
         tuned_.result = std::move(best_so_far_->result);
         tuned_.settings = std::move(best_so_far_->settings);
-        tuned_.measured = std::move(best_so_far_->error);
+        tuned_.measured = best_so_far_->error;
         if (control_) {
             tuned_.outcome = control_->outcome();
         }
