@@ -21,6 +21,12 @@ def revision_of(folder):
     return found.stdout.strip() or "unknown"
 
 
+def given(parser, options, *names):
+    """The words of those of these options that have not their default values, as they stand on the command line."""
+    return [f"--{name.replace('_', '-')} {getattr(options, name)}" for name in names
+            if getattr(options, name) != parser.get_default(name)]
+
+
 def origin():
     """A sentence: the command, date, revision and machine of the results."""
     command = " ".join([pathlib.Path(sys.argv[0]).name, *sys.argv[1:]])
@@ -96,7 +102,7 @@ PAGES = [
     ("Previews of a view", "view.md", "tools/results_view"),
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
     ("Loading textured scenes, and what textures cost", "loading.md", "tools/results_loading"),
-    ("What was wrong outside the Cornell box", "rooms.md", "tools/results_rooms, tools/results_means, argand render, test_methods"),
+    ("What was wrong outside the Cornell box", "rooms.md", "tools/results_rooms, argand render, test_methods"),
     ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
 ]
 

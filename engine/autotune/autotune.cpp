@@ -74,11 +74,19 @@ private:
         }
     }
 
+    /// Sets the error of a complete pilot's picture, as far as it is known by now.
+    void tell_error(Picture& picture) const {
+        if (picture.pilot) {
+            picture.error = pilots_.error_of(*picture.pilot);
+        }
+    }
+
     /// Keeps this picture if it is the final one, or the best so far for a user who interrupts.
     void keep(Picture picture) {
         const bool interrupted = picture.is_interrupted(), is_final = control_ && !interrupted;
-        if (best_so_far_ && best_so_far_->pilot) {
-            best_so_far_->error = pilots_.error_of(*best_so_far_->pilot); // more is known by now
+        tell_error(picture);
+        if (best_so_far_) {
+            tell_error(*best_so_far_); // more is known by now
         }
         if (!best_so_far_ || is_final || known_error(picture) < known_error(*best_so_far_)) {
             best_so_far_ = std::move(picture);

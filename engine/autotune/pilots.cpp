@@ -57,9 +57,6 @@ Picture Pilots::run(const RenderSettings& settings, double seconds,
     if (!next) {
         rank_candidates(false);
     }
-    if (picture.pilot) {
-        picture.error = error_of(*picture.pilot);
-    }
     return picture;
 }
 

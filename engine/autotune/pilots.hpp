@@ -35,7 +35,7 @@ public:
 
     /// Runs one more pilot, which ends early after `seconds`, and the passes that continue from it.
     /// While `continuation` is called, the candidates assume that the last pilot continues. The
-    /// picture's error is that of the pilot.
+    /// error of a complete pilot's picture is left to error_of().
     Picture run(const RenderSettings& settings, double seconds, const Continuation& continuation);
 
     /// Spends `seconds` on more samples of the unbiased method, to measure the bias of the other
