@@ -17,8 +17,8 @@ namespace argand {
 
 namespace {
 
-/// Copies what was learnt: where photons from inside the scene are aimed, whether near light is
-/// followed.
+/// Copies what was learnt: where photons from inside the scene and eye paths are aimed, whether
+/// near light is followed.
 void copy_learnt(const SceneRecord& from, SceneRecord& to) {
     SceneRecord record = from;
     // Everything up to the targets belongs to the moment.
@@ -137,7 +137,9 @@ void persist_lights(Archive& archive, RenderContext& context) {
     if (!are_shares(learnt.ray_shares) || !are_shares(learnt.photon_shares) ||
         !are_aims(learnt.aims) || learnt.record.target_count > most_targets ||
         !(learnt.record.view_share >= 0 && learnt.record.view_share < 0.5f) ||
-        !(learnt.record.near_distance >= 0) || learnt.record.follows_near > 1) {
+        !(learnt.record.near_distance >= 0) || learnt.record.follows_near > 1 ||
+        learnt.record.close_light_count > most_close_lights ||
+        !(learnt.record.close_share >= 0 && learnt.record.close_share < 1)) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
     keep_learnt(context, learnt);

@@ -1,6 +1,7 @@
 #include "session/session.hpp"
 
 #include "base/error.hpp"
+#include "methods/close_lights.hpp"
 #include "methods/lens.hpp"
 #include "methods/light_learning.hpp"
 #include "methods/plan_render.hpp"
@@ -84,6 +85,7 @@ void Session::follow() {
 void Session::begin_frame(std::uint32_t seed) {
     prepare(seed);
     learn_lights(*context_);
+    aim_at_close_lights(*context_);
     method_->begin_frame(budget_);
 }
 

@@ -195,6 +195,17 @@ void set_near_field(Device& device, DeviceScene& scene, float distance, bool fol
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
 }
 
+void set_close_lights(Device& device, DeviceScene& scene, std::span<const glm::vec4> lights,
+                      double reach, double share) {
+    SceneRecord& record = scene.record;
+    record.close_light_count =
+        static_cast<std::uint32_t>(std::min<std::size_t>(lights.size(), most_close_lights));
+    std::copy_n(lights.begin(), record.close_light_count, record.close_lights);
+    record.close_reach = static_cast<float>(reach);
+    record.close_share = static_cast<float>(share / std::max(record.close_light_count, 1u));
+    scene.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
+}
+
 CameraRecord camera_record(const Camera& camera, int width, int height) {
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);

@@ -29,14 +29,16 @@ FN bool is_in_cone(IN(Cone) c, vec3 direction) {
     return dot3(c.axis, direction) > real(0.0) && dot3(across, across) <= c.sine2;
 }
 
-// A direction in the cone, evenly distributed over its solid angle.
-FN vec3 sample_cone(IN(Cone) c, vec2 u) {
-    real below = u.x * c.height;
+// The direction whose angle to the axis has a cosine of 1 - below. turn: around it, in [0,1).
+FN vec3 direction_in_cone(IN(Cone) c, real below, real turn) {
     real s, k;
-    sincos_2pi(u.y, s, k);
+    sincos_2pi(turn, s, k);
     real sine = safe_sqrt(below * (real(2.0) - below));
     return to_world(make_frame(c.axis), vec3(sine * k, sine * s, real(1.0) - below));
 }
+
+// A direction in the cone, evenly distributed over its solid angle.
+FN vec3 sample_cone(IN(Cone) c, vec2 u) { return direction_in_cone(c, u.x * c.height, u.y); }
 
 FN real cone_solid_angle(IN(Cone) c) { return real(2.0) * PI * c.height; }
 

@@ -7,6 +7,8 @@ ARGAND_SHARED_BEGIN
 
 // Spheres at which photons may be aimed.
 CONSTANT uint most_targets = 4u;
+// Lights at whose close surfaces eye paths may be aimed.
+CONSTANT uint most_close_lights = 32u;
 
 // Data of the whole scene for kernels; a storage buffer holds one of these.
 struct SceneRecord {
@@ -36,6 +38,12 @@ struct SceneRecord {
     float32 near_distance;
     uint follows_near;
     lane4 view; // sphere (center, radius) around most of what is in view
+    // Lights close to surfaces (close_light.h): position, and distance of the surfaces.
+    lane4 close_lights[most_close_lights];
+    uint close_light_count;
+    float32 close_share; // of the scattered eye paths for each of them
+    float32 close_reach; // greatest distance at which aimed paths pass them
+    uint pad0;
 };
 
 // A row of the table that chooses a light, by inversion of the cumulative probabilities: that keeps

@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 #include "scene_bindings.glsl"
 #include "material_features.glsl"
 #include "texture_bindings.glsl"
+#include "shared/close_light.h"
 #include "shared/follow.h"
 #include "shared/light_path.h"
 #include "shared/light_path_records.h"

@@ -628,6 +628,71 @@ FN void weigh_scattering(IN(Vertex) v, bool estimated, IN(BsdfSample) s, vec3 wi
     eye_weights[v.slot] = w;
 }
 
+// Whether some of the paths that these lobes scatter are aimed at what is close to lights. Light
+// paths find that light themselves.
+FN bool aims_at_close_lights(IN(Vertex) v, uint lobes) {
+    if (!direct_light || !(has_light(light_point) || has_light(light_spot)) || has_light_paths()) {
+        return false;
+    }
+    bool rough = (lobes & ~(LOBE_DIFFUSE | LOBE_GLOSSY)) == 0u;
+    bool sees_reflected = (lobes & v.followed) == 0u || behind_estimated(v.path);
+    return scene[0].close_light_count > 0u && rough && sees_reflected;
+}
+
+FN CloseCone close_cone_from(IN(Vertex) v, uint light) {
+    return close_cone(vec4(scene[0].close_lights[light]), real(scene[0].close_reach),
+                      v.surface.position);
+}
+
+// Aims the path at what is close to a light, or leaves it to the lobes. Returns whether it is
+// aimed; the sample's weight and density are then those of the lobes in its direction.
+FN bool aim_at_close_light(IN(Vertex) v, uint lobes, INOUT(BsdfSample) s) {
+    vec4 w = random4(batch.seed ^ 0xc105eu, v.path.pixel, v.path.sample_index, vertices_of(v.path));
+    real light = w.x / real(scene[0].close_share);
+    if (!(light < real(scene[0].close_light_count))) {
+        return false;
+    }
+    CloseCone c = close_cone_from(v, uint(light));
+    if (!(c.cone.height > real(0.0))) {
+        return false;
+    }
+    s.wi = to_local(v.frame, sample_close_cone(c, vec2(w.y, w.z)));
+    s.weight = vec3(real(0.0));
+    s.lobe = LOBE_DIFFUSE;
+    s.probability = real(1.0);
+    s.eta_scale = real(1.0);
+    vec4 probabilities = lobe_probabilities(v.material, v.wo, lobes);
+    vec3 f = bsdf_eval_and_pdf(reflection_parameters(v.material), v.wo, s.wi, lobes, probabilities,
+                               s.pdf);
+    if (s.pdf > real(0.0)) {
+        s.weight = f * (s.wi.z / s.pdf);
+    }
+    return true;
+}
+
+// Turns the weight and the density of a sample of the lobes into those of all paths that leave in
+// its direction, aimed ones among them. Returns by how much Russian roulette must multiply their
+// throughput: they carry little because they are many. Near a light, where they find much, it must
+// not depend on what they carry at all.
+FN real count_aimed(IN(Vertex) v, INOUT(BsdfSample) s) {
+    vec3 direction = to_world(v.frame, s.wi);
+    real share = real(scene[0].close_share);
+    real concentration = real(1.0);
+    bool is_near = false;
+    for (uint i = 0u; i < scene[0].close_light_count; ++i) {
+        CloseCone c = close_cone_from(v, i);
+        is_near = is_near || c.distance < scene[0].close_reach;
+        if (c.cone.height > real(0.0)) {
+            real aimed = s.pdf > real(0.0) ? close_cone_pdf(c, direction) / s.pdf : real(0.0);
+            concentration += share * (aimed - real(1.0));
+        }
+    }
+    s.pdf *= concentration;
+    s.weight = s.weight / concentration;
+    real carried = is_near ? max_component(v.throughput) : real(1.0);
+    return max(concentration, real(1.0)) / carried;
+}
+
 // Samples the ray on which the path continues, unless Russian roulette ends the path or nothing is
 // scattered.
 FN void continue_path(INOUT(Vertex) v) {
@@ -645,9 +710,12 @@ FN void continue_path(INOUT(Vertex) v) {
     }
     BsdfSample s;
     uint lobes = takes_estimated ? v.onward : v.followed;
-    if (!bsdf_sample(v.material, v.wo, v.surface.front, lobes, u, s)) {
+    bool aims = aims_at_close_lights(v, lobes);
+    if (!(aims && aim_at_close_light(v, lobes, s)) &&
+        !bsdf_sample(v.material, v.wo, v.surface.front, lobes, u, s)) {
         return;
     }
+    real spared = aims ? count_aimed(v, s) : real(1.0);
     vec3 wi = to_world(v.frame, s.wi);
     // The sampled direction must be on the same side of both normals, or light would leak through
     // the surface.
@@ -661,7 +729,7 @@ FN void continue_path(INOUT(Vertex) v) {
     real refracted = scale_by_refraction(path, v.material, s.eta_scale);
     if (vertices_of(path) >= 3u) {
         // What refraction takes from radiance it gives back when the path leaves the solid.
-        real survival = min(max_component(throughput) / refracted, real(0.95));
+        real survival = min(max_component(throughput) * spared / refracted, real(0.95));
         // The remainder of the number that chose between the lobes is uniform again.
         real left =
             takes_estimated ? u.w / probability : (u.w - v.estimated_probability) / probability;
