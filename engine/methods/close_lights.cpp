@@ -1,11 +1,16 @@
 #include "methods/close_lights.hpp"
 
-#include "accel/triangle_bvh.hpp"
+#include "accel/closest_hits.hpp"
 #include "shared/lights.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <vector>
 
 namespace argand {
@@ -14,33 +19,36 @@ namespace {
 
 // Share of the scattered eye paths that is aimed, for all lights together.
 constexpr double aimed_share = 0.25;
-// Lights that are looked at, the strongest ones, and directions of each.
+// Lights that are examined, those that get most shadow rays, and directions of each.
 constexpr std::size_t most_lights = 64;
 constexpr std::uint32_t directions = 256;
-// A light is close to surfaces if it lights them as brightly as a sphere around it of this radius,
-// over the distance of the surfaces that are farthest away (but for a twentieth of the directions).
+// A light is close to surfaces if it lights them, on average, as brightly as it would light a
+// sphere around it of this radius, divided by the distance of the farthest surfaces.
 constexpr double closeness = 1.0 / 16;
+// Share of the directions around a light in which nothing is farther than the "farthest" surfaces.
 constexpr double farthest_rank = 0.95;
-// Greatest distance at which aimed paths pass a light, over the same.
+// Greatest distance at which aimed paths pass a light, divided by that of the farthest surfaces.
 constexpr double reach = 0.25;
 
-struct Surroundings {
-    double close;    // radius of a sphere around the light that would be as bright as the surfaces
-    double farthest; // distance of the farthest surfaces
-};
-
-/// Directions of even density over the light's cone (the sphere, for a point light).
-glm::vec3 direction_from(const LightRecord& light, std::uint32_t i) {
-    const float least = light.kind == light_spot ? light.cos_outer : -1.0f;
-    const double turn = 2 * std::numbers::pi * std::fmod(i * (std::numbers::phi - 1), 1.0);
-    const double z = 1 - (1 - double(least)) * (i + 0.5) / directions;
+/// Directions of even density within a cone about the axis (Fibonacci's spiral).
+glm::vec3 direction_in(const glm::vec3& axis, double least_cosine, std::uint32_t i) {
+    const double turn = 2 * std::numbers::pi * i * (std::numbers::phi - 1);
+    const double z = 1 - (1 - least_cosine) * (i + 0.5) / directions;
     const double across = std::sqrt(std::max(1 - z * z, 0.0));
-    const bool spot = light.kind == light_spot;
-    const Frame frame = make_frame(spot ? light_direction(light) : vec3(0, 0, 1));
-    return to_world(frame, vec3(across * std::cos(turn), across * std::sin(turn), z));
+    return to_world(make_frame(axis),
+                    glm::dvec3(across * std::cos(turn), across * std::sin(turn), z));
 }
 
-/// The lamps that send most shadow rays.
+glm::vec3 direction_around(const LightRecord&, std::uint32_t i) {
+    return direction_in({0, 0, 1}, -1, i);
+}
+
+glm::vec3 direction_of_light(const LightRecord& lamp, std::uint32_t i) {
+    return lamp.kind == light_spot ? direction_in(light_direction(lamp), lamp.cos_outer, i)
+                                   : direction_around(lamp, i);
+}
+
+/// The point and spot lights that get most shadow rays.
 std::vector<LightRecord> strongest_lamps(const DeviceScene& scene) {
     const LightTable& table = scene.light_table;
     std::vector<std::size_t> rows;
@@ -55,74 +63,89 @@ std::vector<LightRecord> strongest_lamps(const DeviceScene& scene) {
                      [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
     rows.resize(std::min(rows.size(), most_lights));
     std::vector<LightRecord> lamps;
-    for (const std::size_t row : rows) {
-        lamps.push_back(table.lights[row]);
-    }
+    lamps.reserve(rows.size());
+    std::transform(rows.begin(), rows.end(), std::back_inserter(lamps),
+                   [&](std::size_t row) { return table.lights[row]; });
     return lamps;
 }
 
-std::vector<HitRecord> look_around(Device& device, const DeviceScene& scene,
-                                   const std::vector<LightRecord>& lamps) {
+/// Distances of what rays from each lamp meet, infinite where they meet nothing. direction: of a
+/// lamp's i-th ray.
+template <class Direction>
+std::vector<double> distances_from(Device& device, const DeviceScene& scene,
+                                   const std::vector<LightRecord>& lamps,
+                                   const Direction& direction) {
     std::vector<RayRecord> rays;
-    std::vector<std::uint32_t> active;
+    rays.reserve(lamps.size() * directions);
     for (const LightRecord& lamp : lamps) {
         for (std::uint32_t i = 0; i < directions; ++i) {
-            const glm::vec3 d = direction_from(lamp, i);
-            active.push_back(static_cast<std::uint32_t>(rays.size()));
+            const glm::vec3 d = direction(lamp, i);
             rays.push_back({lamp.x, lamp.y, lamp.z, far_away, d.x, d.y, d.z, 0});
         }
     }
-    Traversal traversal = make_traversal(device, rays.size());
-    traversal.careful = true;
-    const Buffer ray_buffer = upload(device, "rays around lamps", rays);
-    const Buffer active_buffer = upload(device, "rays around lamps", active);
-    const Buffer hits = device.allocate("hits around lamps", rays.size() * sizeof(HitRecord));
-    trace_closest(device, scene.bvh, traversal,
-                  {.rays = ray_buffer,
-                   .active = active_buffer,
-                   .results = hits,
-                   .count = static_cast<std::uint32_t>(rays.size())});
-    return download<HitRecord>(device, hits, rays.size());
+    std::vector<double> distances;
+    distances.reserve(rays.size());
+    for (const HitRecord& hit : closest_hits(device, scene.bvh, rays)) {
+        distances.push_back(hit.triangle == no_triangle ? std::numeric_limits<double>::infinity()
+                                                        : hit.t);
+    }
+    return distances;
 }
 
-/// hits: of the rays of one lamp; rays that meet nothing do not count.
-Surroundings surroundings(std::span<const HitRecord> hits) {
-    std::vector<double> distances;
-    double brightness = 0;
-    for (const HitRecord& hit : hits) {
-        if (hit.triangle != no_triangle) {
-            distances.push_back(hit.t);
-            brightness += 1 / std::max(double(hit.t) * hit.t, 1e-300);
+/// A distance that few of the finite ones exceed; 0 if there are none.
+double farthest_of(std::span<const double> distances) {
+    std::vector<double> finite;
+    std::copy_if(distances.begin(), distances.end(), std::back_inserter(finite),
+                 [](double distance) { return std::isfinite(distance); });
+    if (finite.empty()) {
+        return 0;
+    }
+    const auto rank = static_cast<std::size_t>(farthest_rank * double(finite.size() - 1));
+    std::nth_element(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(rank),
+                     finite.end());
+    return finite[rank];
+}
+
+/// Radius of the sphere around a light that it would light as brightly, on average, as what lies in
+/// these distances.
+double radius_as_bright(std::span<const double> distances) {
+    const double sum = std::transform_reduce(distances.begin(), distances.end(), 0.0, std::plus<>(),
+                                             [](double d) { return 1 / std::max(d * d, 1e-300); });
+    return std::sqrt(static_cast<double>(distances.size()) / sum);
+}
+
+/// Those of the lamps that are close to surfaces, the first 32.
+std::vector<CloseLight> close_lights(Device& device, const DeviceScene& scene,
+                                     const std::vector<LightRecord>& lamps) {
+    const std::vector<double> around = distances_from(device, scene, lamps, direction_around);
+    const std::vector<double> lit = distances_from(device, scene, lamps, direction_of_light);
+    std::vector<CloseLight> found;
+    for (std::size_t i = 0; i < lamps.size() && found.size() < most_close_lights; ++i) {
+        const double farthest = farthest_of(std::span(around).subspan(i * directions, directions));
+        const double close = radius_as_bright(std::span(lit).subspan(i * directions, directions));
+        if (close < closeness * farthest) {
+            found.push_back({.position = {lamps[i].x, lamps[i].y, lamps[i].z},
+                             .close = static_cast<float>(close),
+                             .reach = static_cast<float>(reach * farthest)});
         }
     }
-    if (distances.empty()) {
-        return {0, 0};
-    }
-    const auto rank = static_cast<std::size_t>(farthest_rank * double(distances.size() - 1));
-    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(rank),
-                     distances.end());
-    return {1 / std::sqrt(brightness / static_cast<double>(hits.size())), distances[rank]};
+    return found;
 }
 
 } // namespace
 
 void aim_at_close_lights(RenderContext& context) {
     DeviceScene& scene = context.on_device;
-    const std::vector<LightRecord> lamps = strongest_lamps(scene);
-    std::vector<glm::vec4> close;
-    double farthest = 0;
-    if (!lamps.empty() && scene.bvh.triangle_count > 0 && context.settings.bounces > 0) {
-        const std::vector<HitRecord> hits = look_around(context.device, scene, lamps);
-        for (std::size_t i = 0; i < lamps.size() && close.size() < most_close_lights; ++i) {
-            const Surroundings around =
-                surroundings(std::span(hits).subspan(i * directions, directions));
-            if (around.close < closeness * around.farthest) {
-                close.emplace_back(lamps[i].x, lamps[i].y, lamps[i].z, around.close);
-                farthest = std::max(farthest, around.farthest);
-            }
-        }
+    const Plan& plan = scene.plan;
+    std::vector<CloseLight> close;
+    const bool aims = plan.needs(Feature::direct_light) && !plan.needs(Feature::light_paths);
+    const std::vector<LightRecord> lamps =
+        aims && context.settings.bounces > 0 ? strongest_lamps(scene) : std::vector<LightRecord>();
+    if (!lamps.empty() && scene.bvh.triangle_count > 0) {
+        const StageScope stage(context.device, "learn lights");
+        close = close_lights(context.device, scene, lamps);
     }
-    set_close_lights(context.device, scene, close, reach * farthest, aimed_share);
+    set_close_lights(context.device, scene, close, aimed_share);
 }
 
 } // namespace argand

@@ -1,11 +1,10 @@
 #include "methods/lens.hpp"
 
-#include "accel/triangle_bvh.hpp"
+#include "accel/closest_hits.hpp"
 #include "shared/geometry_records.h"
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 namespace argand {
 
@@ -28,14 +27,7 @@ double middle_distance(Device& device, const DeviceScene& scene, const CameraRec
                         .direction_x = direction.x,
                         .direction_y = direction.y,
                         .direction_z = direction.z};
-    Traversal traversal = make_traversal(device, 1);
-    traversal.careful = true;
-    const Buffer rays = upload(device, "focus ray", std::vector{ray});
-    const Buffer active = upload(device, "focus ray", std::vector<std::uint32_t>{0});
-    const Buffer hits = device.allocate("focus hit", sizeof(HitRecord));
-    trace_closest(device, scene.bvh, traversal,
-                  {.rays = rays, .active = active, .results = hits, .count = 1});
-    const HitRecord hit = download<HitRecord>(device, hits, 1)[0];
+    const HitRecord hit = closest_hits(device, scene.bvh, std::span(&ray, 1))[0];
     return hit.triangle == no_triangle ? std::numeric_limits<double>::infinity() : hit.t;
 }
 

@@ -1,5 +1,6 @@
 #include "methods/show_photons.hpp"
 
+#include "accel/closest_hits.hpp"
 #include "shared/camera.h"
 #include "shared/geometry_records.h"
 #include "shared/path_records.h"
@@ -49,19 +50,14 @@ std::vector<float> depths_of(RenderContext& c, int width, int height) {
     const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
     depths.reserve(pixels);
     std::vector<RayRecord> rays;
-    std::vector<std::uint32_t> slots;
-    Traversal traversal = make_traversal(c.device, c.eye.slots);
-    traversal.careful = true;
     while (depths.size() < pixels) {
         rays.clear();
-        slots.clear();
-        for (std::uint64_t i = depths.size(); i < pixels && slots.size() < c.eye.slots; ++i) {
+        for (std::uint64_t i = depths.size(); i < pixels && rays.size() < c.eye.slots; ++i) {
             const std::uint64_t column = i % std::uint64_t(width), row = i / std::uint64_t(width);
             vec3 o, d;
             pinhole_ray(camera, static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f,
                         o, d);
             d = d / std::sqrt(dot3(d, d));
-            slots.push_back(static_cast<std::uint32_t>(slots.size()));
             rays.push_back({.origin_x = o.x,
                             .origin_y = o.y,
                             .origin_z = o.z,
@@ -70,13 +66,7 @@ std::vector<float> depths_of(RenderContext& c, int width, int height) {
                             .direction_y = d.y,
                             .direction_z = d.z});
         }
-        const Buffer hits = c.device.allocate("hits of pixels", slots.size() * sizeof(HitRecord));
-        trace_closest(c.device, c.on_device.bvh, traversal,
-                      {.rays = upload(c.device, "rays of pixels", rays),
-                       .active = upload(c.device, "rays of pixels", slots),
-                       .results = hits,
-                       .count = slots.size()});
-        for (const HitRecord& hit : download<HitRecord>(c.device, hits, slots.size())) {
+        for (const HitRecord& hit : closest_hits(c.device, c.on_device.bvh, rays)) {
             depths.push_back(hit.triangle == no_triangle ? std::numeric_limits<float>::infinity()
                                                          : hit.t);
         }

@@ -195,13 +195,15 @@ void set_near_field(Device& device, DeviceScene& scene, float distance, bool fol
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&scene.record, 1));
 }
 
-void set_close_lights(Device& device, DeviceScene& scene, std::span<const glm::vec4> lights,
-                      double reach, double share) {
+void set_close_lights(Device& device, DeviceScene& scene, std::span<const CloseLight> lights,
+                      double share) {
     SceneRecord& record = scene.record;
     record.close_light_count =
         static_cast<std::uint32_t>(std::min<std::size_t>(lights.size(), most_close_lights));
-    std::copy_n(lights.begin(), record.close_light_count, record.close_lights);
-    record.close_reach = static_cast<float>(reach);
+    for (std::size_t i = 0; i < record.close_light_count; ++i) {
+        record.close_lights[i] = lane4(lights[i].position, lights[i].close);
+        record.close_reaches[i] = lights[i].reach;
+    }
     record.close_share = static_cast<float>(share / std::max(record.close_light_count, 1u));
     scene.scene = upload<SceneRecord>(device, "scene", std::span(&record, 1));
 }

@@ -106,11 +106,17 @@ void set_view(Device& device, DeviceScene& scene, const glm::vec4& sphere, doubl
 /// `record` with it. Records only.
 void set_near_field(Device& device, DeviceScene& scene, float distance, bool follows);
 
-/// Aims a share of the scattered eye paths at what is close to lights, at most 32 (position,
-/// distance of the surfaces), which they pass within `reach`, and uploads `record` with it. share:
-/// of the paths, for all lights together. Records only.
-void set_close_lights(Device& device, DeviceScene& scene, std::span<const glm::vec4> lights,
-                      double reach, double share);
+/// A point or spot light close to surfaces.
+struct CloseLight {
+    glm::vec3 position{0};
+    float close = 0; ///< distance of these surfaces
+    float reach = 0; ///< greatest distance at which aimed eye paths pass the light
+};
+
+/// Aims a share of the scattered eye paths at what is close to lights, at most 32, and uploads
+/// `record` with it. share: of the paths, for all lights together. Records only.
+void set_close_lights(Device& device, DeviceScene& scene, std::span<const CloseLight> lights,
+                      double share);
 
 /// The camera for a picture of this size in pixels. The vertical angle does not depend on the size.
 CameraRecord camera_record(const Camera& camera, int width, int height);

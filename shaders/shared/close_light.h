@@ -1,7 +1,7 @@
-// Directions towards surfaces close to a light. A lamp 3 cm before a ceiling lights a spot there
-// that paths rarely hit, but then with a hundred times the light of others. So some paths are aimed
-// past the light. Their density falls with the square of the distance at which they pass it, as the
-// light on what they hit does.
+// Directions towards surfaces close to a light. A lamp 3 mm below a ceiling lights a spot there
+// 10^5 times as brightly as places 1 m away. Paths rarely hit that spot, and are fireflies when
+// they do. So some paths are aimed past the light. Their density falls with the square of the
+// distance at which they pass it, and the light on what they hit falls at least as fast.
 #ifndef ARGAND_SHARED_CLOSE_LIGHT_H
 #define ARGAND_SHARED_CLOSE_LIGHT_H
 

@@ -38,12 +38,13 @@ struct SceneRecord {
     float32 near_distance;
     uint follows_near;
     lane4 view; // sphere (center, radius) around most of what is in view
-    // Lights close to surfaces (close_light.h): position, and distance of the surfaces.
+    // Lights close to surfaces (close_light.h): position, and distance of the surfaces; and the
+    // greatest distance at which aimed paths pass the light.
     lane4 close_lights[most_close_lights];
+    float32 close_reaches[most_close_lights];
     uint close_light_count;
     float32 close_share; // of the scattered eye paths for each of them
-    float32 close_reach; // greatest distance at which aimed paths pass them
-    uint pad0;
+    uint pad0, pad1;
 };
 
 // A row of the table that chooses a light, by inversion of the cumulative probabilities: that keeps

@@ -2,6 +2,7 @@
 #include "shared/camera.h"
 #include "shared/light_record.h"
 #include "shared/material_record.h"
+#include "shared/scene_records.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>
@@ -34,6 +35,16 @@ TEST(Records, LightLiesInLanesOf16Bytes) {
     EXPECT_EQ(offsetof(LightRecord, dx), 32u);
     EXPECT_EQ(offsetof(LightRecord, ex), 48u);
     EXPECT_EQ(offsetof(LightRecord, triangle_and_sides), 60u);
+}
+
+TEST(Records, SceneLiesInLanesOf16Bytes) {
+    EXPECT_TRUE(is_plain<SceneRecord>);
+    EXPECT_EQ(sizeof(SceneRecord), 832u);
+    EXPECT_EQ(offsetof(SceneRecord, target_0), 64u);
+    EXPECT_EQ(offsetof(SceneRecord, view), 160u);
+    EXPECT_EQ(offsetof(SceneRecord, close_lights), 176u);
+    EXPECT_EQ(offsetof(SceneRecord, close_reaches), 688u);
+    EXPECT_EQ(offsetof(SceneRecord, close_light_count), 816u);
 }
 
 TEST(Records, CameraLiesInLanesOf16Bytes) {

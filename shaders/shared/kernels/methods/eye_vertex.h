@@ -586,6 +586,26 @@ FN void leave_path(IN(Vertex) v, PathRecord path, vec3 throughput) {
     }
 }
 
+// Light paths find what is close to lights themselves.
+FN bool has_close_lights() {
+    return direct_light && (has_light(light_point) || has_light(light_spot)) &&
+           !has_light_paths() && scene[0].close_light_count > 0u;
+}
+
+FN bool is_near_close_light(IN(Vertex) v) {
+    if (!has_close_lights()) {
+        return false;
+    }
+    for (uint i = 0u; i < scene[0].close_light_count; ++i) {
+        real distance;
+        unit_and_length(vec3(vec4(scene[0].close_lights[i])) - v.surface.position, distance);
+        if (distance < real(scene[0].close_reaches[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Below this throughput, Russian roulette decides whether a path goes straight on.
 CONSTANT real least_passing = real(0.125);
 
@@ -605,6 +625,9 @@ FN void pass_surface(IN(Vertex) v, real u) {
     vec3 throughput = arrived * (pass_share(v.material) / v.pass_probability);
     real refracted = scale_by_refraction(path, v.material, real(1.0));
     real survival = min(max_component(throughput) / (refracted * least_passing), real(1.0));
+    if (is_near_close_light(v)) {
+        survival = real(1.0);
+    }
     if (u < survival) {
         rays[v.slot].t_max =
             goes_on_past(rays[v.slot].t_max, v.solids, v.material, v.surface.front, v.hidden);
@@ -628,24 +651,23 @@ FN void weigh_scattering(IN(Vertex) v, bool estimated, IN(BsdfSample) s, vec3 wi
     eye_weights[v.slot] = w;
 }
 
-// Whether some of the paths that these lobes scatter are aimed at what is close to lights. Light
-// paths find that light themselves.
+// Whether some of the paths that these lobes scatter are aimed at what is close to lights. Paths
+// that look for emission only are not, nor are those whose reflections the eye sees.
 FN bool aims_at_close_lights(IN(Vertex) v, uint lobes) {
-    if (!direct_light || !(has_light(light_point) || has_light(light_spot)) || has_light_paths()) {
-        return false;
-    }
-    bool rough = (lobes & ~(LOBE_DIFFUSE | LOBE_GLOSSY)) == 0u;
-    bool sees_reflected = (lobes & v.followed) == 0u || behind_estimated(v.path);
-    return scene[0].close_light_count > 0u && rough && sees_reflected;
+    bool only_seeks = v.ends && batch.untaken == untaken_never && scene[0].follows_near == 0u;
+    bool rough = lobes != 0u && (lobes & ~(LOBE_DIFFUSE | LOBE_GLOSSY)) == 0u;
+    bool in_view = (lobes & v.followed) != 0u && !behind_estimated(v.path);
+    return has_close_lights() && rough && !only_seeks && !in_view;
 }
 
 FN CloseCone close_cone_from(IN(Vertex) v, uint light) {
-    return close_cone(vec4(scene[0].close_lights[light]), real(scene[0].close_reach),
+    return close_cone(vec4(scene[0].close_lights[light]), real(scene[0].close_reaches[light]),
                       v.surface.position);
 }
 
 // Aims the path at what is close to a light, or leaves it to the lobes. Returns whether it is
-// aimed; the sample's weight and density are then those of the lobes in its direction.
+// aimed. Then the sample's density is that of the lobes in its direction, and its weight is
+// f |cos|, not divided by a density.
 FN bool aim_at_close_light(IN(Vertex) v, uint lobes, INOUT(BsdfSample) s) {
     vec4 w = random4(batch.seed ^ 0xc105eu, v.path.pixel, v.path.sample_index, vertices_of(v.path));
     real light = w.x / real(scene[0].close_share);
@@ -657,40 +679,51 @@ FN bool aim_at_close_light(IN(Vertex) v, uint lobes, INOUT(BsdfSample) s) {
         return false;
     }
     s.wi = to_local(v.frame, sample_close_cone(c, vec2(w.y, w.z)));
-    s.weight = vec3(real(0.0));
     s.lobe = LOBE_DIFFUSE;
     s.probability = real(1.0);
     s.eta_scale = real(1.0);
     vec4 probabilities = lobe_probabilities(v.material, v.wo, lobes);
     vec3 f = bsdf_eval_and_pdf(reflection_parameters(v.material), v.wo, s.wi, lobes, probabilities,
                                s.pdf);
-    if (s.pdf > real(0.0)) {
-        s.weight = f * (s.wi.z / s.pdf);
-    }
+    s.weight = f * max(s.wi.z, real(0.0));
     return true;
 }
 
-// Turns the weight and the density of a sample of the lobes into those of all paths that leave in
-// its direction, aimed ones among them. Returns by how much Russian roulette must multiply their
-// throughput: they carry little because they are many. Near a light, where they find much, it must
-// not depend on what they carry at all.
-FN real count_aimed(IN(Vertex) v, INOUT(BsdfSample) s) {
+// Divides the weight of a sample of the lobes, or of an aimed one, by the density of both together.
+// The sample's own density stays that of the lobes: shadow rays weigh their light by it. Returns
+// the density of both over that of the lobes.
+FN real weigh_with_aimed(IN(Vertex) v, bool aimed, INOUT(BsdfSample) s) {
     vec3 direction = to_world(v.frame, s.wi);
     real share = real(scene[0].close_share);
-    real concentration = real(1.0);
-    bool is_near = false;
+    real of_lobes = real(1.0);
+    real of_aimed = real(0.0);
     for (uint i = 0u; i < scene[0].close_light_count; ++i) {
         CloseCone c = close_cone_from(v, i);
-        is_near = is_near || c.distance < scene[0].close_reach;
         if (c.cone.height > real(0.0)) {
-            real aimed = s.pdf > real(0.0) ? close_cone_pdf(c, direction) / s.pdf : real(0.0);
-            concentration += share * (aimed - real(1.0));
+            of_lobes -= share;
+            of_aimed += share * close_cone_pdf(c, direction);
         }
     }
-    s.pdf *= concentration;
-    s.weight = s.weight / concentration;
-    real carried = is_near ? max_component(v.throughput) : real(1.0);
-    return max(concentration, real(1.0)) / carried;
+    real density = of_lobes * s.pdf + of_aimed;
+    if (aimed) {
+        s.weight = s.weight / density;
+    } else {
+        s.weight *= s.pdf > real(0.0) ? s.pdf / density : real(1.0) / of_lobes;
+    }
+    return density / max(s.pdf, real(1.0e-30));
+}
+
+// The probability with which Russian roulette lets the path go on. throughput: after the sample, by
+// which refraction has scaled it in all; concentration: how many times as many paths leave in this
+// direction as the lobes scatter, which is why each carries so much less.
+FN real survival_probability(IN(Vertex) v, IN(BsdfSample) s, vec3 throughput, real refracted,
+                             real concentration) {
+    real carried = max_component(throughput) / refracted;
+    if (is_near_close_light(v)) {
+        // There is much light to find, whatever the path carries: only this vertex counts.
+        carried = max_component(throughput) / (max_component(v.throughput) * s.eta_scale);
+    }
+    return min(carried * max(concentration, real(1.0)), real(0.95));
 }
 
 // Samples the ray on which the path continues, unless Russian roulette ends the path or nothing is
@@ -711,11 +744,11 @@ FN void continue_path(INOUT(Vertex) v) {
     BsdfSample s;
     uint lobes = takes_estimated ? v.onward : v.followed;
     bool aims = aims_at_close_lights(v, lobes);
-    if (!(aims && aim_at_close_light(v, lobes, s)) &&
-        !bsdf_sample(v.material, v.wo, v.surface.front, lobes, u, s)) {
+    bool aimed = aims && aim_at_close_light(v, lobes, s);
+    if (!aimed && !bsdf_sample(v.material, v.wo, v.surface.front, lobes, u, s)) {
         return;
     }
-    real spared = aims ? count_aimed(v, s) : real(1.0);
+    real concentration = aims ? weigh_with_aimed(v, aimed, s) : real(1.0);
     vec3 wi = to_world(v.frame, s.wi);
     // The sampled direction must be on the same side of both normals, or light would leak through
     // the surface.
@@ -729,7 +762,7 @@ FN void continue_path(INOUT(Vertex) v) {
     real refracted = scale_by_refraction(path, v.material, s.eta_scale);
     if (vertices_of(path) >= 3u) {
         // What refraction takes from radiance it gives back when the path leaves the solid.
-        real survival = min(max_component(throughput) * spared / refracted, real(0.95));
+        real survival = survival_probability(v, s, throughput, refracted, concentration);
         // The remainder of the number that chose between the lobes is uniform again.
         real left =
             takes_estimated ? u.w / probability : (u.w - v.estimated_probability) / probability;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "accel/triangle_bvh.hpp"
+#include "shared/geometry_records.h"
+
+#include <span>
+#include <vector>
+
+namespace argand {
+
+/// The closest hit of each ray, at most as many as a batch of eye paths has. Waits for the device.
+std::vector<HitRecord> closest_hits(Device& device, const TriangleBvh& bvh,
+                                    std::span<const RayRecord> rays);
+
+} // namespace argand
