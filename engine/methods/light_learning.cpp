@@ -138,8 +138,7 @@ void persist_lights(Archive& archive, RenderContext& context) {
         !are_aims(learnt.aims) || learnt.record.target_count > most_targets ||
         !(learnt.record.view_share >= 0 && learnt.record.view_share < 0.5f) ||
         !(learnt.record.near_distance >= 0) || learnt.record.follows_near > 1 ||
-        learnt.record.close_light_count > most_close_lights ||
-        !(learnt.record.close_share >= 0) ||
+        learnt.record.close_light_count > most_close_lights || !(learnt.record.close_share >= 0) ||
         learnt.record.close_share * float(learnt.record.close_light_count) > 0.5f) {
         fail("loading a saved state: it has other lights than '{}'", context.scene.name);
     }
