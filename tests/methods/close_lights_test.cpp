@@ -2,8 +2,6 @@
 // light, which are aimed at it instead.
 #include "rendering.hpp"
 
-#include <random>
-
 namespace argand::testing {
 namespace {
 
@@ -46,19 +44,7 @@ Scene shaded_lamp() {
 Scene leaves_under_lamp() {
     Scene scene = ceiling_lamp();
     scene.name = "leaves under lamp";
-    Material leaf = lambertian({0.5f, 0.7f, 0.4f});
-    leaf.double_sided = true;
-    const std::uint32_t material = add_material(scene, leaf);
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> within(-1, 1);
-    const auto anywhere = [&] { return glm::vec3(within(random), within(random), within(random)); };
-    const auto direction = [&] { return glm::normalize(anywhere() + glm::vec3(0, 0, 1e-3f)); };
-    for (int i = 0; i < 1000; ++i) {
-        const glm::vec3 across = direction();
-        const glm::vec3 up = glm::normalize(glm::cross(across, direction()));
-        add_quad(scene, glm::vec3(0.5f, 0.9f, 0.5f) + 0.35f * anywhere(), 0.02f * across,
-                 0.02f * up, material);
-    }
+    add_leaves(scene, {0.5f, 0.9f, 0.5f}, 0.35f, 0.02f, 1000);
     scene.cameras = {look_at({1.5f, 1.3f, 1.5f}, {0.5f, 0.9f, 0.5f}, 40)};
     return scene;
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <random>
 
 namespace argand::testing {
 
@@ -141,6 +142,23 @@ inline Camera parallel_rays(glm::vec3 from, glm::vec3 to, float half_height) {
     camera.kind = CameraKind::orthographic;
     camera.vertical_extent = half_height;
     return camera;
+}
+
+/// Adds so many square leaves with edges of this size, at random places of a cube and in random
+/// directions. extent: half the cube's edge.
+inline void add_leaves(Scene& scene, glm::vec3 middle, float extent, float size, int count) {
+    Material leaf = lambertian({0.5f, 0.7f, 0.4f});
+    leaf.double_sided = true;
+    const std::uint32_t material = add_material(scene, leaf);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> within(-1, 1);
+    const auto anywhere = [&] { return glm::vec3(within(random), within(random), within(random)); };
+    const auto direction = [&] { return glm::normalize(anywhere() + glm::vec3(0, 0, 1e-3f)); };
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 across = direction();
+        const glm::vec3 up = glm::normalize(glm::cross(across, direction()));
+        add_quad(scene, middle + extent * anywhere(), size * across, size * up, material);
+    }
 }
 
 inline Light point_light(glm::vec3 position, glm::vec3 intensity) {

@@ -2,8 +2,6 @@
 // the disc that lies on surfaces.
 #include "rendering.hpp"
 
-#include <random>
-
 namespace argand::testing {
 namespace {
 
@@ -11,19 +9,7 @@ namespace {
 Scene plant_scene() {
     Scene scene = room_scene();
     scene.name = "plant";
-    Material leaf = lambertian({0.5f, 0.7f, 0.4f});
-    leaf.double_sided = true;
-    const std::uint32_t material = add_material(scene, leaf);
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> within(-1, 1);
-    const auto anywhere = [&] { return glm::vec3(within(random), within(random), within(random)); };
-    const auto direction = [&] { return glm::normalize(anywhere() + glm::vec3(0, 0, 1e-3f)); };
-    for (int i = 0; i < 1500; ++i) {
-        const glm::vec3 across = direction();
-        const glm::vec3 up = glm::normalize(glm::cross(across, direction()));
-        add_quad(scene, glm::vec3(0.2f, 0.2f, 0.3f) + 0.25f * anywhere(), 0.015f * across,
-                 0.015f * up, material);
-    }
+    add_leaves(scene, {0.2f, 0.2f, 0.3f}, 0.25f, 0.015f, 1500);
     scene.cameras = {look_at({0.2f, 0.2f, 0.95f}, {0.2f, 0.2f, 0.3f}, 30)};
     return scene;
 }
