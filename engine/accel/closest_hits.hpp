@@ -8,8 +8,8 @@
 
 namespace argand {
 
-/// The closest hit of each ray, at most as many as a batch of eye paths has. Waits for the device.
-std::vector<HitRecord> closest_hits(Device& device, const TriangleBvh& bvh,
+/// The closest hit of each ray. The rays lie in scratch memory. Waits for the device.
+std::vector<HitRecord> closest_hits(Device& device, const TriangleBvh& bvh, Traversal traversal,
                                     std::span<const RayRecord> rays);
 
 } // namespace argand

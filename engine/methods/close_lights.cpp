@@ -72,8 +72,7 @@ std::vector<LightRecord> strongest_lamps(const DeviceScene& scene) {
 /// Distances of what rays from each lamp meet, infinite where they meet nothing. direction: of a
 /// lamp's i-th ray.
 template <class Direction>
-std::vector<double> distances_from(Device& device, const DeviceScene& scene,
-                                   const std::vector<LightRecord>& lamps,
+std::vector<double> distances_from(RenderContext& context, const std::vector<LightRecord>& lamps,
                                    const Direction& direction) {
     std::vector<RayRecord> rays;
     rays.reserve(lamps.size() * directions);
@@ -85,7 +84,8 @@ std::vector<double> distances_from(Device& device, const DeviceScene& scene,
     }
     std::vector<double> distances;
     distances.reserve(rays.size());
-    for (const HitRecord& hit : closest_hits(device, scene.bvh, rays)) {
+    for (const HitRecord& hit :
+         closest_hits(context.device, context.on_device.bvh, context.eye.traversal, rays)) {
         distances.push_back(hit.triangle == no_triangle ? std::numeric_limits<double>::infinity()
                                                         : hit.t);
     }
@@ -115,10 +115,10 @@ double radius_as_bright(std::span<const double> distances) {
 }
 
 /// Those of the lamps that are close to surfaces, the first 32.
-std::vector<CloseLight> close_lights(Device& device, const DeviceScene& scene,
+std::vector<CloseLight> close_lights(RenderContext& context,
                                      const std::vector<LightRecord>& lamps) {
-    const std::vector<double> around = distances_from(device, scene, lamps, direction_around);
-    const std::vector<double> lit = distances_from(device, scene, lamps, direction_of_light);
+    const std::vector<double> around = distances_from(context, lamps, direction_around);
+    const std::vector<double> lit = distances_from(context, lamps, direction_of_light);
     std::vector<CloseLight> found;
     for (std::size_t i = 0; i < lamps.size() && found.size() < most_close_lights; ++i) {
         const double farthest = farthest_of(std::span(around).subspan(i * directions, directions));
@@ -143,7 +143,7 @@ void aim_at_close_lights(RenderContext& context) {
         aims && context.settings.bounces > 0 ? strongest_lamps(scene) : std::vector<LightRecord>();
     if (!lamps.empty() && scene.bvh.triangle_count > 0) {
         const StageScope stage(context.device, "learn lights");
-        close = close_lights(context.device, scene, lamps);
+        close = close_lights(context, lamps);
     }
     set_close_lights(context.device, scene, close, aimed_share);
 }

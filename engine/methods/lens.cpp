@@ -27,7 +27,8 @@ double middle_distance(Device& device, const DeviceScene& scene, const CameraRec
                         .direction_x = direction.x,
                         .direction_y = direction.y,
                         .direction_z = direction.z};
-    const HitRecord hit = closest_hits(device, scene.bvh, std::span(&ray, 1))[0];
+    const HitRecord hit =
+        closest_hits(device, scene.bvh, make_traversal(device, 1), std::span(&ray, 1))[0];
     return hit.triangle == no_triangle ? std::numeric_limits<double>::infinity() : hit.t;
 }
 

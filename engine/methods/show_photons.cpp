@@ -66,7 +66,8 @@ std::vector<float> depths_of(RenderContext& c, int width, int height) {
                             .direction_y = d.y,
                             .direction_z = d.z});
         }
-        for (const HitRecord& hit : closest_hits(c.device, c.on_device.bvh, rays)) {
+        for (const HitRecord& hit :
+             closest_hits(c.device, c.on_device.bvh, c.eye.traversal, rays)) {
             depths.push_back(hit.triangle == no_triangle ? std::numeric_limits<float>::infinity()
                                                          : hit.t);
         }
