@@ -1,6 +1,8 @@
 #include "methods/close_lights.hpp"
 
 #include "accel/closest_hits.hpp"
+#include "base/quantile.hpp"
+#include "scene/direction.hpp"
 #include "shared/lights.h"
 
 #include <algorithm>
@@ -8,9 +10,9 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace argand {
@@ -21,7 +23,7 @@ namespace {
 constexpr double aimed_share = 0.25;
 // Lights that are examined, those that get most shadow rays, and directions of each.
 constexpr std::size_t most_lights = 64;
-constexpr std::uint32_t directions = 256;
+constexpr int directions = 256;
 // A light is close to surfaces if it lights them, on average, as brightly as it would light a
 // sphere around it of this radius, divided by the distance of the farthest surfaces.
 constexpr double closeness = 1.0 / 16;
@@ -30,22 +32,13 @@ constexpr double farthest_rank = 0.95;
 // Greatest distance at which aimed paths pass a light, divided by that of the farthest surfaces.
 constexpr double reach = 0.25;
 
-/// Directions of even density within a cone about the axis (Fibonacci's spiral).
-glm::vec3 direction_in(const glm::vec3& axis, double least_cosine, std::uint32_t i) {
-    const double turn = 2 * std::numbers::pi * i * (std::numbers::phi - 1);
-    const double z = 1 - (1 - least_cosine) * (i + 0.5) / directions;
-    const double across = std::sqrt(std::max(1 - z * z, 0.0));
-    return to_world(make_frame(axis),
-                    glm::dvec3(across * std::cos(turn), across * std::sin(turn), z));
-}
+glm::dvec3 direction_around(const LightRecord&, int i) { return spiral_direction(i, directions); }
 
-glm::vec3 direction_around(const LightRecord&, std::uint32_t i) {
-    return direction_in({0, 0, 1}, -1, i);
-}
-
-glm::vec3 direction_of_light(const LightRecord& lamp, std::uint32_t i) {
-    return lamp.kind == light_spot ? direction_in(light_direction(lamp), lamp.cos_outer, i)
-                                   : direction_around(lamp, i);
+/// A direction in which the lamp shines.
+glm::dvec3 direction_of_light(const LightRecord& lamp, int i) {
+    return lamp.kind == light_spot ? to_world(make_frame(light_direction(lamp)),
+                                              spiral_direction(i, directions, lamp.cos_outer))
+                                   : vec3(direction_around(lamp, i));
 }
 
 /// The point and spot lights that get most shadow rays.
@@ -77,7 +70,7 @@ std::vector<double> distances_from(RenderContext& context, const std::vector<Lig
     std::vector<RayRecord> rays;
     rays.reserve(lamps.size() * directions);
     for (const LightRecord& lamp : lamps) {
-        for (std::uint32_t i = 0; i < directions; ++i) {
+        for (int i = 0; i < directions; ++i) {
             const glm::vec3 d = direction(lamp, i);
             rays.push_back({lamp.x, lamp.y, lamp.z, far_away, d.x, d.y, d.z, 0});
         }
@@ -100,10 +93,7 @@ double farthest_of(std::span<const double> distances) {
     if (finite.empty()) {
         return 0;
     }
-    const auto rank = static_cast<std::size_t>(farthest_rank * double(finite.size() - 1));
-    std::nth_element(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(rank),
-                     finite.end());
-    return finite[rank];
+    return quantile(std::move(finite), farthest_rank);
 }
 
 /// Radius of the sphere around a light that it would light as brightly, on average, as what lies in
@@ -118,7 +108,11 @@ double radius_as_bright(std::span<const double> distances) {
 std::vector<CloseLight> close_lights(RenderContext& context,
                                      const std::vector<LightRecord>& lamps) {
     const std::vector<double> around = distances_from(context, lamps, direction_around);
-    const std::vector<double> lit = distances_from(context, lamps, direction_of_light);
+    const bool any_spot = std::any_of(lamps.begin(), lamps.end(), [](const LightRecord& lamp) {
+        return lamp.kind == light_spot;
+    });
+    const std::vector<double> lit =
+        any_spot ? distances_from(context, lamps, direction_of_light) : around;
     std::vector<CloseLight> found;
     for (std::size_t i = 0; i < lamps.size() && found.size() < most_close_lights; ++i) {
         const double farthest = farthest_of(std::span(around).subspan(i * directions, directions));
@@ -145,7 +139,9 @@ void aim_at_close_lights(RenderContext& context) {
         const StageScope stage(context.device, "learn lights");
         close = close_lights(context, lamps);
     }
-    set_close_lights(context.device, scene, close, aimed_share);
+    if (!close.empty() || scene.record.close_light_count > 0) {
+        set_close_lights(context.device, scene, close, aimed_share);
+    }
 }
 
 } // namespace argand

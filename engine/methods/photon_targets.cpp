@@ -1,11 +1,13 @@
 #include "methods/photon_targets.hpp"
 
+#include "base/quantile.hpp"
 #include "methods/view_extent.hpp"
 #include "shared/lights.h"
 
 #include <algorithm>
 #include <iterator>
 #include <tuple>
+#include <utility>
 
 namespace argand {
 
@@ -99,10 +101,7 @@ void aim_at_view(RenderContext& context, std::span<const glm::vec4> points) {
     for (const glm::vec4& point : points) {
         distances.push_back(glm::distance(glm::dvec3(point), middle));
     }
-    const auto rank = static_cast<std::size_t>(within * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(rank),
-                     distances.end());
-    const double radius = margin * distances[rank];
+    const double radius = margin * quantile(std::move(distances), within);
     if (radius > 0 && radius < most_extent * scene.record.radius) {
         set_view(context.device, scene, {middle, radius}, share);
     }

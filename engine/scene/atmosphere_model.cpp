@@ -1,6 +1,7 @@
 #include "scene/atmosphere_model.hpp"
 
 #include "base/thread_each.hpp"
+#include "scene/direction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,14 +133,6 @@ Spectrum mixed_spectra(const Spectrum& a, const Spectrum& b, double t) {
         result[i] = std::lerp(a[i], b[i], t);
     }
     return result;
-}
-
-/// A direction of an even set over the sphere (Fibonacci's spiral).
-glm::dvec3 spiral_direction(int i, int count) {
-    const double z = 1 - (2 * i + 1.0) / count;
-    const double turn = 2 * pi * i * (std::numbers::phi - 1);
-    const double sine = std::sqrt(1 - z * z);
-    return {sine * std::cos(turn), sine * std::sin(turn), z};
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <numbers>
 
 namespace argand {
 
@@ -16,6 +17,15 @@ inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     }
     const glm::dvec3 scaled = v / largest; // its length is between 1 and √3
     return scaled / glm::length(scaled);
+}
+
+/// The i-th of `count` directions of even density within a cone about the z axis, by default over
+/// the sphere (Fibonacci's spiral).
+inline glm::dvec3 spiral_direction(int i, int count, double least_cosine = -1) {
+    const double z = 1 - (1 - least_cosine) * (i + 0.5) / count;
+    const double turn = 2 * std::numbers::pi * i * (std::numbers::phi - 1);
+    const double sine = std::sqrt(1 - z * z);
+    return {sine * std::cos(turn), sine * std::sin(turn), z};
 }
 
 inline bool is_finite(const glm::dvec3& v) {

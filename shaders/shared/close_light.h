@@ -13,10 +13,9 @@ ARGAND_SHARED_BEGIN
 // Directions that pass a light, as seen from a point. Their solid-angle density is in proportion to
 // 1 / (t + core), with t = 1 - cosine of the angle to the axis.
 struct CloseCone {
-    Cone cone;     // of height 0: nothing is aimed
-    real distance; // of the light
-    real core;     // t of rays that pass the light as far away as the surfaces close to it
-    real range;    // natural logarithm of (cone.height + core) / core
+    Cone cone;  // of height 0: nothing is aimed
+    real core;  // t of rays that pass the light as far away as the surfaces close to it
+    real range; // natural logarithm of (cone.height + core) / core
 };
 
 // light: its position, and the distance of the surfaces close to it. reach: the greatest distance
@@ -25,10 +24,11 @@ FN CloseCone close_cone(vec4 light, real reach, vec3 from) {
     // A narrower core would cost the logarithm its digits.
     real least_core = real(1.0e-5);
     CloseCone c;
-    unit_and_length(vec3(light) - from, c.distance);
-    c.cone = cone_of(vec4(vec3(light), min(reach, c.distance * real(0.9))), from);
+    real distance;
+    unit_and_length(vec3(light) - from, distance);
+    c.cone = cone_of(vec4(vec3(light), min(reach, distance * real(0.9))), from);
     real height = c.cone.height;
-    c.core = max(real(0.5) * sqr(real(light.w) / c.distance), least_core * height);
+    c.core = max(real(0.5) * sqr(real(light.w) / distance), least_core * height);
     c.range = -log_complement(height / (height + c.core));
     if (!(real(4.0) * c.core < height)) {
         c.cone.height = real(0.0);

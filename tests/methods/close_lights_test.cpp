@@ -131,13 +131,16 @@ TEST_P(CloseLights, NarrowLobes) {
     render(phong, settings);
 }
 
-TEST_P(CloseLights, SlowWithFinalGather) {
-    if (GetParam() != "path") {
-        render_with_right_means(ceiling_lamp(), 64, true);
-    }
+INSTANTIATE_ESTIMATES(CloseLights);
+
+class GathersFromCloseLights : public CloseLights {};
+
+TEST_P(GathersFromCloseLights, SlowWithFinalGather) {
+    render_with_right_means(ceiling_lamp(), 64, true);
 }
 
-INSTANTIATE_ESTIMATES(CloseLights);
+INSTANTIATE_TEST_SUITE_P(Methods, GathersFromCloseLights,
+                         ::testing::ValuesIn(without(estimates, "path")));
 
 class PathsToCloseLights : public CloseLights {};
 
