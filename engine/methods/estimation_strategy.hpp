@@ -42,6 +42,10 @@ public:
     /// it.
     virtual bool parts_caustics(const Bandwidth& bandwidth, bool may_part) const = 0;
 
+    /// Radius of the largest discs of caustics, where they differ from those of other light; else
+    /// 0.
+    virtual double caustic_discs(const Bandwidth&) const { return 0; }
+
     /// The estimator of one pass, which answers queries of the map. It refers to the context.
     virtual std::unique_ptr<PhotonEstimator>
     make(const RenderContext& context, const PhotonMap& map, const Bandwidth& bandwidth) const = 0;

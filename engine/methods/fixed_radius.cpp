@@ -18,6 +18,10 @@ public:
         return parts_sharp_caustics(bandwidth, may_part);
     }
 
+    double caustic_discs(const Bandwidth& bandwidth) const override {
+        return has_sharp_caustics(bandwidth) ? bandwidth.radii.caustic : 0;
+    }
+
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap&,
                                           const Bandwidth& bandwidth) const override {
         return std::make_unique<RadiusEstimator>(c.device, c.on_device.plan, bandwidth.radii,

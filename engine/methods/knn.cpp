@@ -55,14 +55,17 @@ public:
         return bandwidth.caustics; // they have a k of their own
     }
 
+    double caustic_discs(const Bandwidth& bandwidth) const override {
+        return bandwidth.caustics ? bandwidth.radii.caustic : 0;
+    }
+
     std::unique_ptr<PhotonEstimator> make(const RenderContext& c, const PhotonMap& map,
                                           const Bandwidth& bandwidth) const override {
-        const double samples_per_area = map.area_samples / std::max(c.on_device.areas.area, 1e-30);
         return std::make_unique<NearestEstimator>(
             c.device, c.on_device.plan,
             NearestSettings{.neighbours = bandwidth.neighbours,
                             .radius = bandwidth.radii.indirect,
-                            .samples_per_area = samples_per_area,
+                            .samples_per_area = samples_per_area(c.on_device, map.area_samples),
                             .caustic_neighbours = bandwidth.caustic_neighbours,
                             .caustic_radius = bandwidth.radii.caustic});
     }

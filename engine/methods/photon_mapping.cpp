@@ -352,6 +352,10 @@ PhotonMap PhotonMapping::build_map(const PassNumbers& numbers, const StoredPhoto
                                       .leaf_size = c_.settings.leaf_size,
                                       .wide_codes = c_.settings.wide_codes,
                                       .footprints = image_.footprint_scale,
+                                      .uniform_kernel = strategy_->splats()
+                                                            ? c_.settings.disc.uniform_kernel
+                                                            : c_.settings.footprints.uniform_kernel,
+                                      .caustic_radius = strategy_->caustic_discs(image_.bandwidth),
                                       .frontier = frontier_of(c_.settings)});
     image_.mean_footprints = map.mean_footprints;
     image_.leaf_size = map.leaf_size;

@@ -8,6 +8,7 @@
 #include "kernels/leaf_footprints_texels.hpp"
 #include "kernels/photon_gather.hpp"
 #include "kernels/photon_gather_texels.hpp"
+#include "photon/covered_caustics.hpp"
 #include "photon/gather_dispatch.hpp"
 #include "photon/simultaneous.hpp"
 
@@ -37,6 +38,10 @@ void RadiusEstimator::estimate(const PhotonMap& map, const PhotonQueries& querie
                                                    .material_features = plan_.material_features()}},
                               queries.count.buffer, queries.count.index);
         });
+    if (radii_.caustic < radii_.indirect && queries.part != map_indirect && !disc_.ball) {
+        correct_caustic_discs(device_, map, queries,
+                              {.radius = radii_.caustic, .uniform_kernel = disc_.uniform_kernel});
+    }
 }
 
 void RadiusEstimator::estimate_simultaneously(const PhotonMap& map, const PhotonQueries& queries) {

@@ -7,9 +7,6 @@
 
 namespace argand {
 
-// Its square is finite.
-constexpr double largest_corrected_distance = 1e18;
-
 /// What every gather passes to its kernel; the caller adds the parameters of its estimator.
 inline PhotonGatherParams gather_params(const PhotonMap& map, const PhotonQueries& queries,
                                         std::uint32_t budget) {

@@ -2,6 +2,7 @@
 
 #include "kernels/nearest_gather.hpp"
 #include "kernels/nearest_gather_texels.hpp"
+#include "photon/covered_caustics.hpp"
 #include "photon/gather_dispatch.hpp"
 #include "shared/nearest_records.h"
 
@@ -37,6 +38,11 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
         words_ = device_.allocate("nearest photons: bins", places * nearest_words * 4);
     }
 
+    const std::uint64_t slots = queries.estimates.size() / sizeof(EstimateRecord);
+    const bool discs = queries.part == map_caustic;
+    const Buffer caustic_discs =
+        device_.scratch("nearest photons: caustic discs", (discs ? slots : 1) * sizeof(float));
+
     const auto run = [&](const auto& dispatch_kernel) {
         gather<kernels::nearest_gather, kernels::nearest_gather_texels>(
             device_, map, queries, params,
@@ -46,6 +52,7 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
                     Kernel{.query = bindings,
                            .states = states_,
                            .suspended_words = words_,
+                           .caustic_discs = caustic_discs,
                            .params = now,
                            .constants = {.query = query_constants(plan_, queries),
                                          .material_features = plan_.material_features()}});
@@ -55,13 +62,15 @@ void NearestEstimator::estimate(const PhotonMap& map, const PhotonQueries& queri
         run([&](const auto& kernel) {
             dispatch_indirect(device_, kernel, count.buffer, count.index);
         });
-        return;
     }
     for (std::uint64_t first = 0; first < number; first += places) {
         params.first_query = static_cast<std::uint32_t>(first);
         run([&](const auto& kernel) {
             dispatch(device_, kernel, std::min(places, number - first));
         });
+    }
+    if (discs) {
+        correct_caustic_discs(device_, map, queries, {.squared_radii = caustic_discs});
     }
 }
 

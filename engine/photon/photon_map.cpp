@@ -15,10 +15,12 @@
 #include "parallel/compact.hpp"
 #include "parallel/reduce.hpp"
 #include "photon/covered.hpp"
+#include "photon/covered_caustics.hpp"
 #include "photon/sort_photons.hpp"
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
+#include "shared/photon.h"
 #include "shared/random.h"
 
 #include <algorithm>
@@ -272,6 +274,19 @@ void build_tree(Device& device, PhotonWorkspace& w, bool wide_codes, PhotonMap& 
     map.lbvh = build_lbvh_in_order(device, boxes, leaf_distances, leaves, Count(leaf_count));
 }
 
+/// Whether discs or footprints of caustics hold enough area samples for their correction.
+bool holds_areas_in_caustics(Device& device, const DeviceScene& scene, const PhotonWorkspace& w,
+                             const PhotonMapSettings& settings, const PhotonMap& map) {
+    if (map.area_samples == 0 || !scene.plan.needs(Feature::caustics)) {
+        return false;
+    }
+    if (settings.footprints) {
+        return download_word(device, w.counters, counter_wide_caustics) > 0;
+    }
+    const double disc = std::numbers::pi * settings.caustic_radius * settings.caustic_radius;
+    return 2 * samples_per_area(scene, map.area_samples) * disc > trusted_samples;
+}
+
 } // namespace
 
 std::uint32_t extents_of(const Plan& plan) {
@@ -378,11 +393,16 @@ std::optional<StoredPhotons> trace_photons(Device& device, const DeviceScene& sc
                          .near = counters[counter_near]};
 }
 
+double samples_per_area(const DeviceScene& scene, std::uint32_t area_samples) {
+    return area_samples / std::max(scene.areas.area, 1e-30);
+}
+
 FootprintParams footprint_params(const DeviceScene& scene, const FootprintScale& scale,
                                  std::uint32_t area_samples) {
     FootprintParams params{.scale = scale};
     params.inverse_surface_area = static_cast<float>(1 / std::max(scene.surface_area, 1e-30));
     constexpr double least_overlap = 4;
+    params.samples_per_area = static_cast<float>(samples_per_area(scene, area_samples));
     params.least_area_radius = static_cast<float>(std::sqrt(
         least_overlap * scene.areas.area / (std::numbers::pi * std::max(area_samples, 1u))));
     return params;
@@ -395,6 +415,7 @@ void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& 
     map.flatness = scale.flatness;
     const FootprintParams params = footprint_params(scene, scale, map.area_samples);
     upload_word(device, w.counters, counter_area_places, 0);
+    upload_word(device, w.counters, counter_wide_caustics, 0);
     const Buffer area_places =
         device.scratch("area samples' places", std::max<std::uint64_t>(map.area_samples, 1) * 4);
     const Count stored(w.counters, counter_stored, w.capacity);
@@ -407,6 +428,7 @@ void make_footprints(Device& device, const DeviceScene& scene, PhotonWorkspace& 
                                         .footprints = map.footprints,
                                         .shares = w.heads,
                                         .area_places = area_places,
+                                        .wide_caustics = wide_caustics(device, w),
                                         .params = params},
              stored);
     dispatch_indirect(device,
@@ -462,6 +484,13 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     if (!map.frontier) {
         map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
         build_tree(device, w, settings.wide_codes, map);
+        if (holds_areas_in_caustics(device, scene, w, settings, map)) {
+            map.areas = build_area_tree(device, map.photons, w.counters, map.area_samples);
+            map.areas.samples_per_area = samples_per_area(scene, map.area_samples);
+        }
+        if (settings.footprints) {
+            correct_caustic_footprints(device, w, map, settings.uniform_kernel);
+        }
     }
     map.counters = device.allocate("photon map counters", counter_count * 4);
     copy_elements(device, w.counters, 0, map.counters, 0, counter_count, 4);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/lbvh.hpp"
+#include "photon/area_tree.hpp"
 #include "photon/frontier_settings.hpp"
 #include "shared/differential.h"
 #include "shared/footprint_records.h"
@@ -15,6 +16,9 @@
 
 namespace argand {
 
+/// Kernels take estimates to be corrected within this distance at most; its square is finite.
+inline constexpr double largest_corrected_distance = 1e18;
+
 /// Photons in the order of a space-filling curve, and a hierarchy over blocks of them. A map owns
 /// its buffers: it stays as it is when the workspace traces other photons or builds another map.
 struct PhotonMap {
@@ -23,11 +27,13 @@ struct PhotonMap {
     Lbvh lbvh;                      ///< over the photons, in their order, some to a leaf
     std::uint32_t area_samples = 0; ///< among the photons
     SampledPart corrected;          ///< in which area samples surround every query
-    Buffer footprints;              ///< uvec4 per photon: dual axes (pack_dual of
-                                    ///< shared/footprint.h); empty: none
-    float flatness = 1;             ///< of the footprints
-    double mean_footprints = 0;     ///< summed area of all footprints over that of the surfaces
-    std::uint32_t leaf_size = 0;    ///< photons in a leaf at most
+    AreaTree areas;    ///< over the area samples; only where caustics have discs or footprints that
+                       ///< hold some
+    Buffer footprints; ///< uvec4 per photon: dual axes (pack_dual of
+                       ///< shared/footprint.h); empty: none
+    float flatness = 1;          ///< of the footprints
+    double mean_footprints = 0;  ///< summed area of all footprints over that of the surfaces
+    std::uint32_t leaf_size = 0; ///< photons in a leaf at most
     /// How queries are answered together; none: each by itself, through the tree. Maps that have
     /// this have no tree, and without footprints their photons are in no order.
     std::optional<FrontierSettings> frontier;
@@ -140,6 +146,9 @@ struct PhotonMapSettings {
                                  ///< far from each other
     std::optional<FootprintScale> footprints; ///< leaves' boxes bound footprints of this scale;
                                               ///< none: they bound points
+    bool uniform_kernel = false;              ///< of the footprints, instead of Epanechnikov's
+    double caustic_radius = 0; ///< of the largest discs of caustics that are corrected apart from
+                               ///< those of other light; 0: there are none
     std::optional<FrontierSettings> frontier; ///< the map is one without a tree, whose queries are
                                               ///< answered together
 };
@@ -149,6 +158,9 @@ struct PhotonMapSettings {
 std::uint32_t append_area_samples(Device& device, const DeviceScene& scene,
                                   PhotonWorkspace& workspace, const StoredPhotons& stored,
                                   const PhotonMapSettings& settings);
+
+/// Area samples of a map over the area [length²] on which they lie.
+double samples_per_area(const DeviceScene& scene, std::uint32_t area_samples);
 
 /// How footprints of this scale are made.
 FootprintParams footprint_params(const DeviceScene& scene, const FootprintScale& scale,

@@ -90,6 +90,7 @@ void add_footprints(Device& device, PhotonWorkspace& w, const FootprintScale& sc
                                         .footprints = sorted.footprints,
                                         .shares = w.heads,
                                         .area_places = device.scratch("area samples' places", 4),
+                                        .wide_caustics = device.scratch("wide caustics", 4),
                                         .params = {.scale = scale}},
              photons);
 }

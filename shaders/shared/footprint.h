@@ -178,6 +178,12 @@ FN FootprintDuals footprint_duals(IN(Footprint) f, vec3 normal) {
     return duals;
 }
 
+// Radius of the disc that has the footprint's area. The area spanned by the dual axes is the
+// inverse of that of the axes, because the axes are perpendicular to the normal and not parallel.
+FN real mean_radius(IN(FootprintDuals) duals) {
+    return real(1.0) / max(parallelogram_side(duals.a, duals.b), real(1e-30));
+}
+
 // The ellipsoid with these dual axes, for bounding boxes around the stored footprint. Packing tilts
 // normal and dual axes slightly; this ellipsoid still is exactly the region where footprint_weight
 // is not 0.

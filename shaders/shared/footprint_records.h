@@ -24,7 +24,8 @@ struct FootprintParams {
     float32 inverse_surface_area; // of the scene
     // least radius of area samples' footprints, so that some overlap everywhere
     float32 least_area_radius;
-    uint pad0, pad1;
+    float32 samples_per_area; // area samples; 0: caustic photons keep their flux
+    uint pad0;
 };
 
 // Which footprints footprint_distances looks at.

@@ -191,6 +191,26 @@ struct PhotonLeafParams {
     uint pad0, pad1, pad2;
 };
 
+// Area samples in a leaf of an area tree (area_tree.hpp).
+CONSTANT uint area_block = 8u;
+
+struct AreaBlockParams {
+    uint samples;
+    uint pad0, pad1, pad2;
+};
+
+// How much of caustics' footprints and discs lies on surfaces (covered_share.h).
+struct CoverParams {
+    float32 samples_per_area;
+    uint samples; // of the area tree
+    // Area samples lie within this distance of this point.
+    float32 corrected_x, corrected_y, corrected_z, corrected_distance;
+    float32 flatness;       // of footprints
+    float32 squared_radius; // of discs; 0: each has its own
+    uint count_index;       // index of the number of queries
+    uint pad0, pad1, pad2;
+};
+
 // Counters of the photon map on the device: indices into an array of uint.
 CONSTANT uint counter_active = 0u;       // photons that are still traced
 CONSTANT uint counter_stored_slots = 1u; // slots of the map in use (a slot may hold no photon)
@@ -204,6 +224,7 @@ CONSTANT uint counter_footprints = 7u;
 CONSTANT uint counter_area_places = 8u; // area samples among the records
 CONSTANT uint counter_others = 9u;      // photons of the map that are not caustic, which come first
 CONSTANT uint counter_near = 10u;       // photons from nearby surfaces, stored or not
+CONSTANT uint counter_wide_caustics = 11u; // caustic photons whose footprints hold area samples
 CONSTANT uint counter_count = 16u;
 
 ARGAND_SHARED_END

@@ -24,6 +24,17 @@ Scene small_cube_scene() {
     return scene;
 }
 
+/// Leaves of 10 cm across, on which a mirror behind the camera throws light.
+Scene leaves_beside_mirror() {
+    Scene scene = room_scene();
+    scene.name = "leaves beside a mirror";
+    add_leaves(scene, {0.2f, 0, 0}, 0.4f, 0.1f, 40);
+    add_quad(scene, {0.99f, -0.9f, -0.9f}, {0, 0, 1.8f}, {0, 1.8f, 0},
+             add_material(scene, mirror()));
+    scene.cameras = {look_at({0.95f, 0, 0}, {0, 0, 0}, 80)};
+    return scene;
+}
+
 class Thin : public EveryMethod {
 protected:
     void expect_light_of_path(const Scene& scene, RenderSettings settings, double tolerance) {
@@ -45,6 +56,16 @@ TEST_P(Thin, ASmallCubeInALargeRoomHasItsIndirectLight) {
     RenderSettings settings = settings_of(GetParam(), 1024, 64);
     settings.crop = CropRectangle{509, 509, 515, 515};
     expect_light_of_path(small_cube_scene(), settings, 0.03);
+}
+
+TEST_P(Thin, LeavesHaveTheLightOfAMirror) {
+    const Scene scene = leaves_beside_mirror();
+    RenderSettings settings = settings_of("bidirectional", 16, 1024);
+    const RenderResult& expected = render_once(scene.name, scene, settings);
+    settings = settings_of(GetParam(), 16, 64);
+    settings.photons = 20'000;
+    const double found = mean(layer(render(scene, settings), "caustic")).g;
+    EXPECT_RELATIVE(found, mean(layer(expected, "caustic")).g, 0.1);
 }
 
 INSTANTIATE_QUICK_AND_SLOW(Thin, "photons", exact(methods_with_map()));

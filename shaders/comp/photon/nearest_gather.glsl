@@ -4,6 +4,8 @@
 
 layout(set = 0, binding = 9) buffer States { NearestRecord states[]; };
 layout(set = 0, binding = 10) buffer Words { uint suspended_words[]; };
+// Squared radius of each slot's disc of caustics.
+layout(set = 0, binding = 11) writeonly buffer CausticDiscs { float caustic_discs[]; };
 
 shared uint words[nearest_words * nearest_group];
 #define WORD(i) words[(i) * nearest_group + gl_LocalInvocationIndex]

@@ -12,6 +12,8 @@ layout(set = 0, binding = 4) writeonly buffer Footprints { uvec4 footprints[]; }
 layout(set = 0, binding = 5) writeonly buffer Shares { uint shares[]; };
 //@ unordered(area_places, 0, 1)
 layout(set = 0, binding = 6) writeonly buffer AreaPlaces { uint area_places[]; };
+//@ unordered(wide_caustics, 0, 1)
+layout(set = 0, binding = 7) writeonly buffer WideCaustics { uint wide_caustics[]; };
 layout(push_constant) uniform Push { FootprintParams params; };
 
 #include "shared/kernels/photon/photon_footprints.h"

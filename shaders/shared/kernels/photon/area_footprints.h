@@ -8,9 +8,7 @@ FN real radius_nearby(uint i) {
     for (uint j = first; j <= last; ++j) {
         if ((photons[j].normal & (area_sample_bit | photon_caustic_bit)) == 0u) {
             FootprintDuals duals = unpack_duals(footprints[j]);
-            // The area spanned by the dual axes is the inverse of that of the axes, because the
-            // axes are perpendicular to the normal and not parallel.
-            sum += real(1.0) / max(parallelogram_side(duals.a, duals.b), real(1e-30));
+            sum += mean_radius(duals);
             count += real(1.0);
         }
     }

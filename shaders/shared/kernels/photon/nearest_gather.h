@@ -16,6 +16,7 @@
 
 #include "shared/kernels/photon/answer.h"
 #include "shared/kernels/photon/map_walk.h"
+#include "shared/kernels/photon/trusted_share.h"
 
 // Bin 0 holds bits below `low`, bin i those from low + ((i - 1) << shift) to low + (i << shift); no
 // bin holds bits of `high` or more.
@@ -309,16 +310,15 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
         }
     }
     real density = kernel_scale * inverse_r2;
-    // Few samples do not tell how much of a disc lies on surfaces. Where photons are that dense,
-    // edges matter little.
-    real samples = params.samples_per_area * (real(2.0) / kernel_scale) * r2;
-    real trust =
-        clamp(samples * (real(2.0) / nearest_trusted_samples) - real(1.0), real(0.0), real(1.0));
+    real trust = trusted_share(params.samples_per_area * PI * r2);
     real known = known_coverage(q.p, coverage * density);
     real scale = mix(real(1.0), answer_scale(known), trust);
     store_estimate(q.slot, scale * density * indirect, scale * density * caustic,
                    mix(real(1.0), known, trust),
                    trust * known_unevenness(q.p, q.moments, equal_flux, equal_area));
+    if (params.part == map_caustic) {
+        caustic_discs[q.slot] = r2;
+    }
     s.low = last_bits;
     s.phase = nearest_done;
 }

@@ -1,6 +1,7 @@
 // Shared by all estimators: reading a query, and the flux of a photon that the query's surface
 // scatters towards the eye.
 
+#include "shared/kernels/photon/same_surface.h"
 #include "shared/kernels/photon/uneven.h"
 
 // A compensated sum, in which a million photons at one point add up.
@@ -66,27 +67,9 @@ FN Query make_query(uint slot) {
 // Whether a photon or an area sample of this packed normal, at the end of a chord from the query,
 // lies on the query's surface, on the query's side of it.
 FN bool on_same_surface(IN(Query) q, uint packed, vec3 chord) {
-    real height = dot3(chord, q.normal);
-    real length2 = dot3(chord, chord);
-    if (height * height > steepest_chord * length2) {
-        return false; // before the normal is unpacked
-    }
     bool is_area = (packed & area_sample_bit) != 0u;
-    real along_sum = height + height;
-    real tolerance2 = flat_tolerance * flat_tolerance;
-    // On flat surfaces the packed normals are equal, which saves unpacking.
-    if ((packed & photon_normal_mask) != (is_area ? q.front_normal : q.own_normal)) {
-        vec3 normal = unpack_photon_normal(packed);
-        normal = is_area && !q.front ? -normal : normal;
-        along_sum = height + dot3(chord, normal);
-        if (!(dot3(normal, q.normal) >= same_surface_cosine)) {
-            return false;
-        }
-        vec3 turned = normal - q.normal;
-        tolerance2 = min(tolerance2 + dot3(turned, turned), chord_tolerance * chord_tolerance);
-    }
-    real excess = max(abs(along_sum) - q.rounding, real(0.0));
-    return excess * excess <= tolerance2 * length2;
+    return are_on_one_surface(q.normal, is_area ? q.front_normal : q.own_normal, packed,
+                              is_area && !q.front, q.rounding, chord);
 }
 
 // The part of an area sample on the query's side. carried: the sample's second four words.
