@@ -3,20 +3,15 @@
 #include "kernels/caustic_cover.hpp"
 #include "kernels/caustic_discs.hpp"
 
-#include <algorithm>
-
 namespace argand {
 
 namespace {
 
 CoverParams cover_params(const PhotonMap& map) {
-    return {.samples_per_area = static_cast<float>(map.areas.samples_per_area),
-            .samples = map.areas.samples,
-            .corrected_x = map.corrected.center.x,
-            .corrected_y = map.corrected.center.y,
-            .corrected_z = map.corrected.center.z,
-            .corrected_distance =
-                static_cast<float>(std::min(map.corrected.reach, largest_corrected_distance))};
+    CoverParams params{.samples_per_area = static_cast<float>(map.areas.samples_per_area),
+                       .samples = map.areas.samples};
+    set_corrected_part(params, map.corrected);
+    return params;
 }
 
 } // namespace

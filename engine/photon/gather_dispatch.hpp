@@ -3,22 +3,17 @@
 #include "kernels/query_bindings.hpp"
 #include "photon/estimator.hpp"
 
-#include <algorithm>
-
 namespace argand {
 
 /// What every gather passes to its kernel; the caller adds the parameters of its estimator.
 inline PhotonGatherParams gather_params(const PhotonMap& map, const PhotonQueries& queries,
                                         std::uint32_t budget) {
-    return {.budget = budget,
-            .count_index = queries.count.index,
-            .boundary_correction = map.area_samples > 0 ? 1u : 0u,
-            .part = queries.part,
-            .corrected_x = map.corrected.center.x,
-            .corrected_y = map.corrected.center.y,
-            .corrected_z = map.corrected.center.z,
-            .corrected_distance =
-                static_cast<float>(std::min(map.corrected.reach, largest_corrected_distance))};
+    PhotonGatherParams params{.budget = budget,
+                              .count_index = queries.count.index,
+                              .boundary_correction = map.area_samples > 0 ? 1u : 0u,
+                              .part = queries.part};
+    set_corrected_part(params, map.corrected);
+    return params;
 }
 
 /// Buffers for the member `query` of a gather's kernel.

@@ -20,7 +20,6 @@
 #include "shared/differential_record.h"
 #include "shared/footprint.h"
 #include "shared/geometry_records.h"
-#include "shared/photon.h"
 #include "shared/random.h"
 
 #include <algorithm>
@@ -284,7 +283,7 @@ bool holds_areas_in_caustics(Device& device, const DeviceScene& scene, const Pho
         return download_word(device, w.counters, counter_wide_caustics) > 0;
     }
     const double disc = std::numbers::pi * settings.caustic_radius * settings.caustic_radius;
-    return 2 * samples_per_area(scene, map.area_samples) * disc > trusted_samples;
+    return samples_per_area(scene, map.area_samples) * disc > least_cover_samples;
 }
 
 } // namespace

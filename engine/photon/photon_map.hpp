@@ -10,14 +10,21 @@
 #include "shared/view_points.h"
 #include "world/device_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
 
 namespace argand {
 
-/// Kernels take estimates to be corrected within this distance at most; its square is finite.
-inline constexpr double largest_corrected_distance = 1e18;
+/// Tells a kernel in which part of the scene estimates are corrected.
+template <class Params> void set_corrected_part(Params& params, const SampledPart& part) {
+    constexpr double largest = 1e18; // its square is finite
+    params.corrected_x = part.center.x;
+    params.corrected_y = part.center.y;
+    params.corrected_z = part.center.z;
+    params.corrected_distance = static_cast<float>(std::min(part.reach, largest));
+}
 
 /// Photons in the order of a space-filling curve, and a hierarchy over blocks of them. A map owns
 /// its buffers: it stays as it is when the workspace traces other photons or builds another map.

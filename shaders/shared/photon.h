@@ -58,10 +58,6 @@ CONSTANT real kernel_scale = real(0.63661977236758134308); // 2 / π
 // few area samples, is not trusted.
 CONSTANT real least_divisor = real(0.1);
 
-// Area samples that a disc should hold for its boundary correction, where their number may be
-// small; the correction fades in from half as many.
-CONSTANT real trusted_samples = real(16.0);
-
 // Height of the disc of density estimation, over its radius: what lies higher over a surface does
 // not belong to it.
 CONSTANT real disc_half_height = real(0.1);

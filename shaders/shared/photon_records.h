@@ -194,6 +194,9 @@ struct PhotonLeafParams {
 // Area samples in a leaf of an area tree (area_tree.hpp).
 CONSTANT uint area_block = 8u;
 
+// Footprints and discs of caustics that are expected to hold fewer area samples are not corrected.
+CONSTANT real least_cover_samples = real(8.0);
+
 struct AreaBlockParams {
     uint samples;
     uint pad0, pad1, pad2;

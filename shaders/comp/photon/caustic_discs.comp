@@ -2,6 +2,7 @@
 layout(local_size_x = 64) in;
 #include "kernel.glsl"
 #include "shared/accel_records.h"
+#include "shared/nearest_records.h"
 #include "shared/photon.h"
 #include "shared/photon_records.h"
 #include "shared/query_record.h"

@@ -4,14 +4,17 @@
 // at the edge that a sample's rounded position has crossed.
 CONSTANT real least_inside = real(0.002);
 
-// Whether the triangle that was hit where the sample lies is a copy of the sample's: it faces the
-// same way, and does not only touch it. Rays hit one of such triangles, and only its area counts.
-FN bool is_copy(HitRecord hit, uint packed_normal) {
-    real least = min(min(hit.u, hit.v), real(1.0) - hit.u - hit.v);
+// Whether the triangle that was hit where the sample lies is a copy of the sample's, and does not
+// only touch it. Rays hit one of such triangles, and only its area counts.
+FN bool is_copy(HitRecord hit) {
+    return min(min(hit.u, hit.v), real(1.0) - hit.u - hit.v) > least_inside;
+}
+
+FN bool faces_same_way(HitRecord hit, uint packed_normal) {
     uvec4 t = triangles[hit.triangle];
     vec3 a = vec3(positions[t.x]);
     vec3 normal = cross3(vec3(positions[t.y]) - a, vec3(positions[t.z]) - a);
-    return least > least_inside && dot3(normal, unpack_photon_normal(packed_normal)) > real(0.0);
+    return dot3(normal, unpack_photon_normal(packed_normal)) > real(0.0);
 }
 
 // Takes the area from those sides of area samples on which another surface lies through which no
@@ -27,8 +30,7 @@ FN void main() {
     HitRecord hit = hits[i];
     real height = rays[i].t_max - params.error; // of the start over the sample
     bool is_above = !(hit.t > height - params.error);
-    if (hit.triangle == photons[slot].direction ||
-        (!is_above && !is_copy(hit, photons[slot].normal))) {
+    if (hit.triangle == photons[slot].direction || (!is_above && !is_copy(hit))) {
         return;
     }
     MaterialRecord material = load_material(triangles[hit.triangle].w);
@@ -37,6 +39,12 @@ FN void main() {
             go_on_behind(thread, i, hit.t);
         }
         return;
+    }
+    if (!is_above) {
+        photons[slot].flux_b = real(0.0);
+        if (!faces_same_way(hit, photons[slot].normal)) {
+            return; // light from this side arrives at the sample's own triangle
+        }
     }
     if (side % 2u == 0u) {
         photons[slot].flux_r = real(0.0);

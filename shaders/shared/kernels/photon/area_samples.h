@@ -37,7 +37,9 @@ FN void main() {
     // No photon lies where the surface is absent.
     bool absent = has_alpha && is_absent(t, coverage_at(t, b));
     real area = absent ? real(0.0) : real(params.area);
+    // The area open to light on the front and on the back, of which other kernels take what is
+    // covered, and the whole area.
     photons[counters[counter_stored_slots] + i] =
         PhotonRecord(p.x, p.y, p.z, pack_photon_normal(normal, false) | area_sample_bit, area, area,
-                     real(0.0), area_sums[low].triangle);
+                     area, area_sums[low].triangle);
 }

@@ -1,16 +1,19 @@
 // Caustic discs at edges. The area samples that a query meets tell how much of the disc of its
 // other light lies on surfaces; the disc of caustics has a size of its own.
 
+#include "shared/kernels/photon/disc_weight.h"
+
 struct Spread {
     real squared_radius;
+    real stretch; // a photon's squared distance: |d|² + stretch (d · n)²
     vec3 normal;
 };
 
 FN real spread_weight(IN(Spread) spread, vec3 offset, vec3) {
     real height = dot3(offset, spread.normal);
-    real u2 = (dot3(offset, offset) - height * height) / spread.squared_radius;
-    real weight = !uniform_kernel ? kernel_weight(u2) : u2 < real(1.0) ? real(0.5) : real(0.0);
-    return weight * kernel_scale / spread.squared_radius;
+    real squared_distance = dot3(offset, offset) + spread.stretch * height * height;
+    return disc_weight(squared_distance / spread.squared_radius) * kernel_scale /
+           spread.squared_radius;
 }
 
 #include "shared/kernels/photon/covered_share.h"
@@ -22,8 +25,10 @@ FN void main() {
     }
     uint slot = active_slots[k];
     EstimateRecord found = estimates[slot];
-    real squared_radius =
-        params.squared_radius > real(0.0) ? params.squared_radius : squared_radii[slot];
+    // Discs of their own are those of the nearest photons.
+    bool own = !(params.squared_radius > real(0.0));
+    real squared_radius = own ? squared_radii[slot] : params.squared_radius;
+    real stretch = own ? nearest_stretch : -real(1.0);
     if (!(found.caustic_r + found.caustic_g + found.caustic_b > real(0.0)) ||
         !(squared_radius > real(0.0))) {
         return;
@@ -31,7 +36,9 @@ FN void main() {
     QueryRecord query = queries[slot];
     Center center =
         make_center(vec3(query.x, query.y, query.z), unpack_unit(query.geometric_normal));
-    real scale = covered_scale(center, Spread(squared_radius, center.normal), squared_radius,
+    // What lies within the disc is no farther than this on the query's surface.
+    real reach2 = squared_radius / (real(1.0) - steepest_chord);
+    real scale = covered_scale(center, Spread(squared_radius, stretch, center.normal), reach2,
                                PI * squared_radius, slot);
     found.caustic_r *= scale;
     found.caustic_g *= scale;

@@ -1,21 +1,24 @@
 // The share of a caustic's kernel that lies on surfaces, from the samples of an area tree. Kernels
 // that include this define struct Spread, the kernel's shape around a point, and
 // - real spread_weight(Spread, vec3 offset, vec3 normal): its value [1/area] at an area sample;
-// and declare NODES of an area tree, PHOTONS and `places`.
+// and declare CoverParams params, NODES of an area tree, PHOTONS and `places`.
 #include "shared/kernels/photon/corrected.h"
 #include "shared/kernels/photon/leaf_walk.h"
 #include "shared/kernels/photon/same_surface.h"
 #include "shared/kernels/photon/trusted_share.h"
 
+// Area samples in a spread from which on they tell its covered share.
+CONSTANT real trusted_samples = real(2.0) * least_cover_samples;
+
 // Where a spread has more area samples than this, only a part of them is looked at.
 CONSTANT real most_samples = real(1024.0);
+CONSTANT real longest_stride = real(65536.0);
 
 // A share for which this many samples stand is trusted, however small it is.
 CONSTANT real enough_samples = real(8.0);
-CONSTANT real longest_stride = real(65536.0);
 
-// Nodes of the tree that are looked at. A spread over so many counts as covered.
-CONSTANT uint most_nodes = 32768u;
+// Nodes and samples that are looked at. A spread over more counts as covered.
+CONSTANT uint most_steps = 16384u;
 
 // The point around which flux is spread, on one side of a surface.
 struct Center {
@@ -34,7 +37,8 @@ FN Center make_center(vec3 p, vec3 normal) {
     return c;
 }
 
-// The part of the spread for which the area sample with this index in the map stands.
+// The part of the spread for which the area sample with this index in the map stands. Caustic
+// photons stay where other light is taken from covered places, so the whole area counts.
 FN real covered_by(IN(Center) c, IN(Spread) spread, uint index) {
     uvec4 place = PHOTONS(2u * index);
     vec3 offset = bits_float(uvec3(place)) - c.p;
@@ -48,31 +52,34 @@ FN real covered_by(IN(Center) c, IN(Spread) spread, uint index) {
     if (!(weight > real(0.0))) {
         return real(0.0);
     }
-    uvec4 carried = PHOTONS(2u * index + 1u);
-    return weight * bits_float(front ? carried.x : carried.y);
+    return weight * bits_float(PHOTONS(2u * index + 1u).z);
 }
 
-// By how much to multiply flux that is spread around a point within a distance, so that it all
-// arrives. area: of the spread [length²]. phase: any number; which samples to look at.
+// By how much to multiply flux that is spread around a point, so that it all arrives. reach2:
+// squared distance of the farthest point that it may reach; area: of the spread's support
+// [length²]; phase: any number, which decides what samples are looked at if there are many.
 FN real covered_scale(IN(Center) c, IN(Spread) spread, real reach2, real area, uint phase) {
     real samples = params.samples_per_area * area;
-    real trust = trusted_share(samples);
-    if (!(trust > real(0.0)) || !is_in_corrected_part(c.p)) {
+    real trust = trusted_share(samples, trusted_samples);
+    if (!(trust > real(0.0)) || !is_in_corrected_part(c.p, sqrt(reach2))) {
         return real(1.0);
     }
     uint stride = uint(clamp(samples / most_samples, real(1.0), longest_stride));
     real covered = real(0.0);
     uint steps = 0u;
     uint node = params.samples > area_block ? 0u : 1u;
-    while (node != lbvh_end && steps < most_nodes) {
-        PhotonRange block = next_leaf(c.p, reach2, most_nodes, node, steps);
+    while (node != lbvh_end && steps < most_steps) {
+        PhotonRange block = next_leaf(c.p, reach2, most_steps, node, steps);
         uint first = block.first * area_block;
         uint end = min(block.end * area_block, params.samples);
         for (uint k = first + (phase - first) % stride; k < end; k += stride) {
             covered += covered_by(c, spread, places[k]);
+            ++steps;
         }
     }
+    if (node != lbvh_end || !(covered > real(0.0))) {
+        return real(1.0);
+    }
     real least = min(least_divisor, enough_samples * real(stride) / samples);
-    real known = node == lbvh_end ? covered * real(stride) : real(1.0);
-    return real(1.0) / mix(real(1.0), max(known, least), trust);
+    return real(1.0) / mix(real(1.0), max(covered * real(stride), least), trust);
 }

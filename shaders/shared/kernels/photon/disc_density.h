@@ -1,5 +1,6 @@
 // Density estimation over the photons within a radius, with Epanechnikov's kernel or a uniform one.
 // With `ball` all photons of a ball count, whatever their surface: Keller et al. 2010, section 1.
+#include "shared/kernels/photon/disc_weight.h"
 
 struct Bandwidth {
     real r2, inverse_r2;
@@ -18,13 +19,6 @@ FN Bandwidth make_bandwidth() {
 FN real search_radius2(IN(Bandwidth) b) { return b.r2; }
 
 FN bool may_reach(IN(Bandwidth) b, vec3 d) { return dot3(d, d) < b.r2; }
-
-// Over kernel_scale times the inverse of the squared radius.
-FN real disc_weight(real squared_distance) {
-    return !uniform_kernel                ? kernel_weight(squared_distance)
-           : squared_distance < real(1.0) ? real(0.5)
-                                          : real(0.0);
-}
 
 // Whether a photon of the ball comes from the side of the surface that the eye sees. BRDFs are 0
 // for the others.

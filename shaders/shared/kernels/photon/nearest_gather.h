@@ -310,7 +310,7 @@ FN void finish(INOUT(Query) q, INOUT(Search) s) {
         }
     }
     real density = kernel_scale * inverse_r2;
-    real trust = trusted_share(params.samples_per_area * PI * r2);
+    real trust = trusted_share(params.samples_per_area * PI * r2, nearest_trusted_samples);
     real known = known_coverage(q.p, coverage * density);
     real scale = mix(real(1.0), answer_scale(known), trust);
     store_estimate(q.slot, scale * density * indirect, scale * density * caustic,

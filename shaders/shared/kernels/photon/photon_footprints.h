@@ -2,8 +2,6 @@
 // scene's. Area samples, whose footprints come from their neighbours, are listed for
 // area_footprints: few among many, they would stall all lanes. So are caustic photons whose
 // footprints hold area samples, for caustic_cover.
-#include "shared/kernels/photon/trusted_share.h"
-
 FN void main() {
     uint i = THREAD_INDEX;
     if (i >= counters[counter_stored]) {
@@ -23,7 +21,7 @@ FN void main() {
     bool caustic = photon_is_caustic(packed);
     Footprint f = make_footprint(d, normal, caustic, params.scale);
     real area = footprint_area(f);
-    if (caustic && trusted_share(params.samples_per_area * area) > real(0.0)) {
+    if (caustic && params.samples_per_area * area > least_cover_samples) {
         wide_caustics[atomicAdd(counters[counter_wide_caustics], 1u)] = i;
     }
     real share = area * params.inverse_surface_area * real(area_shares);
