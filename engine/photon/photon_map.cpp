@@ -483,13 +483,15 @@ PhotonMap build_photon_map(Device& device, const DeviceScene& scene, PhotonWorks
     if (!map.frontier) {
         map.leaf_size = settings.leaf_size > 0 ? settings.leaf_size : automatic_leaf_size;
         build_tree(device, w, settings.wide_codes, map);
-        if (holds_areas_in_caustics(device, scene, w, settings, map)) {
-            map.areas = build_area_tree(device, map.photons, w.counters, map.area_samples);
-            map.areas.samples_per_area = samples_per_area(scene, map.area_samples);
-        }
-        if (settings.footprints) {
-            correct_caustic_footprints(device, w, map, settings.uniform_kernel);
-        }
+    }
+    // A tree over blocks of samples is of use only if they are in order.
+    if ((!map.frontier || settings.footprints) &&
+        holds_areas_in_caustics(device, scene, w, settings, map)) {
+        map.areas = build_area_tree(device, map.photons, w.counters, map.area_samples);
+        map.areas.samples_per_area = samples_per_area(scene, map.area_samples);
+    }
+    if (settings.footprints) {
+        correct_caustic_footprints(device, w, map, settings.uniform_kernel);
     }
     map.counters = device.allocate("photon map counters", counter_count * 4);
     copy_elements(device, w.counters, 0, map.counters, 0, counter_count, 4);
