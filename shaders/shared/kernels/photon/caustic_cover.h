@@ -25,7 +25,10 @@ FN void main() {
     FootprintDuals duals = unpack_duals(footprints[i]);
     Footprint f = footprint_of_duals(duals, normal, params.flatness);
     make_principal(f.u, f.v);
-    real scale = covered_scale(make_center(bits_float(uvec3(place)), normal), Spread(duals, normal),
+    Spread spread;
+    spread.duals = duals;
+    spread.normal = normal;
+    real scale = covered_scale(make_center(bits_float(uvec3(place)), normal), spread,
                                dot3(f.u, f.u), footprint_area(f), i);
     uvec4 carried = PHOTONS(2u * i + 1u);
     photons[2u * i + 1u] = uvec4(float_bits(scale * bits_float(uvec3(carried))), carried.w);

@@ -28,7 +28,6 @@ FN void main() {
     // Discs of their own are those of the nearest photons.
     bool own = !(params.squared_radius > real(0.0));
     real squared_radius = own ? squared_radii[slot] : params.squared_radius;
-    real stretch = own ? nearest_stretch : -real(1.0);
     if (!(found.caustic_r + found.caustic_g + found.caustic_b > real(0.0)) ||
         !(squared_radius > real(0.0))) {
         return;
@@ -36,10 +35,13 @@ FN void main() {
     QueryRecord query = queries[slot];
     Center center =
         make_center(vec3(query.x, query.y, query.z), unpack_unit(query.geometric_normal));
+    Spread spread;
+    spread.squared_radius = squared_radius;
+    spread.stretch = own ? nearest_stretch : -real(1.0);
+    spread.normal = center.normal;
     // What lies within the disc is no farther than this on the query's surface.
     real reach2 = squared_radius / (real(1.0) - steepest_chord);
-    real scale = covered_scale(center, Spread(squared_radius, stretch, center.normal), reach2,
-                               PI * squared_radius, slot);
+    real scale = covered_scale(center, spread, reach2, PI * squared_radius, slot);
     found.caustic_r *= scale;
     found.caustic_g *= scale;
     found.caustic_b *= scale;
