@@ -32,8 +32,8 @@ CONSTANT real nearest_stretch = real(99);
 CONSTANT real nearest_least = real(1e-3);
 CONSTANT real nearest_least_square = real(1e-37); // keeps its inverse finite
 
-// Area samples that a disc should hold for its boundary correction, which fades in from half as
-// many.
+// Area samples that a disc should hold for its boundary correction; the correction fades in from
+// half as many.
 CONSTANT real nearest_trusted_samples = real(32);
 
 // State of a query for the nearest photons between two dispatches.

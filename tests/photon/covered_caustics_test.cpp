@@ -60,7 +60,9 @@ protected:
         scale.radius_min = scale.caustic_min = 1e-4f;
         scale.radius_max = scale.caustic_max = 1;
         return build_photon_map(on, uploaded, workspace, store(on, workspace, photons, offsets),
-                                {.area_samples = area_samples, .footprints = scale});
+                                {.area_samples = area_samples,
+                                 .cover_height = 0.1 * double(size),
+                                 .footprints = scale});
     }
 
     /// The mean flux of the map's caustic photons.
@@ -119,6 +121,33 @@ TEST_F(CoveredCaustics, OtherSurfacesDoNotCount) {
     add_quad(scene, {1, 0.1f, 1}, {1, 0, 0}, {0, 0, -2}, 0); // a step behind it
     EXPECT_RELATIVE(mean_flux(footprint_map(photons_from_edge(0), 10'000, radius, scene), 200), 2.0,
                     0.03);
+}
+
+// Other light is taken from what a panel close above covers; caustic photons stay there.
+TEST_F(CoveredCaustics, CoveredPlacesCount) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
+    add_quad(scene, {0, 0.01f, 1}, {1, 0, 0}, {0, 0, -2}, 0);
+    std::vector<PhotonRecord> photons;
+    for (int i = 0; i < 200; ++i) {
+        photons.push_back(caustic_at(0, uniform(-0.7f, 0.7f)));
+    }
+    EXPECT_RELATIVE(mean_flux(footprint_map(photons, 8000, radius, scene), 200), 1.0, 0.03);
+}
+
+// Each is a surface with two sides, but light meets only one of them.
+TEST_F(CoveredCaustics, CopiesThatFaceTheOtherWayCountOnce) {
+    Scene scene = floor_scene(lambertian(glm::vec3(0.5f)), 1);
+    const std::size_t triangles = scene.triangles.size();
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const glm::uvec3 t = scene.triangles[i];
+        add_triangle(scene, scene.positions[t.x], scene.positions[t.z], scene.positions[t.y], 0);
+    }
+    for (const float distance : {0.0f, 0.5f}) {
+        EXPECT_RELATIVE(
+            mean_flux(footprint_map(photons_from_edge(distance), 8000, radius, scene), 200),
+            1 / share_at(double(distance)), 0.03)
+            << distance;
+    }
 }
 
 // Too few samples tell nothing; many more than are looked at tell the same.
