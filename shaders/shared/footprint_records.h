@@ -40,10 +40,6 @@ struct FootprintDistanceParams {
 // the sum over area_shares is the mean number of footprints over a point.
 CONSTANT uint area_shares = 65536u;
 
-// An area sample derives the size of its footprint from this many photons on either side of it in
-// the map's order.
-CONSTANT uint area_neighbours = 8u;
-
 ARGAND_SHARED_END
 
 #endif
