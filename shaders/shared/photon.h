@@ -35,14 +35,25 @@ FN vec3 unpack_photon_normal(uint packed) {
 // Larger counts of scatterings are stored as this one.
 CONSTANT uint most_scatterings_known = 63u;
 
-// Packs the direction from which a photon came, and its number of scatterings in the lowest bits of
-// both coordinates. unpack_unit can read it as it is; the direction is then off by at most 1e-3.
-FN uint pack_photon_direction(vec3 direction, uint scatterings) {
+// Packs the direction from which a photon came. In the lowest bits of both coordinates are its
+// number of scatterings and half of `aimed`, the logarithm to base 2 of the density of photons
+// like it over that without aiming, which is at most 31. unpack_unit can read it as it is; the
+// direction is then off by at most 4e-3.
+FN uint pack_photon_direction(vec3 direction, uint scatterings, uint aimed) {
     uint n = scatterings < most_scatterings_known ? scatterings : most_scatterings_known;
-    return (pack_unit(direction) & 0xfff8fff8u) | (n & 7u) | ((n >> 3) << 16);
+    uint low = (n & 7u) | ((aimed & 6u) << 2);
+    uint high = (n >> 3) | (aimed & 0x18u);
+    return (pack_unit(direction) & 0xffe0ffe0u) | low | (high << 16);
 }
 
 FN uint photon_scatterings(uint packed) { return (packed & 7u) | ((packed >> 13) & 0x38u); }
+
+// How rare photons like this one are because others were aimed: one over the density of
+// pack_photon_direction, a power of 4 and at most 1.
+FN real photon_rarity(uint packed) {
+    uint aimed = ((packed >> 2) & 6u) | ((packed >> 16) & 0x18u);
+    return bits_float((127u - aimed) << 23);
+}
 
 FN bool photon_is_caustic(uint packed) { return (packed & photon_caustic_bit) != 0u; }
 

@@ -14,14 +14,16 @@ struct PhotonRecord {
     // Packed normal of the surface (photon.h), on the photon's side; the front's for area samples.
     uint normal;
     float32 flux_r, flux_g, flux_b;
-    // Direction that the photon came from and number of scatterings (pack_photon_direction).
+    // Direction that the photon came from, number of scatterings and how densely photons of its
+    // kind were emitted (pack_photon_direction).
     uint direction;
 };
 
 // A photon that is being traced, one per slot.
 struct PhotonPathRecord {
     float32 flux_r, flux_g, flux_b;
-    // Scatterings so far in the low half; photon_followed; photon_view_shift; photon_aimed_shift.
+    // Scatterings so far in the low half; photon_followed; photon_view_shift; photon_outside_shift;
+    // photon_aimed_shift.
     uint state;
 };
 
@@ -31,10 +33,14 @@ CONSTANT uint photon_followed = 0x10000u; // only followed lobes scattered the p
 // aimed at what is in view when they were last emitted or scattered outside it, over the density
 // without aiming.
 CONSTANT uint photon_view_shift = 17u;
-CONSTANT uint photon_view_mask = 31u;
+// From this bit on, of a photon from outside: the logarithm to base 2, rounded down, of the density
+// of its tree (aim.h), over that of the rarest photons.
+CONSTANT uint photon_outside_shift = 22u;
+// Of both fields.
+CONSTANT uint photon_density_mask = 31u;
 // From this bit on: the logarithm to base 2 of the density of photons aimed at a caster of caustics
 // over that of even emission, rounded down; 0 after other scatterings.
-CONSTANT uint photon_aimed_shift = 24u;
+CONSTANT uint photon_aimed_shift = 27u;
 CONSTANT uint largest_photon_aimed = 30u;
 
 // Where the flux of one photon went, per channel, in fixed point (PhotonBatch::flux_unit) modulo

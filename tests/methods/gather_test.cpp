@@ -234,6 +234,26 @@ TEST_F(GatherPhotons, TellsHowUnevenLightIs) {
     EXPECT_GT(half, Untaken::strongly_uneven);
 }
 
+// A bright photon among many others may come from behind a wall, unless it is bright because the
+// others were aimed.
+TEST_F(GatherPhotons, RarePhotonsMakeLightUnevenByChance) {
+    const auto uneven = [&](std::uint32_t aimed, std::uint32_t aimed_of_bright) {
+        std::vector<PhotonRecord> photons;
+        for (int i = 0; i < 1000; ++i) {
+            photons.push_back(photon({uniform(-0.3f, 0.3f), 0, uniform(-0.3f, 0.3f)}));
+            photons.back().direction = pack_photon_direction({0, 1, 0}, 1, aimed);
+        }
+        PhotonRecord bright = photon({0.1f, 0, -0.05f});
+        bright.flux_r = bright.flux_g = bright.flux_b = 1e6f;
+        bright.direction = pack_photon_direction({0, 1, 0}, 1, aimed_of_bright);
+        photons.push_back(bright);
+        return gather(photons, {Query{}}, 0.3f, gather_budget, true, 40'000)[0].uneven;
+    };
+    EXPECT_GT(uneven(0, 0), 0.9);
+    EXPECT_GT(uneven(16, 16), 0.9);
+    EXPECT_EQ(uneven(16, 0), 0);
+}
+
 TEST_F(GatherPhotons, FewPhotons) {
     for (const std::size_t n : {0u, 1u, 2u, 7u, 8u, 9u, 17u}) {
         SCOPED_TRACE(n);

@@ -352,6 +352,26 @@ TEST_F(Progressive, SlowPassesOfFewPhotonsKeepTheLightOfGlossySurfaces) {
     }
 }
 
+// Most photons are aimed through the window. The others carry a hundred times as much flux, and few
+// of them lie in a disc: an estimate that is left out for their sake has more light than the
+// others. It was 0.88, 0.90 and 0.87 of the light when all counted alike.
+TEST_F(Progressive, SlowPassesOfFewPhotonsKeepTheLightThroughAWindow) {
+    const Scene scene = load_asset("window_room.glb");
+    const RenderResult& expected = render_once("window room", scene, settings_of("path", 24, 1024));
+    for (const std::string method : {"photons", "footprints", "knn"}) {
+        SCOPED_TRACE(method);
+        RenderSettings settings = settings_of(method, 24, 4);
+        settings.photons = settings.photons_per_pass = 20'000;
+        settings.progressive = {.on = true, .first_radius = {}, .exponent = 0.25, .passes = 8};
+        const double found = mean(layer(render(scene, settings), "indirect")).g;
+        if (method != "knn") { // whose few nearest photons have 0.93 of the light
+            EXPECT_RELATIVE(found, mean(layer(expected, "indirect")).g, 0.06);
+        }
+        settings.least_coverage = 0; // all estimates are taken
+        EXPECT_RELATIVE(found, mean(layer(render(scene, settings), "indirect")).g, 0.015);
+    }
+}
+
 TEST_F(Progressive, FirstPassHasTheRadiusThatIsGivenOrLearntForOnePass) {
     const Scene scene = room_scene();
     RenderSettings settings = settings_of("progressive", 6, 1);

@@ -121,14 +121,17 @@ FN Values evaluate_codes(uint function, IN(Arguments) a) {
         r.y[3] = real(must_be(fine ? code.y >> 31u : code.x >> 30u, 0u));
     } else if (function == of_pack_photon_direction) {
         uint n = small_at(a, 3);
-        uint packed = pack_photon_direction(vec3_at(a, 0), n);
-        r.y[0] = real((packed & 0xffffu) >> 3u);
-        r.y[1] = real(packed >> 19u);
+        uint aimed = small_at(a, 4);
+        uint packed = pack_photon_direction(vec3_at(a, 0), n, aimed);
+        r.y[0] = real((packed & 0xffffu) >> 5u);
+        r.y[1] = real(packed >> 21u);
         r.y[2] = real(must_be(photon_scatterings(packed), n > 63u ? 63u : n));
+        r.y[3] = must_be(photon_rarity(packed), real(1.0) / real(1u << (aimed & 30u)));
     } else if (function == of_photon_direction_read) {
         put3(r, 0,
-             must_be(unpack_unit(pack_photon_direction(vec3_at(a, 0), small_at(a, 3))),
-                     vec3_at(a, 0)));
+             must_be(
+                 unpack_unit(pack_photon_direction(vec3_at(a, 0), small_at(a, 3), small_at(a, 4))),
+                 vec3_at(a, 0)));
     } else if (function == of_photon_is_caustic) {
         uint packed = pack_photon_normal(vec3_at(a, 0), small_at(a, 3) != 0u);
         packed |= small_at(a, 4) != 0u ? area_sample_bit : 0u;

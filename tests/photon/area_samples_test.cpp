@@ -211,7 +211,7 @@ TEST_F(AreaSamples, HiddenSurfacesDarkenNoEstimate) {
         const float z = 2 * (static_cast<float>(i / side) + 0.5f) / side - 1;
         const float flux = 2.0f / (side * side); // an irradiance of 1
         photons.push_back({x, 0.01f, z, pack_photon_normal({0, 1, 0}, false), flux, flux, flux,
-                           pack_photon_direction({0, 1, 0}, 1)});
+                           pack_photon_direction({0, 1, 0}, 1, 0)});
     }
     PhotonWorkspace workspace = make_photon_workspace(device, photons.size());
     const double radius = 0.3;
@@ -244,7 +244,7 @@ double beside_a_bright_gap(Device& device, const Material& panel, bool caustic, 
         const float z = 2 * (static_cast<float>(i / side) + 0.5f) / side - 1;
         const float flux = (x > 0 ? 100 : 1) * 4.0f / (side * side);
         photons.push_back({x, 0, z, pack_photon_normal({0, 1, 0}, caustic && x > 0), flux, flux,
-                           flux, pack_photon_direction({0, 1, 0}, 1)});
+                           flux, pack_photon_direction({0, 1, 0}, 1, 0)});
     }
     PhotonWorkspace workspace = make_photon_workspace(device, photons.size());
     workspace.slots = slots;

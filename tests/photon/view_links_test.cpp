@@ -17,7 +17,8 @@ ViewPointRecord in_view(glm::vec3 p, glm::vec3 normal = up) {
 }
 
 PhotonRecord photon_at(glm::vec3 p, bool caustic = false) {
-    return {p.x, p.y, p.z, pack_photon_normal(up, caustic), 1, 1, 1, pack_photon_direction(up, 1)};
+    return {p.x, p.y, p.z, pack_photon_normal(up, caustic),
+            1,   1,   1,   pack_photon_direction(up, 1, 0)};
 }
 
 /// Points on a grid over a part of the plane y = 0.

@@ -86,7 +86,7 @@ std::vector<PhotonRecord> photon_records(std::uint64_t count) {
                            .flux_r = 1,
                            .flux_g = 1,
                            .flux_b = 1,
-                           .direction = pack_photon_direction(p.normal, 1)});
+                           .direction = pack_photon_direction(p.normal, 1, 0)});
     }
     return photons;
 }

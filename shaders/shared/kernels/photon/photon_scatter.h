@@ -268,12 +268,15 @@ FN bool reserve(uint store, uint depth) {
     return has_slot && stores_at(depth);
 }
 
-FN void store_photon(uint store, Arrival a, bool caustic) {
+// state: of its PhotonPathRecord.
+FN void store_photon(uint store, Arrival a, bool caustic, uint state) {
     vec3 p = a.surface.position;
+    uint aimed = ((state >> photon_view_shift) & photon_density_mask) +
+                 ((state >> photon_outside_shift) & photon_density_mask);
     photons[store] =
         PhotonRecord(p.x, p.y, p.z, pack_photon_normal(a.surface.geometric_normal, caustic),
                      a.flux.x * a.shading, a.flux.y * a.shading, a.flux.z * a.shading,
-                     pack_photon_direction(-a.direction, a.depth));
+                     pack_photon_direction(-a.direction, a.depth, min(aimed, photon_density_mask)));
 }
 
 // Whether a photon of the map comes from a surface so near that eye paths follow its light instead;
@@ -357,9 +360,9 @@ FN real disperse_photon(uint slot, INOUT(Arrival) a, MaterialRecord m, uint tria
 }
 
 // Stores the photon with what is kept beside it.
-FN void store_with_details(uint slot, uint store, Arrival a, bool caustic,
+FN void store_with_details(uint slot, uint store, Arrival a, bool caustic, uint state,
                            IN(PhotonDifferential) d) {
-    store_photon(store, a, caustic);
+    store_photon(store, a, caustic, state);
     if (extents != extents_none) {
         offsets[store] = uvec4(pack_dual(d.dp_du), pack_dual(d.dp_dv));
     }
@@ -403,7 +406,7 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
         out_of.sampled.pdf *= how.scattered;
     }
     bool stays_followed = how.only_followed && (out_of.sampled.lobe & how.followed) != 0u;
-    uint for_view = (how.state >> photon_view_shift) & photon_view_mask;
+    uint for_view = (how.state >> photon_view_shift) & photon_density_mask;
     uint leaves =
         stays_followed ? 0u : (how.state >> photon_aimed_shift) + (is_elsewhere ? for_view : 0u);
     real survival = survival_probability(a, out_of, min(leaves, largest_photon_aimed));
@@ -429,7 +432,8 @@ FN bool scatter_photon(uint slot, Arrival a, MaterialRecord m, IN(Scattering) ho
     continue_path(slot, a, out_of.direction, flux, cone,
                   solids_after(a.solids, m, a.surface.front, out_of.sampled.wi.z < real(0.0)),
                   stays_followed ? how.state & ~photon_depth_mask
-                                 : next_for_view << photon_view_shift);
+                                 : (how.state & (photon_density_mask << photon_outside_shift)) |
+                                       (next_for_view << photon_view_shift));
     return true;
 }
 
@@ -498,7 +502,7 @@ FN void main() {
     bool caustic = followed_paths && how.only_followed && a.depth > 0u;
     if (stores && may_be_estimated && !a.hidden && a.surface.above_horizon &&
         (caustic || !is_left_to_eye_paths(a))) {
-        store_with_details(slot, store, a, caustic, d);
+        store_with_details(slot, store, a, caustic, path.state, d);
     }
     uint vertex = (keeps & kept_path) != 0u ? add_vertex(slot, store, a) : 0u;
     how.scattered = real(1.0);

@@ -80,7 +80,9 @@ FN real open_area(IN(Query) q, uvec4 carried) {
 // What the surface scatters towards the eye from a photon's flux.
 struct Scattered {
     vec3 radiance;
-    real weight; // its share of the flux, up to a factor common to all photons of the query
+    // Its share of the flux, up to a factor common to all photons of the query, and the less the
+    // more photons like it were aimed.
+    real weight;
 };
 
 // carried: the photon's second four words.
@@ -94,14 +96,14 @@ FN Scattered scattered(IN(Query) q, uvec4 carried) {
     vec3 flux = bits_float(uvec3(carried));
     if (!glossy || q.lambertian) {
         s.radiance = flux * q.reflectance;
-        s.weight = real(1.0);
+        s.weight = photon_rarity(carried.w);
         return s;
     }
     vec3 wi = to_local(q.frame, unpack_unit(carried.w));
     if (wi.z > real(0.0)) {
         vec3 share = bsdf_eval(q.bsdf, q.wo, wi, q.lobes);
         s.radiance = flux * share;
-        s.weight = sum_of_channels(share);
+        s.weight = sum_of_channels(share) * photon_rarity(carried.w);
     }
     return s;
 }
