@@ -80,10 +80,17 @@ FN real open_area(IN(Query) q, uvec4 carried) {
 // What the surface scatters towards the eye from a photon's flux.
 struct Scattered {
     vec3 radiance;
-    // Its share of the flux, up to a factor common to all photons of the query, and the less the
-    // more photons like it were aimed.
+    // Its share of the flux, times explained_weight, up to a factor common to all photons of the
+    // query.
     real weight;
 };
+
+// For how many photons of one light and one flux a photon counts that is bright because others were
+// aimed: the geometric mean of its flux and its rarity, up to a common factor. A photon that is
+// only bright, or only rare, counts less: it may be from another room, or from a dim light.
+FN real explained_weight(vec3 flux, uint packed) {
+    return sqrt(photon_rarity(packed)) * sqrt(sum_of_channels(flux));
+}
 
 // carried: the photon's second four words.
 FN Scattered scattered(IN(Query) q, uvec4 carried) {
@@ -96,14 +103,14 @@ FN Scattered scattered(IN(Query) q, uvec4 carried) {
     vec3 flux = bits_float(uvec3(carried));
     if (!glossy || q.lambertian) {
         s.radiance = flux * q.reflectance;
-        s.weight = photon_rarity(carried.w);
+        s.weight = explained_weight(flux, carried.w);
         return s;
     }
     vec3 wi = to_local(q.frame, unpack_unit(carried.w));
     if (wi.z > real(0.0)) {
         vec3 share = bsdf_eval(q.bsdf, q.wo, wi, q.lobes);
         s.radiance = flux * share;
-        s.weight = sum_of_channels(share) * photon_rarity(carried.w);
+        s.weight = sum_of_channels(share) * explained_weight(flux, carried.w);
     }
     return s;
 }

@@ -50,10 +50,11 @@ FN void add_moments(INOUT(Moments) sum, IN(Moments) term, real scale) {
 // from 0 at its rim, has 1/12 with Epanechnikov's kernel and 1/8 with a uniform one. Four times the
 // mean that photons of equal flux have by chance is taken off: an estimate that is left out because
 // of its photons' noise has more light than the others, so what remains would be too dark. Where a
-// glossy lobe scatters different shares of them, they count as the number of equally weighted
-// photons that would have the same noise (Kish 1965, "Survey Sampling"). A photon that itself is
-// much brighter than the others makes the light uneven: it may come from another room. flux, area:
-// the sums without offsets; without area nothing is known.
+// glossy lobe scatters different shares of them, or some are bright because others were aimed, they
+// count as the number of equally weighted photons that would have the same noise (Kish 1965,
+// "Survey Sampling"). A photon that is much brighter than the others for another reason makes the
+// light uneven: it may come from another room. flux, area: the sums without offsets; without area
+// nothing is known.
 FN real unevenness(IN(Moments) moments, vec3 flux, real area) {
     real sum = sum_of_channels(flux);
     // Squares of tiny weights have no digits left.
