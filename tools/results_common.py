@@ -102,7 +102,8 @@ PAGES = [
     ("Previews of a view", "view.md", "tools/results_view"),
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
     ("Loading textured scenes, and what textures cost", "loading.md", "tools/results_loading"),
-    ("What was wrong outside the Cornell box", "rooms.md", "tools/results_rooms, argand render, test_methods"),
+    ("What was wrong outside the Cornell box", "rooms.md",
+     "tools/results_rooms, tools/results_means, argand render, test_methods"),
     ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
 ]
 
