@@ -37,8 +37,8 @@ CONSTANT uint most_scatterings_known = 63u;
 
 // Packs the direction from which a photon came. In the lowest bits of both coordinates are its
 // number of scatterings and half of `aimed`, the logarithm to base 2 of the density of photons
-// like it over that without aiming, which is at most 31. unpack_unit can read it as it is; the
-// direction is then off by at most 4.2e-3.
+// like it over that of the rarest, at most 31. unpack_unit can read it as it is; the direction is
+// then off by at most 4.2e-3.
 FN uint pack_photon_direction(vec3 direction, uint scatterings, uint aimed) {
     uint n = scatterings < most_scatterings_known ? scatterings : most_scatterings_known;
     uint low = (n & 7u) | ((aimed & 6u) << 2);

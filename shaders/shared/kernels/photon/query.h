@@ -85,9 +85,9 @@ struct Scattered {
     real weight;
 };
 
-// For how many photons of one light and one flux a photon counts that is bright because others were
-// aimed: the geometric mean of its flux and its rarity, up to a common factor. A photon that is
-// only bright, or only rare, counts less: it may be from another room, or from a dim light.
+// The weight of a photon in the effective number of photons. It is the geometric mean of flux and
+// rarity, so that a photon counts as many where it is bright because others were aimed. One that is
+// only bright may be from another room, and one that is only rare may be from a dim light.
 FN real explained_weight(vec3 flux, uint packed) {
     return sqrt(photon_rarity(packed)) * sqrt(sum_of_channels(flux));
 }
