@@ -86,10 +86,12 @@ struct Scattered {
 };
 
 // The weight of a photon in the effective number of photons. It is the geometric mean of flux and
-// rarity, so that a photon counts as many where it is bright because others were aimed. One that is
-// only bright may be from another room, and one that is only rare may be from a dim light.
+// rarity, which counts three times, so that a photon counts as many where it is bright because
+// others were aimed. One that is only bright may be from another room, and one that is only rare
+// may be from a dim light.
 FN real explained_weight(vec3 flux, uint packed) {
-    return sqrt(photon_rarity(packed)) * sqrt(sum_of_channels(flux));
+    real rarity = photon_rarity(packed);
+    return sqrt(rarity) * sqrt(sqrt(rarity) * sqrt(sum_of_channels(flux)));
 }
 
 // carried: the photon's second four words.
