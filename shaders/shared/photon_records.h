@@ -14,8 +14,8 @@ struct PhotonRecord {
     // Packed normal of the surface (photon.h), on the photon's side; the front's for area samples.
     uint normal;
     float32 flux_r, flux_g, flux_b;
-    // Direction that the photon came from, number of scatterings and how densely photons of its
-    // kind were emitted (pack_photon_direction).
+    // Direction that the photon came from, number of scatterings, and how densely photons like it
+    // were aimed (pack_photon_direction).
     uint direction;
 };
 
