@@ -22,8 +22,8 @@ constexpr double unseen_samples = 2;
 constexpr double least_gain = 0.002;
 // Smaller boxes are not divided: photons' flux, which is in proportion, is kept in fixed point.
 constexpr double least_volume = 1e-6;
-// Of all photons, spread evenly; and of a node's photons.
-constexpr double even_share = 0.25, even_share_of_node = 0.2;
+// Of a node's photons, spread evenly over the node.
+constexpr double even_share_of_node = 0.2;
 
 struct Box {
     std::uint32_t node = 0;
@@ -122,7 +122,7 @@ void set_shares(std::vector<AimNode>& nodes, std::vector<double> weights) {
     }
     struct Part {
         double volume, learnt;
-        double share() const { return even_share * volume + (1 - even_share) * learnt; }
+        double share() const { return aim_even_share * volume + (1 - aim_even_share) * learnt; }
     };
     std::vector<Part> parts(nodes.size(), {1, 1});
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -10,6 +10,10 @@ CONSTANT uint aim_leaf = 4u;
 // Trees are no deeper.
 CONSTANT uint most_aim_levels = 48u;
 
+// Of a tree's photons, those that are spread evenly over the hypercube. No box has a concentration
+// below this.
+CONSTANT real aim_even_share = real(0.25);
+
 // A node of the trees of aim.h: a box of the unit hypercube, divided in two across an axis. The
 // children follow one another.
 struct AimNode {

@@ -109,7 +109,7 @@ std::vector<Function> codes_table() {
          "ccdd", ulp, 0},
         {"unpack_unit of pack_photon_direction: the direction", of_photon_direction_read,
          "directions, 0 … 2^24 scatterings, densities of 2^0 … 2^31", put_photon_direction, 3, "3",
-         ulp, 70'465}, // 4.2e-3
+         ulp, 50'332}, // 3e-3
         {"photon_is_caustic", of_photon_is_caustic,
          "directions, caustic or not, area samples or not",
          [](Draw& d) {

@@ -86,8 +86,7 @@ FN void main() {
                   p.direction.x, p.direction.y, p.direction.z, mip_maps ? emitted_cone(light) : 0u);
     uint state = photon_followed;
     if (aimed_from_outside) {
-        // The rarest are a quarter as dense as without a tree: even_share of world/aim_tree.
-        state |= aimed_by(real(4.0) * aimed.concentration) << photon_outside_shift;
+        state |= aimed_by(aimed.concentration / aim_even_share) << photon_outside_shift;
     } else if (emitted && ((1u << light.kind) & light_kinds_from_outside) == 0u) {
         state |= (aimed_by(p.for_targets) << photon_aimed_shift) |
                  (aimed_by(p.for_view) << photon_view_shift);

@@ -91,7 +91,7 @@ struct Scattered {
 // may be from a dim light.
 FN real explained_weight(vec3 flux, uint packed) {
     real rarity = photon_rarity(packed);
-    return sqrt(rarity) * sqrt(sqrt(rarity) * sqrt(sum_of_channels(flux)));
+    return sqrt(rarity * sqrt(rarity) * sqrt(sum_of_channels(flux)));
 }
 
 // carried: the photon's second four words.
