@@ -81,9 +81,12 @@ private:
         }
     }
 
-    /// Keeps this picture if it is the final one, or the best so far for a user who interrupts.
+    /// Keeps this picture if it is the final one, or the best so far for a user who interrupts, or
+    /// for a render that is given up.
     void keep(Picture picture) {
-        const bool interrupted = picture.is_interrupted(), is_final = control_ && !interrupted;
+        const bool interrupted = picture.is_interrupted();
+        const bool is_final =
+            control_ && !interrupted && control_->outcome() != RunOutcome::too_long;
         tell_error(picture);
         if (best_so_far_) {
             tell_error(*best_so_far_); // more is known by now

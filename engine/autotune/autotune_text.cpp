@@ -41,6 +41,11 @@ std::string describe_target(const AutotunedRender& render) {
         return fmt::format("; the target of {:.2g} is not reached for certain: it could not be "
                            "confirmed{}",
                            *render.target.error, judge);
+    case RunOutcome::too_long:
+        return fmt::format("; the target of {:.2g} is not reached: it would take more than {:.0f} "
+                           "s, so the best picture so far is kept; allow a larger error, or give "
+                           "it a time with --budget",
+                           *render.target.error, default_time_limit);
     default:
         return render.measured && render.measured->error() <= *render.target.error
                    ? fmt::format("; the target of {:.2g} is not reached for certain: nothing has "

@@ -22,6 +22,9 @@ constexpr double most_of_witness = 2, seconds_of_witness = 2;
 constexpr double most_of_doubt = 2;
 // A render is overdue after so many times the promised passes, and at least these seconds.
 constexpr double most_of_promise = 2, least_overdue = 2;
+// Of default_time_limit: a render that has taken less, and has few passes, is not given up. One
+// firefly in its first passes may have as much noise as all pixels will have in an hour.
+constexpr double least_of_limit = 0.1;
 // Caustics that make up less than this share of the picture, as relMSE without them, need no
 // witness of their own.
 constexpr double least_caustics = 1e-4;
@@ -91,6 +94,7 @@ std::optional<PassPlan> RunControl::operator()(const PictureSoFar& so_far) {
     if (!target_.seconds && done > 0 &&
         takes_too_long((expected - static_cast<double>(inherited_passes_)) /
                        static_cast<double>(done))) {
+        outcome_ = RunOutcome::too_long;
         return std::nullopt;
     }
     expected_ = std::max(expected, passes + 1);
@@ -362,9 +366,12 @@ double RunControl::passes_to_target() const {
     return passes_for(model, *target_.error);
 }
 
-/// Whether `times` the elapsed time exceeds the limit.
+/// Whether `times` the elapsed time exceeds the limit, as far as that can be told by now.
 bool RunControl::takes_too_long(double times) const {
-    return measured_ && times * seconds_since(start_) > default_time_limit;
+    const double elapsed = seconds_since(start_);
+    const bool is_known = measured_ && (measured_->passes >= passes_for_pixels ||
+                                        elapsed > least_of_limit * default_time_limit);
+    return is_known && times * elapsed > default_time_limit;
 }
 
 } // namespace argand

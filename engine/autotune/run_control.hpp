@@ -19,7 +19,8 @@ enum class RunOutcome : std::uint8_t {
     unfinished,  ///< the target error was not reached
     reached,     ///< by noise and bias, and a witness confirms it if the method has bias
     unconfirmed, ///< by noise and bias, but no witness could confirm it in time
-    slow         ///< more bias than expected, or overdue: the witness's method gets there sooner
+    slow,        ///< more bias than expected, or overdue: the witness's method gets there sooner
+    too_long     ///< the target error would take longer than default_time_limit
 };
 
 /// Who judges a picture. Null: nobody.

@@ -1,5 +1,6 @@
 #include "autotune/autotune.hpp"
 #include "base/clock.hpp"
+#include "image/mean.hpp"
 #include "image/metrics.hpp"
 #include "methods/plan_render.hpp"
 #include "support/expect_error.hpp"
@@ -204,7 +205,46 @@ TEST(Autotune, EndsInTimeIfNoiseDoesNotFall) {
         }
         ++done;
     }
-    EXPECT_EQ(control.outcome(), RunOutcome::unfinished);
+    EXPECT_EQ(control.outcome(), RunOutcome::too_long);
+}
+
+TEST(Autotune, NoiseOfTheFirstPassesDoesNotEndARender) {
+    // A firefly in each half.
+    const Target target{.error = 1e-3, .seconds = {}};
+    const Candidate candidate{
+        .settings = small(), .model = {.fixed = 0.01}, .seconds_per_pass = 0.001, .passes = 100};
+    RunControl control(target, candidate, {}, false, 0);
+    Image mean;
+    std::uint64_t done = 0;
+    while (const std::optional<PassPlan> plan = control({done, [&] {
+                                                             return std::vector<Layer>{{"", mean}};
+                                                         }})) {
+        ASSERT_LT(done, 100'000u);
+        Image pass = noisy(16, 16, 0, 0.3, static_cast<std::uint32_t>(done + 1));
+        if (done < 2) {
+            pass.pixels[done] += glm::vec3(300);
+        }
+        mean = done == 0 ? pass : weighted_mean(mean, static_cast<double>(done), pass, 1);
+        ++done;
+        // Passes that take a millisecond promise hours for such noise.
+        std::this_thread::sleep_for(std::chrono::milliseconds(done < 3 ? 50 : 0));
+    }
+    EXPECT_EQ(control.outcome(), RunOutcome::reached);
+    EXPECT_GT(done, 16u);
+}
+
+TEST(Autotune, ARenderThatIsGivenUpLeavesTheBestPicture) {
+    FakePasses fake;
+    fake.hidden_noise = 3000; // than any pilot has
+    fake.path_deviation = 3000;
+    const AutotunedRender tuned = tune(fake, box(), {.error = 0.001, .seconds = {}});
+    EXPECT_EQ(tuned.outcome, RunOutcome::too_long);
+    EXPECT_FALSE(tuned.reached());
+    EXPECT_LT(true_error(tuned.result.layers[0].image), 0.1);
+    EXPECT_FALSE(tuned.result.statistics.interrupted);
+    ASSERT_TRUE(tuned.measured);
+    EXPECT_NEAR(tuned.measured->error() / true_error(tuned.result.layers[0].image), 1, 0.5);
+    EXPECT_THAT(describe_outcome(tuned), ::testing::HasSubstr("it would take more than 3600 s"));
 }
 
 TEST(Autotune, PilotsEndEarlyIfFewPassesSuffice) {
