@@ -371,14 +371,23 @@ def sunlit_ground():
     return scene
 
 
-def forty_rooms():
-    """The closed room and 39 others like it. Only the first is seen."""
-    scene = room()
+def among_forty(scene):
+    """A room and 39 others like it. Only the first is seen."""
     furnished = [node for node in scene.nodes if "mesh" in node]
     for i in range(1, 40):
         scene.nodes += [{**node, "name": f"{node['name']} {i}", "translation": [5 * (i % 8), 0, 5 * (i // 8)]}
                         for node in furnished]
     return scene
+
+
+def forty_rooms():
+    """The closed room among forty."""
+    return among_forty(room())
+
+
+def forty_bulbs():
+    """The room with the bulb among forty. Shadow rays end at the glass, and do not tell which lamp is in view."""
+    return among_forty(bulb())
 
 
 def two_rooms():
@@ -415,6 +424,14 @@ def window_room():
     scene.add("table", box((-0.5, -SUNK, -0.8), (0.6, 0.7, 0.2)), lambertian(WOOD))
     scene.light("directional", 60, towards=(-1, -0.8, 0.1), color=(1, 0.93, 0.8))
     scene.camera((-1.7, 1.5, 1.7), (0.6, 0.7, -0.7), degrees=75)
+    return scene
+
+
+def glazed_room():
+    """The same room with a thin pane in the window, at which shadow rays end."""
+    scene = window_room()
+    x, y0, y1, z = 2.03, 0.9, 2, 0.6
+    scene.add("pane", quad((x, y0, z), (x, y0, -z), (x, y1, -z), (x, y1, z)), frosted_pane((1, 1, 1), 0))
     return scene
 
 
@@ -635,8 +652,8 @@ def dynamic_camera():
 
 BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, drink, cornell_mirror, ring, furnace, glossy,
           varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground,
-          forty_rooms, two_rooms, window_room, blind, glass_marble, marble_box, bulb, small_emitters, dark_room, gloss_only,
-          shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,
+          forty_rooms, forty_bulbs, two_rooms, window_room, glazed_room, blind, glass_marble, marble_box, bulb, small_emitters,
+          dark_room, gloss_only, shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,
           dynamic_block, dynamic_occluder, dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)
 

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "methods/outside_aims.hpp"
+#include "methods/photon_lights.hpp"
 #include "methods/small_image.hpp"
 
 #include <algorithm>
@@ -96,6 +97,28 @@ std::vector<FoundLight> find_lights(RenderContext& context, bool aims) {
     return found;
 }
 
+/// Adds what photons found to what eye paths found as indirect light. Both count one half; the one
+/// that has found nothing does not count.
+void add_half(std::vector<FoundLight>& found, std::vector<FoundLight> of_photons) {
+    constexpr std::size_t least = 16; // a few photons tell little
+    if (of_photons.size() < least) {
+        return;
+    }
+    const auto sum = [](std::span<const FoundLight> lights) {
+        return std::accumulate(
+            lights.begin(), lights.end(), 0.0,
+            [](double s, const FoundLight& f) { return s + (f.indirect ? f.radiance : 0); });
+    };
+    const double of_paths = sum(found);
+    if (of_paths > 0) {
+        const double scale = of_paths / sum(of_photons);
+        for (FoundLight& f : of_photons) {
+            f.radiance *= scale;
+        }
+    }
+    found.insert(found.end(), of_photons.begin(), of_photons.end());
+}
+
 void add(FoundShares& shares, std::uint32_t emitter, double light) {
     shares.light[emitter] += light;
     ++shares.samples;
@@ -168,12 +191,24 @@ void learn_lights(RenderContext& context) {
         if (!f.indirect || !direct_only) {
             add(for_rays, emitter, f.radiance);
         }
-        if (f.indirect) {
-            add(for_photons, emitter, f.radiance);
+    }
+    const bool aims = photons && outside > 0;
+    if (aims) {
+        set_aims(context.device, scene, learn_aims(scene, found));
+    }
+    // Behind mirrors and glass shadow rays find no lights, but photons come from there.
+    if (photons && scene.plan.needs(Feature::photon_map) && may_hide_lights(scene.plan)) {
+        std::vector<FoundLight> of_photons = find_lights_of_photons(context);
+        make_relative(of_photons);
+        add_half(found, std::move(of_photons));
+        if (aims) {
+            set_aims(context.device, scene, learn_aims(scene, found));
         }
     }
-    if (photons && outside > 0) {
-        set_aims(context.device, scene, learn_aims(scene, found));
+    for (const FoundLight& f : found) {
+        if (f.indirect) {
+            add(for_photons, table.emitter[row_of(table, f.light)], f.radiance);
+        }
     }
     set_light_choices(context.device, scene, learnt_shares(table, for_rays),
                       learnt_shares(table, for_photons));

@@ -45,8 +45,9 @@ std::optional<InPicture> in_picture(const glm::dvec3& point, const Camera& camer
 
 } // namespace
 
-double share_in_view(std::span<const PhotonRecord> photons, std::span<const glm::vec4> queries,
-                     const Camera& camera, double aspect) {
+std::vector<std::uint32_t> cells_in_view(std::span<const PhotonRecord> photons,
+                                         std::span<const glm::vec4> queries, const Camera& camera,
+                                         double aspect) {
     // The rest of a slanted surface in a cell may be this much deeper than the points there.
     constexpr double deeper = 1.02;
     const std::size_t side = cells_for(queries.size());
@@ -57,22 +58,33 @@ double share_in_view(std::span<const PhotonRecord> photons, std::span<const glm:
             depth = std::max(depth, found->depth);
         }
     }
-    double count = 0;
-    double in_view = 0;
-    for (const PhotonRecord& photon : photons) {
+    std::vector<std::uint32_t> cells(photons.size(), out_of_view);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const PhotonRecord& photon = photons[i];
         if (photon.normal == no_photon) {
             continue;
         }
-        ++count;
         const glm::vec3 place(photon.x, photon.y, photon.z);
         const glm::vec3 to_eye =
             camera.kind == CameraKind::perspective ? camera.position - place : -camera.forward;
         const auto found = in_picture(glm::dvec3(place), camera, aspect);
         const bool is_seen = found && found->depth <= deeper * deepest[found->cell(side)] &&
                              glm::dot(unpack_photon_normal(photon.normal), to_eye) > 0;
-        in_view += is_seen ? 1 : 0;
+        if (is_seen) {
+            cells[i] = static_cast<std::uint32_t>(found->cell(side));
+        }
     }
-    return count > 0 ? in_view / count : 0;
+    return cells;
+}
+
+double share_in_view(std::span<const PhotonRecord> photons, std::span<const glm::vec4> queries,
+                     const Camera& camera, double aspect) {
+    const std::vector<std::uint32_t> cells = cells_in_view(photons, queries, camera, aspect);
+    const auto count = std::count_if(photons.begin(), photons.end(),
+                                     [](const PhotonRecord& p) { return p.normal != no_photon; });
+    const auto hidden = std::count(cells.begin(), cells.end(), out_of_view);
+    const auto in_view = static_cast<double>(cells.size()) - static_cast<double>(hidden);
+    return count > 0 ? in_view / static_cast<double>(count) : 0;
 }
 
 } // namespace argand

@@ -197,6 +197,39 @@ TEST_P(LightLearning, NothingToAimAt) {
     EXPECT_RELATIVE(mean(layer(render(scene, small_picture(GetParam())), "")).g, 1, 1e-5);
 }
 
+// Lights that shadow rays do not find, because glass is in the way.
+class HiddenLights : public RenderTest {
+protected:
+    RenderResult picture(const char* asset, const char* method) {
+        RenderSettings settings = small_picture(method);
+        settings.photons = 50'000;
+        return render(load_asset(asset), settings);
+    }
+
+    double photons_in_view(const char* asset, const char* method) {
+        return picture(asset, method).statistics.photons_in_view;
+    }
+};
+
+TEST_F(HiddenLights, LampsInBulbsOfOtherRooms) {
+    const RenderResult forty = picture("forty_bulbs.glb", "photons");
+    const RenderResult one = picture("bulb.glb", "photons");
+    EXPECT_GT(forty.statistics.photons_in_view, 0.8 * one.statistics.photons_in_view);
+    EXPECT_RELATIVE(mean(layer(forty, "")).g, mean(layer(one, "")).g, 0.02);
+    // Both have noise of their own.
+    EXPECT_LT(compare(layer(forty, "indirect"), layer(one, "indirect")).rel_mse, 0.05);
+}
+
+TEST_F(HiddenLights, SlowLampsInBulbsOfOtherRoomsFillAQueue) {
+    EXPECT_GT(photons_in_view("forty_bulbs.glb", "photon-queue"),
+              0.8 * photons_in_view("bulb.glb", "photon-queue"));
+}
+
+TEST_F(HiddenLights, SunThroughAPane) {
+    EXPECT_GT(photons_in_view("glazed_room.glb", "photons"),
+              0.7 * photons_in_view("window_room.glb", "photons"));
+}
+
 INSTANTIATE_QUICK_AND_SLOW(LightLearning, "footprints", estimates);
 
 } // namespace
