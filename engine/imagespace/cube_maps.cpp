@@ -1,6 +1,7 @@
 #include "imagespace/cube_maps.hpp"
 
 #include "imagespace/cube_map_making.hpp"
+#include "kernels/cube_shadow.hpp"
 #include "kernels/cube_trace.hpp"
 #include "parallel/parts.hpp"
 #include "shared/bsdf.h"
@@ -18,6 +19,28 @@ namespace {
 // Rays are looked at in the scene's box and so far around it, in its radii: behind a wall on its
 // edge.
 constexpr float box_margin = 0.005f;
+
+CubeSearch search_record(const DeviceScene& scene, const CubeMaps& maps,
+                         const CubeSearchSettings& settings, const Count& rays) {
+    const float margin = box_margin * scene.record.radius;
+    const glm::vec3 low = scene.box.low - margin;
+    const glm::vec3 high = scene.box.high + margin;
+    return {.count = count_record(rays),
+            .centers = maps.count,
+            .layers = maps.layers,
+            .size = maps.size,
+            .steps = settings.steps,
+            .march = settings.march,
+            .exact = settings.exact ? 1u : 0u,
+            .tolerance = static_cast<float>(settings.tolerance),
+            .triangles = scene.record.triangle_count,
+            .low_x = low.x,
+            .low_y = low.y,
+            .low_z = low.z,
+            .high_x = high.x,
+            .high_y = high.y,
+            .high_z = high.z};
+}
 
 } // namespace
 
@@ -68,32 +91,42 @@ CubeMaps make_cube_maps(Device& device, const DeviceScene& scene,
 
 void trace_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& maps,
                      const CubeSearchSettings& settings, const RayBatch& batch) {
-    const float margin = box_margin * scene.record.radius;
-    const glm::vec3 low = scene.box.low - margin;
-    const glm::vec3 high = scene.box.high + margin;
-    const CubeSearch params{.count = count_record(batch.count),
-                            .centers = maps.count,
-                            .layers = maps.layers,
-                            .size = maps.size,
-                            .steps = settings.steps,
-                            .march = settings.march,
-                            .exact = settings.exact ? 1u : 0u,
-                            .tolerance = static_cast<float>(settings.tolerance),
-                            .triangles = scene.record.triangle_count,
-                            .low_x = low.x,
-                            .low_y = low.y,
-                            .low_z = low.z,
-                            .high_x = high.x,
-                            .high_y = high.y,
-                            .high_z = high.z};
     dispatch(device,
              kernels::cube_trace{.cube = cube_bindings(scene, maps),
                                  .rays = batch.rays,
                                  .active_rays = batch.active,
                                  .counts = counts_or(batch.count, batch.active),
                                  .hits = batch.results,
-                                 .params = params},
+                                 .params = search_record(scene, maps, settings, batch.count)},
              batch.count);
+}
+
+void trace_cube_shadows(Device& device, const DeviceScene& scene, const CubeMaps& maps,
+                        const CubeSearchSettings& settings, const Buffer& hits,
+                        const RayBatch& batch) {
+    const kernels::TextureConstants textures = scene.texture_constants();
+    dispatch(
+        device,
+        kernels::cube_shadow{.map_texels = maps.texels,
+                             .centers = maps.centers,
+                             .positions = scene.positions,
+                             .triangles = scene.triangles,
+                             .rays = batch.rays,
+                             .active_rays = batch.active,
+                             .counts = counts_or(batch.count, batch.active),
+                             .hits = hits,
+                             .occluded = batch.results,
+                             .alpha = {.scene = scene.scene,
+                                       .corners = scene.triangles,
+                                       .materials = scene.materials,
+                                       .attributes = scene.attributes,
+                                       .textures = scene.textures,
+                                       .texels = scene.texels},
+                             .params = search_record(scene, maps, settings, batch.count),
+                             .constants = {.has_alpha = scene.plan.needs(Feature::alpha),
+                                           .alpha = {.textured = textures.textured,
+                                                     .vertex_colors = textures.vertex_colors}}},
+        batch.count);
 }
 
 } // namespace argand

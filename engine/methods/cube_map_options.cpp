@@ -79,6 +79,26 @@ Option hits_option() {
     return option;
 }
 
+Option shadows_option() {
+    Option option = own_option(
+        "shadows",
+        "What decides whether lights are seen: rays through the tree, or the maps; those around a "
+        "point light are then its shadow maps, as published",
+        OptionKind::choice, "rays");
+    option.choices = {"rays", "maps"};
+    option.sweep.full = {"maps"};
+    return option;
+}
+
+Option reflections_option() {
+    Option option = own_option("reflections",
+                               "How eye paths go on behind the first surface: by rays through the "
+                               "tree, or through the maps, as published",
+                               OptionKind::choice, "rays");
+    option.choices = {"rays", "maps"};
+    return option;
+}
+
 Option error_option() {
     return own_number_option(
         "map-error",
@@ -109,13 +129,15 @@ CubeMapOptions cube_map_options_of(const RenderSettings& settings) {
                       .march = whole(settings, march_option()),
                       .exact = hits_option().get(settings) == "triangles",
                       .tolerance = own_number(settings, error_option())};
+    options.for_shadows = shadows_option().get(settings) == "maps";
+    options.for_scattered = reflections_option().get(settings) == "maps";
     return options;
 }
 
 std::vector<Option> cube_map_options() {
-    return {choose_every_option(), count_option(),  size_option(),
-            coverage_option(),     making_option(), steps_option(),
-            march_option(),        hits_option(),   error_option()};
+    return {choose_every_option(), count_option(),   size_option(),       coverage_option(),
+            making_option(),       steps_option(),   march_option(),      hits_option(),
+            error_option(),        shadows_option(), reflections_option()};
 }
 
 } // namespace argand

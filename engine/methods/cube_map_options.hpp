@@ -15,6 +15,8 @@ struct CubeMapOptions {
     std::optional<MapMaking> making; ///< none: the faster one on the device
     std::uint32_t choose_every = 1;  ///< images
     CubeSearchSettings search;
+    bool for_shadows = false;   ///< shadow rays go through the maps, too
+    bool for_scattered = false; ///< and the rays of eye paths behind the first surface
 };
 
 CubeMapOptions cube_map_options_of(const RenderSettings& settings);

@@ -204,9 +204,12 @@ Candidates find_candidates(RenderContext& c, std::span<const glm::vec4> queries,
     return found;
 }
 
-/// Whether photons are emitted at all.
-bool has_photons(const RenderContext& c) {
-    return c.on_device.record.light_count > 0 && c.settings.photons > 0 && c.settings.bounces > 0;
+/// Whether rays go through maps: those of photons, or of eye paths.
+bool needs_maps(const RenderContext& c) {
+    const CubeMapOptions options = cube_map_options_of(c.settings);
+    const bool has_photons = c.settings.photons > 0 && c.settings.bounces > 0;
+    return c.on_device.record.light_count > 0 &&
+           (has_photons || options.for_scattered || options.for_shadows);
 }
 
 /// The state of the surfaces of which maps are made: when they moved or changed last.
@@ -227,14 +230,14 @@ public:
         // Centers are kept until the maps miss more of what is in view than the coverage allows.
         const double most_unseen = unseen_ + 1 - options.centers.coverage;
         if (images_ >= options.choose_every ||
-            (has_photons(c) && !centers_.empty() && unseen_share(c) > most_unseen)) {
+            (needs_maps(c) && !centers_.empty() && unseen_share(c) > most_unseen)) {
             centers_.clear();
         }
         follow(c);
     }
 
     void follow(RenderContext& c) override {
-        if (!has_photons(c)) {
+        if (!needs_maps(c)) {
             return;
         }
         if (centers_.empty() || !follow_lights(c)) {
@@ -276,6 +279,21 @@ public:
         return [this, &c, search = cube_map_options_of(c.settings).search](const RayBatch& rays) {
             trace_cube_maps(c.device, c.on_device, maps_, search, rays);
         };
+    }
+
+    EyeTracers eye_tracers(RenderContext& c) const override {
+        const CubeMapOptions options = cube_map_options_of(c.settings);
+        EyeTracers tracers;
+        if (maps_.count > 0 && options.for_scattered) {
+            tracers.scattered = tracer(c);
+        }
+        if (maps_.count > 0 && options.for_shadows) {
+            tracers.shadow = [this, &c, search = options.search](const RayBatch& rays,
+                                                                 const Buffer& hits) {
+                trace_cube_shadows(c.device, c.on_device, maps_, search, hits, rays);
+            };
+        }
+        return tracers;
     }
 
     void report(RenderStatistics& statistics) const override {

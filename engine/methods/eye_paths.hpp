@@ -7,7 +7,19 @@
 #include "shared/path_records.h"
 #include "world/device_scene.hpp"
 
+#include <functional>
+
 namespace argand {
+
+/// What traces rays of eye paths if not the scene's tree. Records only.
+struct EyeTracers {
+    /// Rays behind the first surface: finds hits as trace_closest() does, u of a miss being
+    /// ray_escaped or ray_lost. Results are the hits that the rays leave. None: the tree.
+    std::function<void(const RayBatch& batch)> scattered;
+    /// Shadow rays, from these hits; results: the thickness of what lies on the ray. None: the
+    /// tree.
+    std::function<void(const RayBatch& batch, const Buffer& hits)> shadow;
+};
 
 /// Device memory for eye paths that are traced together, and their film.
 struct EyeWorkspace {
@@ -24,6 +36,7 @@ struct EyeWorkspace {
     Buffer weights; ///< EyeWeightRecord, if there are light paths
     EyeQueries queries;
     Traversal traversal;
+    EyeTracers tracers;
     Film film;
 };
 

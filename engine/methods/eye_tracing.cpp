@@ -81,22 +81,31 @@ void shade(Device& device, const DeviceScene& scene, EyeWorkspace& w, const EyeB
         w.counts);
 }
 
+/// Whether `occluded` tells thicknesses, of surfaces that let a share of the light pass.
+bool tells_thickness(const DeviceScene& scene, const EyeWorkspace& w) {
+    return scene.plan.needs(Feature::alpha) || w.tracers.shadow;
+}
+
 void add_direct_light(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                       const Count& active) {
     {
         const StageScope stage(device, "trace shadow rays");
-        trace_any(device, scene.bvh, w.traversal, {w.shadow_rays, w.active, w.occluded, active});
+        const RayBatch batch{w.shadow_rays, w.active, w.occluded, active};
+        if (w.tracers.shadow) {
+            w.tracers.shadow(batch, w.hits);
+        } else {
+            trace_any(device, scene.bvh, w.traversal, batch);
+        }
     }
     const StageScope stage(device, "shade");
-    dispatch_indirect(
-        device,
-        kernels::shadow_add{.active_slots = w.active,
-                            .counts = w.counts,
-                            .occluded = w.occluded,
-                            .shadows = w.shadows,
-                            .layers = w.layers,
-                            .constants = {.has_alpha = scene.plan.needs(Feature::alpha)}},
-        w.counts);
+    dispatch_indirect(device,
+                      kernels::shadow_add{.active_slots = w.active,
+                                          .counts = w.counts,
+                                          .occluded = w.occluded,
+                                          .shadows = w.shadows,
+                                          .layers = w.layers,
+                                          .constants = {.has_alpha = tells_thickness(scene, w)}},
+                      w.counts);
 }
 
 /// Makes the paths that continue the active ones.
@@ -107,17 +116,17 @@ void advance(Device& device, EyeWorkspace& w, const Count& active) {
     std::swap(w.active, w.next_active);
 }
 
-/// Adds the lights that the last shadow rays found to a list. alpha: they may bring a share of the
-/// light.
-void collect_found(Device& device, const EyeWorkspace& w, const EyeBatch& batch, bool alpha,
-                   std::vector<FoundLight>& found) {
+/// Adds the lights that the last shadow rays found to a list.
+void collect_found(Device& device, const DeviceScene& scene, const EyeWorkspace& w,
+                   const EyeBatch& batch, std::vector<FoundLight>& found) {
+    const bool thickness = tells_thickness(scene, w);
     const std::uint32_t count = download_word(device, w.counts);
     const auto shadows = download<ShadowRecord>(device, w.shadows, w.slots);
     const auto rays = download<RayRecord>(device, w.shadow_rays, w.slots);
     const auto occluded = download<std::uint32_t>(device, w.occluded, w.slots);
     for (const std::uint32_t slot : download<std::uint32_t>(device, w.active, count)) {
         const RayRecord& ray = rays[slot];
-        const float passed = alpha                 ? transmittance(occluded[slot])
+        const float passed = thickness             ? transmittance(occluded[slot])
                              : occluded[slot] != 0 ? 0.0f
                                                    : 1.0f;
         if (!(passed > 0) || !(ray.t_max > 0)) {
@@ -138,21 +147,27 @@ void collect_found(Device& device, const EyeWorkspace& w, const EyeBatch& batch,
     }
 }
 
-/// Traces the active paths until each has ended or waits for the answer of a query. Adds the
-/// lights that shadow rays find to `found`.
+/// Traces the active paths until each has ended or waits for the answer of a query. from_camera:
+/// they begin there. Adds the lights that shadow rays find to `found`.
 void trace_until_queries(Device& device, const DeviceScene& scene, EyeWorkspace& w,
-                         const EyeBatch& batch, bool photon_map, std::vector<FoundLight>* found) {
+                         const EyeBatch& batch, bool photon_map, bool from_camera,
+                         std::vector<FoundLight>* found) {
     const Count active(w.counts, 0, std::uint64_t(batch.pixels) * batch.samples);
     for (int vertex = 1;; ++vertex) {
         {
             const StageScope stage(device, "trace eye rays");
-            trace_closest(device, scene.bvh, w.traversal, {w.rays, w.active, w.hits, active});
+            const RayBatch rays{w.rays, w.active, w.hits, active};
+            if (w.tracers.scattered && !(from_camera && vertex == 1)) {
+                w.tracers.scattered(rays);
+            } else {
+                trace_closest(device, scene.bvh, w.traversal, rays);
+            }
         }
         shade(device, scene, w, batch, photon_map);
         if (scene.plan.needs(Feature::direct_light)) {
             add_direct_light(device, scene, w, active);
             if (found != nullptr) {
-                collect_found(device, w, batch, scene.plan.needs(Feature::alpha), *found);
+                collect_found(device, scene, w, batch, *found);
             }
         }
         advance(device, w, active);
@@ -194,12 +209,12 @@ void trace_paths(Device& device, const DeviceScene& scene, EyeWorkspace& w, cons
     device.fill(w.traversal.unfinished, 0);
     start_paths(device, w, camera, batch);
     if (lookup == nullptr) {
-        trace_until_queries(device, scene, w, batch, false, found);
+        trace_until_queries(device, scene, w, batch, false, true, found);
         return;
     }
     device.fill(w.queries.kinds, 0);
     for (bool first = true;; first = false) {
-        trace_until_queries(device, scene, w, batch, true, found);
+        trace_until_queries(device, scene, w, batch, true, first, found);
         if (!find_waiting(device, w, slots)) {
             return;
         }

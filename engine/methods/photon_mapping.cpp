@@ -111,6 +111,7 @@ public:
         image_ = {};
         made_ = nullptr;
         view_points_.reset();
+        c_.eye.tracers = {}; // what is in view decides about them
         // Without bounces no photon is ever looked up.
         image_.emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
@@ -441,6 +442,9 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
         make_estimator(of_map.numbers, trace_again());
     }
     const PhotonLookup lookup = made_->lookup();
+    if (tracing_) {
+        c_.eye.tracers = tracing_->eye_tracers(c_);
+    }
     const EyePass eye{.seed = pass.numbers.seed,
                       .first_sample =
                           static_cast<std::uint32_t>(of_map.numbers.index * image_.split.samples),

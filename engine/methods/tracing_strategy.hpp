@@ -9,7 +9,8 @@
 
 namespace argand {
 
-/// How photons find their hits if not through the scene's tree.
+/// How photons find their hits if not through the scene's tree; and rays of eye paths, if the
+/// settings request that.
 class TracingStrategy {
 public:
     virtual ~TracingStrategy() = default;
@@ -25,6 +26,9 @@ public:
 
     /// Traces photons of the image. It refers to this and to the context.
     virtual PhotonTracer tracer(RenderContext& context) const = 0;
+
+    /// Traces rays of the image's eye paths. They refer to this and to the context.
+    virtual EyeTracers eye_tracers(RenderContext& context) const = 0;
 
     virtual void report(RenderStatistics& statistics) const = 0;
 };

@@ -1,10 +1,8 @@
 // Maps that the rasteriser draws against those that rays are cast for.
-#include "device_fixture.hpp"
 #include "imagespace/cube_centers.hpp"
-#include "scene/gltf.hpp"
+#include "mapped_scene.hpp"
 #include "shared/cube_map.h"
 #include "shared/image_space_records.h"
-#include "world/world.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -19,18 +17,13 @@ struct Difference {
     double empty = 0;     ///< that show nothing if drawn, and something if cast
 };
 
-class DrawnMaps : public DeviceTest {
+class DrawnMaps : public MappedScene {
 protected:
     void SetUp() override {
         DeviceTest::SetUp();
         if (max_drawn_size(open()) == 0) {
             GTEST_SKIP() << open().info().name << " has no rasteriser";
         }
-    }
-
-    void load(const std::string& name) {
-        const Scene scene = load_gltf(std::string(ARGAND_SOURCE_DIR "/assets/") + name);
-        scene_ = upload_scene(open(), scene, make_plan(scene, {}));
     }
 
     std::vector<glm::uvec2> texels(const std::vector<glm::vec3>& centers, std::uint32_t size,
@@ -59,8 +52,6 @@ protected:
         const auto count = static_cast<double>(cast.size());
         return {found.triangles / count, found.wrong / count, found.empty / count};
     }
-
-    DeviceScene scene_;
 };
 
 TEST_F(DrawnMaps, ShowWhatRaysHit) {

@@ -1,9 +1,7 @@
 // Hits in cube maps against those of the tree.
-#include "device_fixture.hpp"
 #include "imagespace/cube_centers.hpp"
-#include "scene/gltf.hpp"
+#include "mapped_scene.hpp"
 #include "shared/image_space_records.h"
-#include "world/world.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +11,6 @@
 
 namespace argand::testing {
 namespace {
-
-RayRecord ray_from(glm::vec3 origin, glm::vec3 direction) {
-    return {.origin_x = origin.x,
-            .origin_y = origin.y,
-            .origin_z = origin.z,
-            .t_max = far_away,
-            .direction_x = direction.x,
-            .direction_y = direction.y,
-            .direction_z = direction.z,
-            .cone = 0};
-}
 
 /// Rays from points in a box around the origin.
 std::vector<RayRecord> random_rays(std::size_t count, float extent) {
@@ -39,17 +26,8 @@ std::vector<RayRecord> random_rays(std::size_t count, float extent) {
     return rays;
 }
 
-class CubeMapsTest : public DeviceTest {
+class CubeMapsTest : public MappedScene {
 protected:
-    void load(const std::string& name) {
-        const Scene scene = load_gltf(std::string(ARGAND_SOURCE_DIR "/assets/") + name);
-        scene_ = upload_scene(open(), scene, make_plan(scene, {}));
-    }
-
-    CubeMaps cast(const std::vector<glm::vec3>& centers, std::uint32_t size) {
-        return make_cube_maps(open(), scene_, centers, size, layers_of(scene_), MapMaking::cast);
-    }
-
     std::vector<HitRecord> by_maps(const CubeMaps& maps, const std::vector<RayRecord>& rays,
                                    const CubeSearchSettings& settings = {}) {
         return trace(rays, [&](const RayBatch& batch) {
@@ -81,8 +59,6 @@ protected:
         }
         return same / static_cast<double>(rays.size());
     }
-
-    DeviceScene scene_;
 
 private:
     template <class Trace>
@@ -220,10 +196,9 @@ std::vector<glm::vec4> points_on(const Scene& scene, std::size_t count) {
 TEST_F(CubeMapsTest, ChosenCentersShowMoreThanRandomOnes) {
     constexpr std::uint32_t k = 8;
     for (const char* name : {"cornell_area.glb", "forty_rooms.glb", "courtyard.glb"}) {
-        const Scene scene = load_gltf(std::string(ARGAND_SOURCE_DIR "/assets/") + name);
         load(name);
         std::vector<glm::vec3> places = random_centers(scene_.box, 40, 1);
-        const std::vector<glm::vec4> points = points_on(scene, 2000);
+        const std::vector<glm::vec4> points = points_on(loaded_, 2000);
         const auto missing = [&](std::size_t fixed, const CenterSettings& settings) {
             return choose_centers(open(), scene_,
                                   make_cube_maps(open(), scene_, places, 32, 1, MapMaking::cast),

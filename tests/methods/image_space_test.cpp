@@ -84,6 +84,59 @@ TEST_F(ImageSpace, SearchesAsPublishedOnRequest) {
     EXPECT_LT(flux.lost[1], 0.5 * static_cast<double>(flux.emitted[1]));
 }
 
+class EyePathsThroughMaps : public ImageSpace {
+protected:
+    struct Pair {
+        RenderResult rays, maps;
+    };
+
+    /// The picture with the option's eye paths through the tree, and through maps.
+    Pair render_both(const std::string& asset, const char* option, std::uint64_t photons) {
+        const Scene scene = load_asset(asset);
+        RenderSettings settings = cube_settings(32);
+        settings.photons = photons;
+        Pair pair{.rays = render(scene, settings), .maps = {}};
+        settings.own[option] = "maps";
+        pair.maps = render(scene, settings);
+        return pair;
+    }
+
+    void expect_direct_light(const std::string& asset, double mean_tolerance, double error) {
+        const auto [rays, maps] = render_both(asset, "shadows", 20'000);
+        EXPECT_RELATIVE(mean(layer(maps, "direct")).g, mean(layer(rays, "direct")).g,
+                        mean_tolerance)
+            << asset;
+        EXPECT_LT(compare(layer(maps, "direct"), layer(rays, "direct")).rel_mse, error) << asset;
+        EXPECT_FALSE(same_bits(layer(maps, "direct"), layer(rays, "direct"))) << asset;
+        EXPECT_EQ(maps.statistics.flux.absorbed, rays.statistics.flux.absorbed);
+    }
+};
+
+TEST_F(EyePathsThroughMaps, ShadowsAreThoseOfRays) {
+    expect_direct_light("cornell_point.glb", 0.005, 0.002);
+    expect_direct_light("cornell_area.glb", 0.02, 0.01);
+}
+
+TEST_F(EyePathsThroughMaps, SlowShadowsAreThoseOfRaysElsewhere) {
+    expect_direct_light("spot.glb", 0.01, 0.01);
+    expect_direct_light("cutouts.glb", 0.05, 0.05);
+    expect_direct_light("veil.glb", 0.02, 0.01);
+    expect_direct_light("closed_room.glb", 0.02, 0.01);
+}
+
+TEST_F(EyePathsThroughMaps, MirrorsShowWhatRaysShow) {
+    const auto [rays, maps] = render_both("cornell_mirror.glb", "reflections", 20'000);
+    EXPECT_FALSE(same_bits(layer(maps, ""), layer(rays, "")));
+    EXPECT_RELATIVE(mean(layer(maps, "")).g, mean(layer(rays, "")).g, 0.01);
+    EXPECT_LT(compare(layer(maps, ""), layer(rays, "")).rel_mse, 0.01);
+}
+
+TEST_F(EyePathsThroughMaps, NeedNoPhotons) {
+    const auto [rays, maps] = render_both("cornell_point.glb", "shadows", 0);
+    EXPECT_RELATIVE(mean(layer(maps, "")).g, mean(layer(rays, "")).g, 0.005);
+    EXPECT_FALSE(same_bits(layer(maps, ""), layer(rays, "")));
+}
+
 TEST_F(ImageSpace, RendersWithoutAnythingToTrace) {
     Scene empty;
     empty.cameras = load_asset("cornell_point.glb").cameras;

@@ -820,7 +820,9 @@ FN void main() {
         shadow_rays[v.slot] = no_ray();
     }
     if (hit.triangle == no_triangle) {
-        add_sky(v.slot, v.path, v.direction, v.throughput);
+        if (hit.u != ray_lost) {
+            add_sky(v.slot, v.path, v.direction, v.throughput);
+        }
         return;
     }
     v.triangle = hit.triangle;
