@@ -97,8 +97,8 @@ std::vector<FoundLight> find_lights(RenderContext& context, bool aims) {
     return found;
 }
 
-/// Adds what photons found to what eye paths found as indirect light. Both count one half; the one
-/// that has found nothing does not count.
+/// Adds what photons found to what eye paths found as indirect light. Of all lights together both
+/// count one half; the one that has found nothing does not count.
 void add_half(std::vector<FoundLight>& found, std::vector<FoundLight> of_photons) {
     constexpr std::size_t least = 16; // a few photons tell little
     if (of_photons.size() < least) {
@@ -197,7 +197,7 @@ void learn_lights(RenderContext& context) {
         set_aims(context.device, scene, learn_aims(scene, found));
     }
     // Behind mirrors and glass shadow rays find no lights, but photons come from there.
-    if (photons && scene.plan.needs(Feature::photon_map) && may_hide_lights(scene.plan)) {
+    if (photons && scene.plan.needs(Feature::photon_map) && may_hide_lights(scene)) {
         std::vector<FoundLight> of_photons = find_lights_of_photons(context);
         make_relative(of_photons);
         add_half(found, std::move(of_photons));

@@ -4,15 +4,17 @@
 #include "methods/small_image.hpp"
 #include "methods/traced_photons.hpp"
 #include "photon/photon_map.hpp"
+#include "shared/random.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace argand {
 
 namespace {
 
-constexpr std::uint64_t emitted_for_lights = 1u << 15;
-constexpr std::uint32_t seed_for_lights = 0x71a57u; // other photons than those of images
+// A picture of few photons does not trace more of them to learn where they should go.
+constexpr std::uint64_t most_for_lights = 1u << 15;
 
 /// The first ray of the photon's path that ends at a vertex.
 struct FirstRay {
@@ -31,20 +33,25 @@ FirstRay first_ray(std::span<const PathVertex> vertices, std::size_t last) {
 
 } // namespace
 
-bool may_hide_lights(const Plan& plan) {
-    return plan.needs(Feature::followed_paths) || plan.needs(Feature::rough_glass);
-}
+// The plan has followed paths with --everything, too, which must not change the picture.
+bool may_hide_lights(const DeviceScene& scene) { return scene.casters && !scene.casters->empty(); }
 
 std::vector<FoundLight> find_lights_of_photons(RenderContext& c) {
+    const std::uint64_t emitted_for_lights = std::min(most_for_lights, c.settings.photons);
+    if (emitted_for_lights == 0) {
+        return {};
+    }
     const Camera& camera = c.scene.cameras[c.settings.camera];
     const std::vector<glm::vec4> queries =
         sample_queries(c.device, c.on_device, c.eye, c.settings, camera);
+    // Other photons than those of the image, about which they decide.
+    const std::uint32_t seed = pcg4d({c.settings.seed, 0x71a57u, 0, 0}).x;
     PhotonWorkspace workspace =
         make_photon_workspace(c.device, emitted_for_lights, {.lights = true, .paths = true});
-    const std::optional<StoredPhotons> stored = trace_photons(
-        c.device, c.on_device, workspace,
-        {.seed = seed_for_lights, .count = emitted_for_lights, .bounces = c.settings.bounces},
-        static_cast<float>(flux_unit_for(c.on_device, emitted_for_lights)));
+    const std::optional<StoredPhotons> stored =
+        trace_photons(c.device, c.on_device, workspace,
+                      {.seed = seed, .count = emitted_for_lights, .bounces = c.settings.bounces},
+                      static_cast<float>(flux_unit_for(c.on_device, emitted_for_lights)));
     std::vector<FoundLight> found;
     if (!stored || stored->slots == 0) {
         return found;
