@@ -14,8 +14,8 @@ namespace argand {
 /// A render whose method and numbers of photons and samples Argand picked.
 struct AutotunedRender {
     Target target;
-    /// If the user interrupted it, the picture that is known to have the least error, which may be
-    /// a pilot's.
+    /// If the user interrupted it or it was given up (RunOutcome::too_long), the picture that is
+    /// known to have the least error, which may be a pilot's.
     RenderResult result;
     RenderSettings settings; ///< of one pass of the result
     /// Best first; the final render uses the first. Empty if the pilots were interrupted.

@@ -44,7 +44,7 @@ FN uint with_lowest_bits(uint coordinate, uint bits) {
 // Packs the direction from which a photon came. In the lowest bits of both coordinates are its
 // number of scatterings and half of `aimed`, the logarithm to base 2 of the density of photons
 // like it over that of the rarest, at most 31. unpack_unit can read it as it is; the direction is
-// then off by at most 3e-3, and by 5e-5 on average.
+// then off by at most 3e-3, and the mean of many by at most 6.5e-5.
 FN uint pack_photon_direction(vec3 direction, uint scatterings, uint aimed) {
     uint n = scatterings < most_scatterings_known ? scatterings : most_scatterings_known;
     uint packed = pack_unit(direction);
