@@ -102,8 +102,10 @@ void trace_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& m
 }
 
 void trace_cube_shadows(Device& device, const DeviceScene& scene, const CubeMaps& maps,
-                        const CubeSearchSettings& settings, const Buffer& hits,
-                        const RayBatch& batch) {
+                        std::size_t at_lights, const CubeSearchSettings& settings,
+                        const Buffer& hits, const RayBatch& batch) {
+    CubeSearch params = search_record(scene, maps, settings, batch.count);
+    params.at_lights = static_cast<std::uint32_t>(at_lights);
     const kernels::TextureConstants textures = scene.texture_constants();
     dispatch(
         device,
@@ -122,7 +124,7 @@ void trace_cube_shadows(Device& device, const DeviceScene& scene, const CubeMaps
                                        .attributes = scene.attributes,
                                        .textures = scene.textures,
                                        .texels = scene.texels},
-                             .params = search_record(scene, maps, settings, batch.count),
+                             .params = params,
                              .constants = {.has_alpha = scene.plan.needs(Feature::alpha),
                                            .alpha = {.textured = textures.textured,
                                                      .vertex_colors = textures.vertex_colors}}},

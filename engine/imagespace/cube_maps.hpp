@@ -57,12 +57,12 @@ void trace_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& m
                      const CubeSearchSettings& settings, const RayBatch& batch);
 
 /// Finds how much light passes what the maps show on the way of shadow rays; results: uint, its
-/// thickness (shared/alpha.h). Of rays that end at a center, the maps around it are shadow maps
-/// with percentage-closer filtering (Yao et al. 2010, section 7); others are searched for as those
-/// of trace_cube_maps(), and what no map shows is lit. hits: HitRecord, where the rays start.
-/// Records only.
+/// thickness (shared/alpha.h). Of rays that end at one of the first `at_lights` centers, the maps
+/// around it are shadow maps with percentage-closer filtering (Yao et al. 2010, section 7); others
+/// are searched for as those of trace_cube_maps(), and what no map shows is lit. hits: HitRecord,
+/// where the rays start. Records only.
 void trace_cube_shadows(Device& device, const DeviceScene& scene, const CubeMaps& maps,
-                        const CubeSearchSettings& settings, const Buffer& hits,
-                        const RayBatch& batch);
+                        std::size_t at_lights, const CubeSearchSettings& settings,
+                        const Buffer& hits, const RayBatch& batch);
 
 } // namespace argand

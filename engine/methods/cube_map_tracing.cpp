@@ -284,13 +284,16 @@ public:
     EyeTracers eye_tracers(RenderContext& c) const override {
         const CubeMapOptions options = cube_map_options_of(c.settings);
         EyeTracers tracers;
-        if (maps_.count > 0 && options.for_scattered) {
+        if (!needs_maps(c)) {
+            return tracers;
+        }
+        if (options.for_scattered) {
             tracers.scattered = tracer(c);
         }
-        if (maps_.count > 0 && options.for_shadows) {
+        if (options.for_shadows) {
             tracers.shadow = [this, &c, search = options.search](const RayBatch& rays,
                                                                  const Buffer& hits) {
-                trace_cube_shadows(c.device, c.on_device, maps_, search, hits, rays);
+                trace_cube_shadows(c.device, c.on_device, maps_, at_lights_, search, hits, rays);
             };
         }
         return tracers;
@@ -393,7 +396,7 @@ private:
     }
 
     std::vector<glm::vec4> queries_; ///< of the image
-    std::vector<glm::vec3> centers_; ///< none as long as no photon is traced
+    std::vector<glm::vec3> centers_; ///< none as long as no ray goes through maps
     std::size_t at_lights_ = 0;      ///< the first of them
     std::uint32_t images_ = 0;       ///< since they were chosen
     double unseen_ = 0; ///< unseen_share() when they were chosen, if later images keep them

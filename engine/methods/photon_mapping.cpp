@@ -111,7 +111,6 @@ public:
         image_ = {};
         made_ = nullptr;
         view_points_.reset();
-        c_.eye.tracers = {}; // what is in view decides about them
         // Without bounces no photon is ever looked up.
         image_.emitted = c_.settings.bounces > 0 ? c_.settings.photons : 0;
         const std::vector<glm::vec4> queries = sample_queries(
@@ -442,16 +441,19 @@ bool PhotonMapping::pass(const Pass& pass, const OnProgress& on_part) {
         make_estimator(of_map.numbers, trace_again());
     }
     const PhotonLookup lookup = made_->lookup();
-    if (tracing_) {
-        c_.eye.tracers = tracing_->eye_tracers(c_);
-    }
     const EyePass eye{.seed = pass.numbers.seed,
                       .first_sample =
                           static_cast<std::uint32_t>(of_map.numbers.index * image_.split.samples),
                       .samples = image_.split.samples,
                       .bounces = c_.settings.bounces};
+    // Only these paths: others learn for the next map or image, whose surfaces and lights may be
+    // elsewhere.
+    if (tracing_) {
+        c_.eye.tracers = tracing_->eye_tracers(c_);
+    }
     const bool finished = trace_eye_paths(c_.device, c_.on_device, c_.eye,
                                           part_of(eye, parts, part), &lookup, on_part);
+    c_.eye.tracers = {};
     if (!finished || part + 1 == parts.count) {
         made_ = nullptr; // frees its memory before the next one takes its own
     }

@@ -43,6 +43,7 @@ struct CubeSearch {
     uint exact;        // not 0: hits are those of the texels' triangles; else texels are points
     float32 tolerance; // ε of equation 2, where texels are points
     uint triangles;    // in the scene
+    uint at_lights;    // how many of the first centers are point lights
     float32 low_x, low_y, low_z, high_x, high_y, high_z; // a little more than the scene's box
 };
 

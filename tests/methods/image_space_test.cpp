@@ -131,6 +131,41 @@ TEST_F(EyePathsThroughMaps, MirrorsShowWhatRaysShow) {
     EXPECT_LT(compare(layer(maps, ""), layer(rays, "")).rel_mse, 0.01);
 }
 
+// Centers are candidates on the lamp, too. They are not its shadow maps, which would show the
+// lamp's own other side.
+TEST_F(EyePathsThroughMaps, SmallLampsDoNotShadowThemselves) {
+    Scene scene = box_scene(lambertian(glm::vec3(0.5f)));
+    add_sphere(scene, {0.1f, 0.4f, 0.2f}, 0.01f, 8, false,
+               add_material(scene, emitter(glm::vec3(1000))));
+    scene.cameras = {look_at({0, 0, 0.95f}, {0, 0, -1}, 80)};
+    RenderSettings settings = cube_settings(24);
+    settings.photons = 5000;
+    const RenderResult rays = render(scene, settings);
+    settings.own["shadows"] = "maps";
+    const RenderResult maps = render(scene, settings);
+    EXPECT_RELATIVE(mean(layer(maps, "direct")).g, mean(layer(rays, "direct")).g, 0.05);
+}
+
+TEST_F(EyePathsThroughMaps, DoNotDependOnTheImageBefore) {
+    // Two lights, of which paths learn which one to prefer.
+    Scene scene = load_asset("cornell_mirror.glb");
+    scene.lights.push_back(point_light({0.5f, 0.3f, 0.5f}, glm::vec3(0.3f)));
+    RenderSettings settings = cube_settings(16);
+    settings.photons = 5000;
+    settings.own = {{"shadows", "maps"}, {"reflections", "maps"}};
+    World world(device(), scene);
+    Session session(world, scene, settings);
+    std::vector<Image> images;
+    for (int i = 0; i < 2; ++i) {
+        session.begin_frame(0);
+        while (const std::optional<PassPlan> plan = session.next_pass()) {
+            EXPECT_TRUE(session.step(*plan, [](double) { return true; }));
+        }
+        images.push_back(layer(session.result(), ""));
+    }
+    EXPECT_TRUE(same_bits(images[0], images[1]));
+}
+
 TEST_F(EyePathsThroughMaps, NeedNoPhotons) {
     const auto [rays, maps] = render_both("cornell_point.glb", "shadows", 0);
     EXPECT_RELATIVE(mean(layer(maps, "")).g, mean(layer(rays, "")).g, 0.005);

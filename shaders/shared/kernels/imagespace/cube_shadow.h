@@ -14,16 +14,17 @@ FN uint thickness_at(uint triangle, vec2 b) {
 #include "shared/kernels/imagespace/cube_search.h"
 #include "shared/kernels/imagespace/shadow_map.h"
 
-// A ray ends at a center if it does but for this share of its length.
-CONSTANT real end_error = real(0.001);
 // Surfaces that let light pass, at most; what is behind more of them is dark.
-CONSTANT uint most_passed = 16u;
+CONSTANT uint most_passed = 64u;
 
-// The center at which a shadow ray ends, or the number of centers.
-FN uint center_at_end(vec3 end, real t_max) {
+// The light among the centers at which a shadow ray ends but for rounding errors, or the number of
+// such lights.
+FN uint light_at_end(vec3 origin, vec3 direction, real t_max) {
+    vec3 end = origin + direction * t_max;
+    real error = error_bound(16) * (max_component(abs(origin)) + t_max);
     uint center = 0u;
-    while (center < params.centers &&
-           !(max_component(abs(end - vec3(centers[center]))) <= end_error * t_max)) {
+    while (center < params.at_lights &&
+           !(max_component(abs(end - vec3(centers[center]))) <= error)) {
         ++center;
     }
     return center;
@@ -41,6 +42,11 @@ FN uint thickness_on_way(real t_max, INOUT(Search) search) {
         thickness = add_thickness(
             thickness, thickness_at(search.hit.triangle, vec2(search.hit.u, search.hit.v)));
         search.passed = search.hit;
+        if (params.exact == 0u) {
+            // Where texels are points, each map shows a surface at another place, about a texel
+            // away.
+            search.passed.t *= real(1.0) + real(4.0) / real(params.size);
+        }
     }
     return thickness_of_all;
 }
@@ -58,8 +64,8 @@ FN void main() {
     }
     Search search;
     begin(index, search);
-    uint center = center_at_end(search.origin + search.direction * t_max, t_max);
-    if (center == params.centers) {
+    uint center = light_at_end(search.origin, search.direction, t_max);
+    if (center == params.at_lights) {
         occluded[index] = search.escapes ? 0u : thickness_on_way(t_max, search);
         return;
     }
