@@ -1,6 +1,7 @@
 #pragma once
 
 #include "imagespace/cube_maps.hpp"
+#include "kernels/alpha_bindings.hpp"
 
 namespace argand {
 
@@ -9,6 +10,10 @@ void cast_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& ma
 
 /// Fills them by the device's rasteriser. Records only.
 void draw_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& maps);
+
+/// What kernels bind that look up alpha, and their constants.
+kernels::AlphaBindings alpha_bindings(const DeviceScene& scene);
+kernels::AlphaConstants alpha_constants(const DeviceScene& scene);
 
 inline constexpr std::uint32_t cube_faces = 6;
 

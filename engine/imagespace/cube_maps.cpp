@@ -63,6 +63,20 @@ kernels::CubeBindings cube_bindings(const DeviceScene& scene, const CubeMaps& ma
             .triangles = scene.triangles};
 }
 
+kernels::AlphaBindings alpha_bindings(const DeviceScene& scene) {
+    return {.scene = scene.scene,
+            .corners = scene.triangles,
+            .materials = scene.materials,
+            .attributes = scene.attributes,
+            .textures = scene.textures,
+            .texels = scene.texels};
+}
+
+kernels::AlphaConstants alpha_constants(const DeviceScene& scene) {
+    const kernels::TextureConstants textures = scene.texture_constants();
+    return {.textured = textures.textured, .vertex_colors = textures.vertex_colors};
+}
+
 std::uint32_t max_drawn_size(Device& device) {
     const Limits& limits = device.info().limits;
     return device.raster() && limits.layers >= cube_faces ? limits.image : 0;
@@ -106,29 +120,21 @@ void trace_cube_shadows(Device& device, const DeviceScene& scene, const CubeMaps
                         const Buffer& hits, const RayBatch& batch) {
     CubeSearch params = search_record(scene, maps, settings, batch.count);
     params.at_lights = static_cast<std::uint32_t>(at_lights);
-    const kernels::TextureConstants textures = scene.texture_constants();
-    dispatch(
-        device,
-        kernels::cube_shadow{.map_texels = maps.texels,
-                             .centers = maps.centers,
-                             .positions = scene.positions,
-                             .triangles = scene.triangles,
-                             .rays = batch.rays,
-                             .active_rays = batch.active,
-                             .counts = counts_or(batch.count, batch.active),
-                             .hits = hits,
-                             .occluded = batch.results,
-                             .alpha = {.scene = scene.scene,
-                                       .corners = scene.triangles,
-                                       .materials = scene.materials,
-                                       .attributes = scene.attributes,
-                                       .textures = scene.textures,
-                                       .texels = scene.texels},
-                             .params = params,
-                             .constants = {.has_alpha = scene.plan.needs(Feature::alpha),
-                                           .alpha = {.textured = textures.textured,
-                                                     .vertex_colors = textures.vertex_colors}}},
-        batch.count);
+    dispatch(device,
+             kernels::cube_shadow{.map_texels = maps.texels,
+                                  .centers = maps.centers,
+                                  .positions = scene.positions,
+                                  .triangles = scene.triangles,
+                                  .rays = batch.rays,
+                                  .active_rays = batch.active,
+                                  .counts = counts_or(batch.count, batch.active),
+                                  .hits = hits,
+                                  .occluded = batch.results,
+                                  .alpha = alpha_bindings(scene),
+                                  .params = params,
+                                  .constants = {.has_alpha = scene.plan.needs(Feature::alpha),
+                                                .alpha = alpha_constants(scene)}},
+             batch.count);
 }
 
 } // namespace argand

@@ -23,20 +23,13 @@ void draw_cube_maps(Device& device, const DeviceScene& scene, const CubeMaps& ma
     const StageScope stage(device, "draw cube maps");
     const std::uint64_t bytes = std::uint64_t(cube_texels(maps.size)) * sizeof(glm::uvec2);
     const Buffer none = unneeded(device);
-    kernels::cube_faces program{
-        .positions = scene.positions,
-        .centers = maps.centers,
-        .shown = maps.layers > 1 ? maps.texels : none,
-        .alpha = {.scene = scene.scene,
-                  .corners = scene.triangles,
-                  .materials = scene.materials,
-                  .attributes = scene.attributes,
-                  .textures = scene.textures,
-                  .texels = scene.texels},
-        .params = {},
-        .constants = {.material_features = scene.plan.material_features(),
-                      .alpha = {.textured = scene.texture_constants().textured,
-                                .vertex_colors = scene.texture_constants().vertex_colors}}};
+    kernels::cube_faces program{.positions = scene.positions,
+                                .centers = maps.centers,
+                                .shown = maps.layers > 1 ? maps.texels : none,
+                                .alpha = alpha_bindings(scene),
+                                .params = {},
+                                .constants = {.material_features = scene.plan.material_features(),
+                                              .alpha = alpha_constants(scene)}};
     // The layers of one map lie together, so maps of several are drawn one by one. Each layer
     // leaves out what those before it show.
     std::uint32_t together = 1;
