@@ -67,8 +67,8 @@ def digest(*files):
 
 # Light paths find the caustics or the many lamps of these scenes sooner than eye paths do. Where lights are points, eye paths
 # also miss the light that caustics scatter on. See docs/results/bidirectional.md.
-BY_LIGHT_PATHS = {"bulb", "classroom", "cornell_glass", "cornell_mirror", "glass_marble", "gloss_only", "inside_glass",
-                  "living_room", "living_room_2", "marble_box", "small_emitters"}
+BY_LIGHT_PATHS = {"bulb", "classroom", "cornell_glass", "cornell_mirror", "glass_marble", "glazed_room", "gloss_only",
+                  "inside_glass", "living_room", "living_room_2", "marble_box", "small_emitters"}
 
 
 def reference_method(scene):
