@@ -653,8 +653,8 @@ def dynamic_camera():
 BINARY = (cornell_point, cornell_area, cornell_glass, frosted_glass, tinted_glass, drink, cornell_mirror, ring, furnace, glossy,
           varnish, smooth_sphere, inside_glass, sky_room, spot, courtyard, veil, closed_room, sunlit_ground,
           forty_rooms, forty_bulbs, two_rooms, window_room, glazed_room, blind, glass_marble, marble_box, bulb, small_emitters,
-          dark_room, gloss_only, shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light, dynamic_switch,
-          dynamic_block, dynamic_occluder, dynamic_water, dynamic_camera)
+          dark_room, gloss_only, shuffled_walls, textures, cutouts, moving_light, dynamic_shi, dynamic_slow_light,
+          dynamic_switch, dynamic_block, dynamic_occluder, dynamic_water, dynamic_camera)
 READABLE = (plane_point, closed_box)
 
 
