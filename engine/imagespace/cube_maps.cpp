@@ -57,7 +57,7 @@ std::uint64_t max_cube_texels(const Device& device) {
 }
 
 kernels::CubeBindings cube_bindings(const DeviceScene& scene, const CubeMaps& maps) {
-    return {.texels = maps.texels,
+    return {.map_texels = maps.texels,
             .centers = maps.centers,
             .positions = scene.positions,
             .triangles = scene.triangles};
@@ -121,10 +121,7 @@ void trace_cube_shadows(Device& device, const DeviceScene& scene, const CubeMaps
     CubeSearch params = search_record(scene, maps, settings, batch.count);
     params.at_lights = static_cast<std::uint32_t>(at_lights);
     dispatch(device,
-             kernels::cube_shadow{.map_texels = maps.texels,
-                                  .centers = maps.centers,
-                                  .positions = scene.positions,
-                                  .triangles = scene.triangles,
+             kernels::cube_shadow{.cube = cube_bindings(scene, maps),
                                   .rays = batch.rays,
                                   .active_rays = batch.active,
                                   .counts = counts_or(batch.count, batch.active),

@@ -15,8 +15,8 @@ FN CubePlace place_of(uint texel) {
     real extent;
     place.direction = unit_and_length(direction, extent);
     place.forward = real(1.0) / extent;
-    place.triangle = texels[texel].x;
-    place.distance = bits_float(texels[texel].y);
+    place.triangle = map_texels[texel].x;
+    place.distance = bits_float(map_texels[texel].y);
     place.position = vec3(centers[place.map]) + place.direction * place.distance;
     return place;
 }

@@ -1,11 +1,12 @@
 // Searches cube maps for the hits of rays. As published (Yao et al. 2010, section 5.2), each ray is
 // searched for in each map, and the nearest hit counts: where a map does not show what a ray meets
-// first, light leaks. Here the search ends where a map shows all that is near the ray's way. The
-// kernel declares
-//   uvec2 map_texel(uint map, vec3 direction)
-// the texel of a map in a direction of any length.
+// first, light leaks. Here the search ends where a map shows all that is near the ray's way.
 
 FN vec3 center_of(uint map) { return vec3(centers[map / params.layers]); }
+
+FN uvec2 map_texel(uint map, vec3 direction) {
+    return map_texels[map * cube_texels(params.size) + cube_texel(direction, params.size)];
+}
 
 FN real map_distance(uint map, vec3 direction) { return bits_float(map_texel(map, direction).y); }
 

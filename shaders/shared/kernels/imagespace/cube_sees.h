@@ -17,7 +17,7 @@ FN bool map_sees(uint map, vec3 position, uint triangle) {
     if (!(distance > real(0.0))) {
         return true;
     }
-    uint shown = texels[map * cube_texels(params.size) + cube_texel(way, params.size)].x;
+    uint shown = map_texels[map * cube_texels(params.size) + cube_texel(way, params.size)].x;
     if (shown == no_triangle) {
         return false;
     }

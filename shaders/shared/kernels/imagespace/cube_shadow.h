@@ -3,10 +3,6 @@
 #include "shared/kernels/alpha.h"
 #include "shared/kernels/count.h"
 
-FN uvec2 map_texel(uint map, vec3 direction) {
-    return map_texels[map * cube_texels(params.size) + cube_texel(direction, params.size)];
-}
-
 FN uint thickness_at(uint triangle, vec2 b) {
     return has_alpha ? thickness_of(coverage_at(triangles[triangle], b)) : thickness_of_all;
 }

@@ -1,10 +1,6 @@
 // Finds the hits of rays in cube maps.
 #include "shared/kernels/count.h"
 
-FN uvec2 map_texel(uint map, vec3 direction) {
-    return texels[map * cube_texels(params.size) + cube_texel(direction, params.size)];
-}
-
 #include "shared/kernels/imagespace/cube_search.h"
 
 FN void main() {
