@@ -18,11 +18,11 @@ Option count_option() {
 }
 
 Option making_option() {
-    Option option = own_option("maps",
-                               "How maps are made: drawn by the device's rasteriser, or by casting "
-                               "rays; auto: drawn, unless the device has none or is a CPU",
-                               OptionKind::choice, "auto");
-    option.choices = {"auto", "raster", "cast"};
+    Option option =
+        own_choice_option("maps",
+                          "How maps are made: drawn by the device's rasteriser, or by casting "
+                          "rays; auto: drawn, unless the device has none or is a CPU",
+                          {"auto", "raster", "cast"});
     option.sweep.matters = finds_photons;
     return option;
 }
@@ -70,33 +70,30 @@ Option march_option() {
 }
 
 Option hits_option() {
-    Option option = own_option("map-hits",
-                               "What a photon hits in a map: the triangle that a texel shows, or "
-                               "the point in the texel's middle, as published",
-                               OptionKind::choice, "triangles");
-    option.choices = {"triangles", "points"};
+    Option option =
+        own_choice_option("map-hits",
+                          "What a photon hits in a map: the triangle that a texel shows, or "
+                          "the point in the texel's middle, as published",
+                          {"triangles", "points"});
     option.sweep = {.full = {"points"}, .matters = finds_photons};
     return option;
 }
 
 Option shadows_option() {
-    Option option = own_option(
+    Option option = own_choice_option(
         "shadows",
         "What decides whether lights are seen: rays through the tree, or the maps; those around a "
         "point light are then its shadow maps, as published",
-        OptionKind::choice, "rays");
-    option.choices = {"rays", "maps"};
+        {"rays", "maps"});
     option.sweep.full = {"maps"};
     return option;
 }
 
 Option reflections_option() {
-    Option option = own_option("reflections",
-                               "How eye paths go on behind the first surface: by rays through the "
-                               "tree, or through the maps, as published",
-                               OptionKind::choice, "rays");
-    option.choices = {"rays", "maps"};
-    return option;
+    return own_choice_option("reflections",
+                             "How eye paths go on behind the first surface: by rays through the "
+                             "tree, or through the maps, as published",
+                             {"rays", "maps"});
 }
 
 Option error_option() {

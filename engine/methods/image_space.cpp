@@ -9,11 +9,11 @@ namespace argand {
 namespace {
 
 Option estimate_option() {
-    Option option = own_option("estimate",
-                               "How densities are estimated: over discs of one radius, as photons "
-                               "does, or over each photon's splat, as published",
-                               OptionKind::choice, "discs");
-    option.choices = {"discs", "splats"};
+    Option option =
+        own_choice_option("estimate",
+                          "How densities are estimated: over discs of one radius, as photons "
+                          "does, or over each photon's splat, as published",
+                          {"discs", "splats"});
     option.sweep = {.full = {"splats"}, .matters = finds_photons};
     return option;
 }

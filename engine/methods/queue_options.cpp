@@ -38,15 +38,8 @@ Option half_life_option() {
     return option;
 }
 
-Option choice_option(const std::string& name, const std::string& help,
-                     const std::vector<std::string>& choices) {
-    Option option = own_option(name, help, OptionKind::choice, choices[0]);
-    option.choices = choices;
-    return option;
-}
-
 Option fill_option() {
-    return choice_option(
+    return own_choice_option(
         "queue-fill",
         "Photons of the first frame, and of frames in which lights appear, vanish or jump: all of "
         "the queue, or those of one frame, so that noise falls from frame to frame",
@@ -54,44 +47,47 @@ Option fill_option() {
 }
 
 Option estimator_option() {
-    return choice_option("estimator",
-                         "Photons that each estimate takes: those within one radius, as photons "
-                         "does, the k nearest, as knn does, or those whose footprints it lies in, "
-                         "as footprints does",
-                         {"radius", "knn", "footprints"});
+    return own_choice_option(
+        "estimator",
+        "Photons that each estimate takes: those within one radius, as photons "
+        "does, the k nearest, as knn does, or those whose footprints it lies in, "
+        "as footprints does",
+        {"radius", "knn", "footprints"});
 }
 
 Option rebuild_option() {
-    return choice_option("rebuild",
-                         "For comparison: build a tree over all photons of the queue in each "
-                         "frame, that of other methods, or a kd-tree over photons",
-                         {"off", "lbvh", "kdtree"});
+    return own_choice_option("rebuild",
+                             "For comparison: build a tree over all photons of the queue in each "
+                             "frame, that of other methods, or a kd-tree over photons",
+                             {"off", "lbvh", "kdtree"});
 }
 
 Option classify_option() {
-    return choice_option("classify",
-                         "How new photons find their cells: each descends to its cell, or, for "
-                         "comparison, each cell tests all photons",
-                         {"descent", "leaves"});
+    return own_choice_option("classify",
+                             "How new photons find their cells: each descends to its cell, or, for "
+                             "comparison, each cell tests all photons",
+                             {"descent", "leaves"});
 }
 
 Option direct_option() {
-    return choice_option("direct",
-                         "Where direct light comes from: shadow rays, or, for comparison, photons "
-                         "that are stored where they are scattered first",
-                         {"rays", "photons"});
+    return own_choice_option(
+        "direct",
+        "Where direct light comes from: shadow rays, or, for comparison, photons "
+        "that are stored where they are scattered first",
+        {"rays", "photons"});
 }
 
 Option show_option() {
-    return choice_option("show", "The picture, or the photons in the map as points of their colour",
-                         {"picture", "photons"});
+    return own_choice_option("show",
+                             "The picture, or the photons in the map as points of their colour",
+                             {"picture", "photons"});
 }
 
 Option cells_option() {
-    return choice_option("queue-cells",
-                         "What divides space into the queue's cells first: the kd-tree of the "
-                         "triangles, or the photons alone",
-                         {"triangles", "photons"});
+    return own_choice_option("queue-cells",
+                             "What divides space into the queue's cells first: the kd-tree of the "
+                             "triangles, or the photons alone",
+                             {"triangles", "photons"});
 }
 
 } // namespace

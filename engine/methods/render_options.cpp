@@ -142,6 +142,13 @@ bool finds_photons(const Variation& variation) {
     return looks_up_photons(variation) && variation.base.photons > 0;
 }
 
+Option own_choice_option(const std::string& name, const std::string& help,
+                         const std::vector<std::string>& choices) {
+    Option option = own_option(name, help, OptionKind::choice, choices.front());
+    option.choices = choices;
+    return option;
+}
+
 Option own_number_option(const std::string& name, const std::string& help, OptionKind kind,
                          const std::string& initially, double low, double high) {
     Option option = own_option(name, help, kind, initially);

@@ -33,6 +33,10 @@ std::vector<Option> photon_mapping_options(const std::vector<Option>& own);
 /// matter.
 bool finds_photons(const Variation& variation);
 
+/// An option of a method's own (own_option()) with one of these values, at first the first one.
+Option own_choice_option(const std::string& name, const std::string& help,
+                         const std::vector<std::string>& choices);
+
 /// An option of a method's own (own_option()) for numbers in [low, high], which a sweep may vary
 /// where photons are found.
 Option own_number_option(const std::string& name, const std::string& help, OptionKind kind,
