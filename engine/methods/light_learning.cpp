@@ -174,11 +174,12 @@ void learn_lights(RenderContext& context) {
     const bool photons = scene.plan.needs_photons() && context.settings.bounces > 0;
     const auto outside = std::count_if(table.lights.begin(), table.lights.end(), is_from_outside);
     const std::size_t emitters = table.emitter_weights.size();
-    if (emitters == 0 || (emitters == 1 && !(photons && outside > 0))) {
+    const bool aims = photons && outside > 0;
+    if (emitters == 0 || (emitters == 1 && !aims)) {
         return;
     }
     const StageScope stage(context.device, "learn lights");
-    std::vector<FoundLight> found = find_lights(context, photons && outside > 0);
+    std::vector<FoundLight> found = find_lights(context, aims);
     make_relative(found);
     // Where photons account for reflected light, shadow rays look for direct light only, but for
     // those of paths that go on where an estimate is not taken or surfaces are near.
@@ -192,7 +193,6 @@ void learn_lights(RenderContext& context) {
             add(for_rays, emitter, f.radiance);
         }
     }
-    const bool aims = photons && outside > 0;
     if (aims) {
         set_aims(context.device, scene, learn_aims(scene, found));
     }
