@@ -92,6 +92,23 @@ def references(argand, scene, folder, size, samples, seeds):
     return [read_exr(picture) for picture in reference_files(argand, scene, folder, size, samples, seeds)]
 
 
+def displayed(value):
+    """A linear value as displays show it, 0 to 1."""
+    return min(max(value, 0), 1) ** (1 / 2.2)
+
+
+def write_png(path, width, pixels):
+    """Writes rows of `width` pixels of three bytes each."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    row = 3 * width
+    lines = b"".join(b"\0" + bytes(pixels[at:at + row]) for at in range(0, len(pixels), row))
+    header = struct.pack(">IIBBBBB", width, len(pixels) // row, 8, 2, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 9)) +
+                     chunk(b"IEND", b""))
+
+
 def mean(values):
     return sum(values) / len(values)
 
