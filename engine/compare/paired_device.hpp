@@ -67,6 +67,8 @@ public:
 
 private:
     StageComparison& comparison(const std::string& stage);
+    /// Whether a range of a buffer holds the same on both devices.
+    bool same_words(const BufferView& range);
     double tolerance() const;
     /// Compares the words to which `indices` refer, see KernelBinding::refers_to.
     /// before: the indices before the stage ran.
@@ -80,6 +82,7 @@ private:
     std::unique_ptr<Primitives> primitives_;
     std::vector<StageComparison> comparisons_;
     GoldenCapture* recorder_ = nullptr;
+    std::vector<std::byte> piece_a_, piece_b_; ///< of same_words()
 };
 
 } // namespace argand

@@ -69,10 +69,28 @@ FN void clear_bins() {
     }
 }
 
+// Sums and list of the second walk, before it. They are stored with a query that is put aside
+// earlier, too, so they must not be undefined.
+FN void clear_sums(INOUT(Query) q, INOUT(Search) s) {
+    s.taken = 0u;
+    s.listed = 0u;
+    s.last = nearest_none;
+    s.overflown = false;
+    s.indirect_moment = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    s.caustic_moment = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    s.coverage_moment = real(0.0);
+    q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
+    q.coverage = real(0.0);
+    q.moments = no_moments();
+}
+
 // Begins to count in bins for the whole ball of r_max. The walk starts near the query, so that its
 // radius shrinks soon.
-FN void start_counting(INOUT(Query) q, OUT(Search) s, INOUT(uint) steps) {
+FN void start_counting(INOUT(Query) q, INOUT(Search) s, INOUT(uint) steps) {
     s.phase = nearest_counts;
+    s.missing = 0u;
+    clear_sums(q, s);
     s.high = float_bits(params.radius * params.radius);
     s.shift = nearest_first_shift;
     uint span = (nearest_words - 1u) << s.shift;
@@ -156,17 +174,7 @@ FN void judge_count(INOUT(Query) q, INOUT(Search) s) {
     s.missing = all ? 0u : params.neighbours - (s.total - in_top);
     s.low = low;
     s.high = high;
-    s.taken = 0u;
-    s.listed = 0u;
-    s.last = nearest_none;
-    s.overflown = false;
-    s.indirect_moment = Sum(vec3(real(0.0)), vec3(real(0.0)));
-    s.caustic_moment = Sum(vec3(real(0.0)), vec3(real(0.0)));
-    s.coverage_moment = real(0.0);
-    q.indirect = Sum(vec3(real(0.0)), vec3(real(0.0)));
-    q.caustic = Sum(vec3(real(0.0)), vec3(real(0.0)));
-    q.coverage = real(0.0);
-    q.moments = no_moments();
+    clear_sums(q, s);
     q.node = first_node(params.part);
 }
 
