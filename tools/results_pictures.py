@@ -98,7 +98,7 @@ def displayed(value):
 
 
 def write_png(path, width, pixels):
-    """Writes rows of `width` pixels of three bytes each."""
+    """Writes a PNG of rows of `width` pixels, of three bytes each."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 

@@ -47,24 +47,6 @@ std::vector<std::uint32_t> words_of(Device& device, const BufferView& range) {
 
 } // namespace
 
-// Reads buffers piece by piece: most are equal, and some are of a hundred megabytes, for which
-// memory would be taken and given back after every command.
-bool PairedDevice::same_words(const BufferView& range) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 22;
-    const BufferView a = view(range, &PairedBuffer::a), b = view(range, &PairedBuffer::b);
-    for (std::uint64_t at = 0; at < a.size; at += most) {
-        const std::uint64_t bytes = std::min(most, a.size - at);
-        piece_a_.resize(bytes);
-        piece_b_.resize(bytes);
-        a_.download(*a.buffer, a.offset + at, piece_a_);
-        b_.download(*b.buffer, b.offset + at, piece_b_);
-        if (piece_a_ != piece_b_) {
-            return false;
-        }
-    }
-    return true;
-}
-
 PairedDevice::PairedDevice(Device& a, Device& b, Pairing pairing)
     : a_(a), b_(b), pairing_(pairing), info_(a.info()),
       primitives_(make_paired_primitives(*this, a, b)) {
@@ -115,6 +97,24 @@ StageComparison& PairedDevice::comparison(const std::string& stage) {
     return comparisons_.back();
 }
 
+// Most buffers are equal, and some have a hundred megabytes: they are read piece by piece, so that
+// no command takes memory of their size.
+bool PairedDevice::same_words(const BufferView& range) {
+    constexpr std::uint64_t piece = std::uint64_t{1} << 22;
+    const BufferView a = view(range, &PairedBuffer::a), b = view(range, &PairedBuffer::b);
+    for (std::uint64_t at = 0; at < a.size; at += piece) {
+        const std::uint64_t bytes = std::min(piece, a.size - at);
+        piece_a_.resize(bytes);
+        piece_b_.resize(bytes);
+        a_.download(*a.buffer, a.offset + at, piece_a_);
+        b_.download(*b.buffer, b.offset + at, piece_b_);
+        if (piece_a_ != piece_b_) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void PairedDevice::run(const std::string& stage, const std::function<void()>& on_a,
                        const std::function<void()>& on_b,
                        const std::vector<WrittenBinding>& written) {
@@ -138,22 +138,19 @@ void PairedDevice::run(const std::string& stage, const std::function<void()>& on
     GoldenStep step{stage, {}};
     for (std::size_t i = 0; i < written.size(); ++i) {
         const WrittenBinding& binding = written[i];
+        const BufferView in_a = view(binding.view, &PairedBuffer::a);
         const BufferView in_b = view(binding.view, &PairedBuffer::b);
         const std::string_view layout = binding.how.words;
         const bool counts = !binding.how.incidental && binding.how.refers_to < 0;
-        if (!recorder_ && same_words(binding.view)) {
-            found.items += counts ? in_b.size / sizeof(std::uint32_t) / layout.size() : 0;
-            continue;
-        }
-        std::vector<std::uint32_t> a = words_of(a_, view(binding.view, &PairedBuffer::a));
-        std::vector<std::uint32_t> b = words_of(b_, in_b);
         if (recorder_) {
-            step.writes.push_back(changes(before[i], a));
+            step.writes.push_back(changes(before[i], words_of(a_, in_a)));
         }
-        if (a == b) {
-            found.items += counts ? a.size() / layout.size() : 0;
+        if (same_words(binding.view)) {
+            found.items += counts ? in_a.size / sizeof(std::uint32_t) / layout.size() : 0;
             continue;
         }
+        std::vector<std::uint32_t> a = words_of(a_, in_a);
+        std::vector<std::uint32_t> b = words_of(b_, in_b);
         // Appended records that a later, shorter run leaves behind would otherwise differ by the
         // order in which they were appended.
         const bool same_records = are_same_records(binding.how.unordered, a, b);

@@ -88,13 +88,13 @@ TEST_P(Backends, AgreeOnEveryStage) {
     const Scene scene = GetParam() == "skinned_block"
                             ? skinned_block()
                             : load_gltf(ARGAND_SOURCE_DIR "/assets/" + GetParam());
+    const Bounds box = bounds(scene);
+    const double across = glm::distance(box.low, box.high);
     for (const std::string& method : is_quick(GetParam()) ? method_names() : different_methods) {
         RenderSettings settings = small(method);
-        const Bounds box = bounds(scene);
-        const double across = glm::distance(box.low, box.high);
         if (across > 20) {
             // A room's small discs ask for a million area samples on all of its surroundings, which
-            // every command on them would compare.
+            // would be compared after every command on them.
             settings.radius = 0.1 * across;
         }
         const BackendComparison found = compare_backends(device, host_, scene, settings);

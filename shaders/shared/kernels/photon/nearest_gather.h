@@ -69,8 +69,8 @@ FN void clear_bins() {
     }
 }
 
-// Sums and list of the second walk, before it. They are stored with a query that is put aside
-// earlier, too, so they must not be undefined.
+// Empties the sums and the list of the second walk. A query that is put aside during the first one
+// stores them too, so they must be defined by then.
 FN void clear_sums(INOUT(Query) q, INOUT(Search) s) {
     s.taken = 0u;
     s.listed = 0u;
