@@ -108,7 +108,8 @@ bool PairedDevice::same_words(const BufferView& range) {
         piece_b_.resize(bytes);
         a_.download(*a.buffer, a.offset + at, piece_a_);
         b_.download(*b.buffer, b.offset + at, piece_b_);
-        if (piece_a_ != piece_b_) {
+        // The vectors' own comparison goes byte by byte.
+        if (std::memcmp(piece_a_.data(), piece_b_.data(), bytes) != 0) {
             return false;
         }
     }

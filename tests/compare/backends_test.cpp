@@ -92,6 +92,10 @@ TEST_P(Backends, AgreeOnEveryStage) {
     const double across = glm::distance(box.low, box.high);
     for (const std::string& method : is_quick(GetParam()) ? method_names() : different_methods) {
         RenderSettings settings = small(method);
+        if (!is_quick(GetParam())) {
+            settings.width = settings.height = 16;
+            settings.photons = 2500;
+        }
         if (across > 20) {
             // A room's small discs ask for a million area samples on all of its surroundings, which
             // would be compared after every command on them.
