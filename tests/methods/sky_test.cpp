@@ -194,26 +194,19 @@ protected:
                 << method << ", " << name;
         }
     }
+
+    /// Expects the layers of `path` in the yard under a picture that is brighter higher up.
+    void expect_as_path_under_a_gradient(const std::string& method) {
+        Scene scene = yard();
+        scene.environment = sky_by_height(64, [](double y) { return y > 0 ? 0.2 + y : 0.1; });
+        expect_same(scene, method, scene, "path",
+                    {{"direct", 0.01}, {"indirect", 0.03}, {"caustic", 0.06}});
+    }
 };
 
-/// The yard under a picture that is brighter higher up.
-Scene under_a_gradient() {
-    Scene scene = yard();
-    scene.environment = sky_by_height(64, [](double y) { return y > 0 ? 0.2 + y : 0.1; });
-    return scene;
-}
+TEST_F(SkyLayers, MethodsAgreeOnEveryLayer) { expect_as_path_under_a_gradient("footprints"); }
 
-TEST_F(SkyLayers, MethodsAgreeOnEveryLayer) {
-    const Scene scene = under_a_gradient();
-    expect_same(scene, "footprints", scene, "path",
-                {{"direct", 0.01}, {"indirect", 0.03}, {"caustic", 0.06}});
-}
-
-TEST_F(SkyLayers, SlowPhotonsAgreeOnEveryLayer) {
-    const Scene scene = under_a_gradient();
-    expect_same(scene, "photons", scene, "path",
-                {{"direct", 0.01}, {"indirect", 0.03}, {"caustic", 0.06}});
-}
+TEST_F(SkyLayers, SlowPhotonsAgreeOnEveryLayer) { expect_as_path_under_a_gradient("photons"); }
 
 // A uniform picture in the yard is the uniform sky in it.
 TEST_F(SkyLayers, SlowUniformPictureIsTheUniformSky) {
