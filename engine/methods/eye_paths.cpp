@@ -121,7 +121,6 @@ EyeWorkspace make_eye_workspace(Device& device, const Plan& plan, const RenderSe
     w.weights = per_slot_if(plan.needs(Feature::light_paths), "weights of eye paths",
                             sizeof(EyeWeightRecord));
     w.queries = make_eye_queries(device, plan, w.slots, camera);
-    w.queries.least_coverage = settings.least_coverage;
     w.traversal = make_traversal(device, w.slots);
     return w;
 }

@@ -308,7 +308,7 @@ StoredPhotons PhotonMapping::trace_first(Budget& budget) {
 
 /// Whether eye paths go on where the map's estimate is not taken.
 bool PhotonMapping::goes_on() const {
-    return c_.settings.least_coverage > 0 && c_.on_device.plan.needs(Feature::direct_light);
+    return least_coverage_of(c_.settings) > 0 && c_.on_device.plan.needs(Feature::direct_light);
 }
 
 /// Whether eye paths may follow the light of nearby surfaces: their rays go on behind estimates,
@@ -406,10 +406,8 @@ void PhotonMapping::make_estimator(const PassNumbers& numbers, const StoredPhoto
     made_->estimator = strategy_->make(c_, made_->map, image_.bandwidth);
     made_->gathers = strategy_->make_for_gathers(c_, image_.bandwidth);
     if (c_.on_device.record.follows_near != 0) {
-        made_->untaken = {untaken_often, Untaken::mildly_uneven};
-        return;
-    }
-    if (!image_.untaken && made_->map.area_samples > 0) {
+        image_.untaken = {untaken_often, Untaken::mildly_uneven, least_coverage_of(c_.settings)};
+    } else if (!image_.untaken && made_->map.area_samples > 0) {
         image_.untaken = learn_untaken(c_.device, c_.on_device, c_.eye, c_.settings,
                                        c_.scene.cameras[c_.settings.camera], made_->lookup());
     }
@@ -501,6 +499,7 @@ void PhotonMapping::report(RenderStatistics& statistics) const {
     statistics.leaf_size = image_.leaf_size;
     statistics.footprint_scale = image_.footprint_scale;
     const SceneRecord& scene = c_.on_device.record;
+    statistics.least_coverage = image_.untaken.value_or(Untaken{}).least_coverage;
     statistics.near_field = scene.follows_near != 0 ? scene.near_distance : 0;
     if (image_.maps > 0) {
         // Every pass emits all of the lights' power.

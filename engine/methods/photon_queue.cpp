@@ -197,6 +197,7 @@ void QueueMethod::report(RenderStatistics& statistics) const {
     statistics.photons_stored = image_.stored;
     statistics.photons_in_view = image_.in_view * static_cast<double>(image_.emitted);
     report_bandwidth(bandwidth(), statistics);
+    statistics.least_coverage = image_.untaken.value_or(Untaken{}).least_coverage;
     statistics.leaf_size = queue_.leaf_size;
     statistics.footprint_scale = image_.footprint_scale;
     statistics.mean_footprints = image_.mean_footprints;

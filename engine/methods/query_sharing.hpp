@@ -26,7 +26,6 @@ struct EyeQueries {
     Buffer cells, owners;        ///< hash table of cells, see query_cells.h
     CameraRecord view{};         ///< of the picture, for the size of its pixels
     bool final_gather = false;   ///< paths query the map one scattering later, except for caustics
-    double least_coverage = 0;   ///< of an answer that is taken where paths may go on
     QuerySharing sharing;
 };
 

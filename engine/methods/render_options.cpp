@@ -72,7 +72,7 @@ Option least_coverage_option() {
         "least-coverage",
         "Least share of an estimate's disc on surfaces; where there is less, as on leaves and "
         "bars, or where its light is uneven, as in crevices, the eye path goes on instead; 0: it "
-        "never does",
+        "never does (default: 0.1, or 0.2 if --spp is 64 or more)",
         [](RenderSettings & s) -> auto& { return s.least_coverage; }, 0, 1);
     option.sweep = {.full = {"0", "0.2"}, .matters = finds_photons};
     return option;

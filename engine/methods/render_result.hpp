@@ -36,6 +36,7 @@ struct RenderStatistics {
     std::uint32_t caustic_neighbours = 0;
     double smoothing = 0;
     double mean_footprints = 0;  ///< footprints on a point, if they were spread evenly
+    double least_coverage = 0;   ///< of estimates that are taken; 0: all are
     double near_field = 0;       ///< distance within which eye paths follow light; 0: none
     std::uint32_t leaf_size = 0; ///< maximum number of photons in a leaf of the map
     std::optional<FootprintScale> footprint_scale; ///< none: photons are points

@@ -97,8 +97,8 @@ struct RenderSettings {
     /// Edge of the cells that share one density estimate, in radii of estimation; 0: no sharing.
     double query_cell = 0.25;
     /// Least share of an estimate's disc that lies on surfaces; with less the estimate is not
-    /// taken, and the eye path goes on. 0: all estimates are taken.
-    double least_coverage = 0.1;
+    /// taken, and the eye path goes on. 0: all estimates are taken; none: from `samples`.
+    std::optional<double> least_coverage;
     /// Distance within which eye paths follow the light of other surfaces instead of taking it from
     /// the map, in scene units; 0: never; none: from the scene.
     std::optional<double> near_field;
@@ -119,5 +119,13 @@ struct RenderSettings {
     /// Values of options that have no member above, by name (own_option() of methods/option.hpp).
     std::map<std::string, std::string> own;
 };
+
+/// The least coverage of estimates that are taken. Estimates on thin things are blurred, and paths
+/// that go on instead are noisy: where samples are many, more paths go on, because noise falls with
+/// the samples and blur does not.
+inline double least_coverage_of(const RenderSettings& settings) {
+    constexpr std::uint32_t many_samples = 64;
+    return settings.least_coverage.value_or(settings.samples < many_samples ? 0.1 : 0.2);
+}
 
 } // namespace argand

@@ -145,7 +145,8 @@ Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
                       const RenderSettings& settings, const Camera& camera,
                       const PhotonLookup& lookup) {
     constexpr double small_share = 0.005, large_share = 0.02;
-    if (!(settings.least_coverage > 0) || !scene.plan.needs(Feature::direct_light)) {
+    const double least_coverage = least_coverage_of(settings);
+    if (!(least_coverage > 0) || !scene.plan.needs(Feature::direct_light)) {
         return {};
     }
     EyeBatch batch = batch_of_small_image(w, settings, 48);
@@ -154,7 +155,7 @@ Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
     const Buffer small_image = camera_of(device, batch, camera, w.queries.view);
     const double cell = std::exchange(w.queries.sharing.cell, 0.0);
     const bool careful = std::exchange(w.traversal.careful, true);
-    AnswerProbe probe(device, batch.pixels, settings.least_coverage,
+    AnswerProbe probe(device, batch.pixels, least_coverage,
                       w.queries.final_gather ? lookup.gathering_estimator() : lookup.estimator);
     const PhotonLookup probed{.map = lookup.map, .estimator = probe};
     trace_paths(device, scene, w, small_image, batch, &probed);
@@ -162,10 +163,10 @@ Untaken learn_untaken(Device& device, const DeviceScene& scene, EyeWorkspace& w,
     w.traversal.careful = careful;
     const auto answers = static_cast<double>(probe.answers);
     if (static_cast<double>(probe.mildly) > large_share * answers) {
-        return {untaken_often, Untaken::mildly_uneven};
+        return {untaken_often, Untaken::mildly_uneven, least_coverage};
     }
     const bool often = static_cast<double>(probe.strongly) > small_share * answers;
-    return {often ? untaken_often : untaken_seldom, Untaken::strongly_uneven};
+    return {often ? untaken_often : untaken_seldom, Untaken::strongly_uneven, least_coverage};
 }
 
 std::vector<FoundLight> sample_lights(Device& device, const DeviceScene& scene, EyeWorkspace& w,

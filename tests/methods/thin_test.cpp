@@ -68,6 +68,42 @@ TEST_P(Thin, LeavesHaveTheLightOfAMirror) {
     EXPECT_RELATIVE(found, mean(layer(expected, "caustic")).g, 0.1);
 }
 
+RenderSettings few_photons(std::uint32_t samples, std::optional<double> least_coverage = {}) {
+    RenderSettings settings = settings_of("photons", 8, samples);
+    settings.photons = 5'000;
+    settings.least_coverage = least_coverage;
+    return settings;
+}
+
+class LeastCoverage : public RenderTest {};
+
+TEST_F(LeastCoverage, IsLargerWhereSamplesAreMany) {
+    const Scene scene = leaves_beside_mirror();
+    const RenderResult few = render(scene, few_photons(63)), many = render(scene, few_photons(64));
+    EXPECT_EQ(few.statistics.least_coverage, 0.1);
+    EXPECT_EQ(many.statistics.least_coverage, 0.2);
+    EXPECT_TRUE(same_bits(few, render(scene, few_photons(63, 0.1))));
+    EXPECT_TRUE(same_bits(many, render(scene, few_photons(64, 0.2))));
+    EXPECT_FALSE(same_bits(many, render(scene, few_photons(64, 0.1))));
+    EXPECT_EQ(render(scene, few_photons(64, 0.0)).statistics.least_coverage, 0);
+}
+
+TEST_F(LeastCoverage, IsThatOfThePassesSettings) {
+    const Scene scene = plant_scene();
+    RenderSettings settings = few_photons(64);
+    settings.photons_per_pass = 1'000;
+    EXPECT_EQ(render(scene, settings).statistics.least_coverage, 0.2);
+    settings = few_photons(16);
+    settings.progressive.on = true;
+    settings.progressive.passes = 4;
+    EXPECT_EQ(render(scene, settings).statistics.least_coverage, 0.1);
+    settings.method = "photon-queue";
+    settings.progressive = {};
+    EXPECT_EQ(render(scene, settings).statistics.least_coverage, 0.1);
+    settings.samples = 64;
+    EXPECT_EQ(render(scene, settings).statistics.least_coverage, 0.2);
+}
+
 INSTANTIATE_QUICK_AND_SLOW(Thin, "photons", exact(methods_with_map()));
 
 } // namespace

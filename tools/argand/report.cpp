@@ -81,7 +81,7 @@ Json parameters_json(const RenderReport& render) {
         {"leaf_size", statistics.leaf_size},
         {"budget", settings.budget ? Json(*settings.budget) : Json()},
         {"query_cell", settings.query_cell},
-        {"least_coverage", settings.least_coverage},
+        {"least_coverage", statistics.least_coverage},
         {"near_field", statistics.near_field},
         {"wide_codes", settings.wide_codes},
         {"follow_roughness", settings.follow_roughness},
