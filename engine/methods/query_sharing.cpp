@@ -145,7 +145,7 @@ void answer_queries(Device& device, const Plan& plan, const EyeQueries& queries,
                     const WaitingPaths& paths, const PhotonLookup& lookup) {
     const QuerySharing& sharing = queries.sharing;
     const bool takes_all = lookup.untaken.often == untaken_never;
-    const double least = takes_all ? 0.0 : lookup.untaken.least_coverage;
+    const double least = lookup.untaken.least_coverage;
     const float most_uneven =
         takes_all ? std::numeric_limits<float>::infinity() : lookup.untaken.most_uneven;
     if (!queries.final_gather) {

@@ -44,7 +44,7 @@ struct Untaken {
     /// Of an estimate that is taken; see unevenness(). With a limit of 0.03 the error of living
     /// rooms is hardly less than with 0.06, and with 0.015 it is more.
     float most_uneven = strongly_uneven;
-    double least_coverage = 0; ///< of an estimate that is taken
+    double least_coverage = 0; ///< of an estimate that is taken; 0 if all are
 
     static constexpr float strongly_uneven = 0.1875f; ///< nowhere to be taken: at a thin wall, the
                                                       ///< light of another room

@@ -88,7 +88,7 @@ TEST_F(LeastCoverage, IsLargerWhereSamplesAreMany) {
     EXPECT_EQ(render(scene, few_photons(64, 0.0)).statistics.least_coverage, 0);
 }
 
-TEST_F(LeastCoverage, IsThatOfThePassesSettings) {
+TEST_F(LeastCoverage, FollowsFromTheSamplesOfTheSettings) {
     const Scene scene = plant_scene();
     RenderSettings settings = few_photons(64);
     settings.photons_per_pass = 1'000;
