@@ -103,7 +103,7 @@ PAGES = [
     ("Sample models of glTF", "gltf.md", "tools/results_gltf"),
     ("Loading textured scenes, and what textures cost", "loading.md", "tools/results_loading"),
     ("What was wrong outside the Cornell box", "rooms.md",
-     "tools/results_rooms, tools/results_means, argand render, test_methods"),
+     "tools/results_rooms, tools/results_means, tools/results_coverage, argand render, test_methods"),
     ("The source tree, before and after a rework", "tree.md", "tools/lint, tools/test"),
 ]
 
