@@ -17,6 +17,9 @@
 # Kernels in the folders parallel and device have a twin only if they have a body: for the others, the other backends use
 # libraries.
 #
+# With ARGAND_KERNELS_FROM, the folder generated/kernels of another build of this tree, files are copied from there: optimising
+# the largest kernels takes minutes.
+#
 # Sets the global property ARGAND_TWINS to the sources of all twins, and adds the target TARGET_twins, which writes the
 # generated ones.
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/share_units.cmake)
@@ -69,16 +72,26 @@ function(argand_add_kernels target)
                 endif()
             endif()
         endif()
-        # The path as messages show it.
-        file(RELATIVE_PATH shown ${CMAKE_SOURCE_DIR} ${file})
-        add_custom_command(
-            OUTPUT ${outputs} ${twin_files}
-            COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${options} ${shown}
-            DEPENDS ${file} shader_compile
-            DEPFILE ${directory}/${name}.d
-            WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
-            COMMENT "Compiling kernel ${shown}"
-            VERBATIM)
+        if(ARGAND_KERNELS_FROM)
+            set(files ${outputs} ${twin_files})
+            list(TRANSFORM files REPLACE "^.*/" "${ARGAND_KERNELS_FROM}/")
+            add_custom_command(
+                OUTPUT ${outputs} ${twin_files}
+                COMMAND ${CMAKE_COMMAND} -E copy ${files} ${directory}
+                DEPENDS ${files}
+                VERBATIM)
+        else()
+            # The path as messages show it.
+            file(RELATIVE_PATH shown ${CMAKE_SOURCE_DIR} ${file})
+            add_custom_command(
+                OUTPUT ${outputs} ${twin_files}
+                COMMAND shader_compile -I shaders -I shaders/comp --out ${directory} --depfile ${directory}/${name}.d ${options} ${shown}
+                DEPENDS ${file} shader_compile
+                DEPFILE ${directory}/${name}.d
+                WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
+                COMMENT "Compiling kernel ${shown}"
+                VERBATIM)
+        endif()
         target_sources(${target} PRIVATE ${outputs})
         list(APPEND generated ${directory}/${name}.hpp ${twin_files})
         list(APPEND all_twin_files ${twin_files})
