@@ -48,18 +48,18 @@ double largest_radius(std::span<const glm::vec4> queries) {
 }
 
 /// Photons that a disc of one pass should hold.
-double in_disc(const FirstPass& first, std::uint64_t photons, bool caustic,
+double in_disc(const FirstPass& first, std::uint64_t photons, bool caustic, double evenness,
                std::optional<std::uint32_t> neighbours) {
-    return neighbours ? *neighbours
-                      : in_disc_of_pass(static_cast<double>(photons), first.passes, caustic) /
-                            first.evenness;
+    return neighbours
+               ? *neighbours
+               : in_disc_of_pass(static_cast<double>(photons), first.passes, caustic) / evenness;
 }
 
 /// The radius in which discs at the query points hold enough of these photons.
-double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
+double radius_at_queries(const FirstPass& first, const SortedPhotons& photons, double evenness,
                          std::optional<std::uint32_t> neighbours) {
-    const double wanted =
-        in_disc(first, std::uint64_t(photons.others) + photons.caustics, false, neighbours);
+    const double wanted = in_disc(first, std::uint64_t(photons.others) + photons.caustics, false,
+                                  evenness, neighbours);
     const double learnt = median_radius(first.device, photons, first.queries, wanted);
     // Without photons, or with all of them at one point, there is nothing to learn from.
     const double unlearnt = 0.01 * first.scene.record.radius;
@@ -87,10 +87,15 @@ double radius_at_queries(const FirstPass& first, const SortedPhotons& photons,
 GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neighbours,
                        std::optional<std::uint32_t> caustic_neighbours) {
     const SortedPhotons& photons = first.photons;
-    const double of_all = radius_at_queries(first, photons, neighbours);
+    const Evenness& evenness = first.evenness;
+    const double of_all = radius_at_queries(first, photons, evenness.all, neighbours);
     const double of_caustics = median_caustic_radius(
-        first.device, photons, in_disc(first, photons.caustics, true, caustic_neighbours));
-    const double least = sharpest_caustic * of_all;
+        first.device, photons,
+        in_disc(first, photons.caustics, true, evenness.caustics, caustic_neighbours));
+    // Discs that are large because other photons differ in flux must not blur the caustics.
+    const double of_even =
+        evenness.all < 1 ? radius_at_queries(first, photons, 1, neighbours) : of_all;
+    const double least = sharpest_caustic * of_even;
     // A single caustic photon, or all of them in one point, tell nothing. A radius that is little
     // smaller than the other gains nothing, and loses the boundary correction.
     const bool is_learnt = of_caustics > least_radius * first.scene.record.radius;
@@ -99,7 +104,7 @@ GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neig
     }
     SortedPhotons others = photons;
     others.caustics = 0;
-    return {radius_at_queries(first, others, neighbours),
+    return {radius_at_queries(first, others, evenness.others, neighbours),
             std::clamp(least, of_caustics, most_over_median * of_caustics)};
 }
 
@@ -178,7 +183,8 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
                    photons);
     const double on_point =
         footprints_for_disc *
-        in_disc_of_pass(static_cast<double>(first.stored.photons), first.passes) / first.evenness;
+        in_disc_of_pass(static_cast<double>(first.stored.photons), first.passes) /
+        first.evenness.all;
     const double learnt = median_smoothing(first.device, photons, first.queries, on_point);
     b.smoothing = learnt > 0 ? learnt : 1;
 }

@@ -36,6 +36,13 @@ inline bool parts_sharp_caustics(const Bandwidth& bandwidth, bool may_part) {
     return may_part && bandwidth.caustics && has_sharp_caustics(bandwidth);
 }
 
+/// Photons of equal flux that would have as much noise as one photon in view; at most 1.
+struct Evenness {
+    double all = 1;
+    double caustics = 1; ///< of caustic photons only
+    double others = 1;
+};
+
 /// The first pass of a picture, from which its bandwidth is learnt.
 struct FirstPass {
     Device& device;
@@ -46,8 +53,7 @@ struct FirstPass {
     std::span<const glm::vec4> queries; ///< points at which the picture queries the photon map; the
                                         ///< fourth component does not count
     double passes = 1; ///< of as many photons each, over which the picture averages
-    /// Photons of equal flux that would have as much noise as one photon in view; at most 1.
-    double evenness = 1;
+    Evenness evenness;
 };
 
 /// The photons that one pass should find in a disc (or k), so that all passes together find the

@@ -86,13 +86,11 @@ void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points) {
 
 void aim_at_view(RenderContext& context, std::span<const glm::vec4> points) {
     constexpr double share = 0.1;  // of the photons
-    constexpr double within = 0.8; // share of the points in the sphere, but for the margin
+    constexpr double within = 0.9; // share of the points in the sphere, but for the margin
     constexpr double margin = 1.2;
     constexpr double most_extent = 0.25; // over the scene's; more is hit often enough
     DeviceScene& scene = context.on_device;
-    // Mirrors and glass show what lies elsewhere, at which no photons are aimed. (The plan has
-    // followed paths with --everything, too, which must not change the picture.)
-    if (points.empty() || (scene.casters && !scene.casters->empty())) {
+    if (points.empty()) {
         return;
     }
     const glm::dvec3 middle = view_extent(points).middle;

@@ -30,6 +30,20 @@ std::vector<PhotonRecord> some_photons(Device& device, const Buffer& photons, st
     return found;
 }
 
+/// Sums over photons.
+struct FluxMoments {
+    double count = 0, flux = 0, squares = 0;
+};
+
+FluxMoments operator+(const FluxMoments& a, const FluxMoments& b) {
+    return {a.count + b.count, a.flux + b.flux, a.squares + b.squares};
+}
+
+double evenness_of(const FluxMoments& m) {
+    constexpr double least = 1.0 / 64;
+    return m.squares > 0 ? std::max(m.flux * m.flux / (m.count * m.squares), least) : 1;
+}
+
 } // namespace
 
 std::uint32_t area_seed(const PassNumbers& numbers) {
@@ -56,18 +70,15 @@ FluxSums flux_of(const std::vector<std::int64_t>& words, double unit) {
     return sums;
 }
 
-double evenness_in_view(RenderContext& c, const PhotonWorkspace& workspace,
-                        const StoredPhotons& stored) {
+Evenness evenness_in_view(RenderContext& c, const PhotonWorkspace& workspace,
+                          const StoredPhotons& stored) {
     const SceneRecord& scene = c.on_device.record;
     if (!(scene.view_share > 0)) {
-        return 1;
+        return {};
     }
-    constexpr double least = 1.0 / 64;
     const Camera& camera = c.scene.cameras[c.settings.camera];
     const bool perspective = camera.kind == CameraKind::perspective;
-    double count = 0;
-    double sum = 0;
-    double squares = 0;
+    FluxMoments caustics, others;
     for (const PhotonRecord& photon :
          some_photons(c.device, workspace.photons, stored.slots, 64, 4096)) {
         if (photon.normal == no_photon) {
@@ -80,12 +91,13 @@ double evenness_in_view(RenderContext& c, const PhotonWorkspace& workspace,
                              glm::dot(normal, to_eye) > 0;
         if (in_view) {
             const double flux = double(photon.flux_r) + photon.flux_g + photon.flux_b;
-            ++count;
-            sum += flux;
-            squares += flux * flux;
+            FluxMoments& of_kind = photon_is_caustic(photon.normal) ? caustics : others;
+            of_kind = of_kind + FluxMoments{1, flux, flux * flux};
         }
     }
-    return squares > 0 ? std::max(sum * sum / (count * squares), least) : 1;
+    return {.all = evenness_of(caustics + others),
+            .caustics = evenness_of(caustics),
+            .others = evenness_of(others)};
 }
 
 double in_view_per_emitted(RenderContext& c, const PhotonWorkspace& workspace,

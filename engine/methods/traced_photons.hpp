@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/bandwidth.hpp"
 #include "methods/method.hpp"
 #include "photon/photon_map.hpp"
 
@@ -23,10 +24,10 @@ std::uint32_t area_seed(const PassNumbers& numbers);
 
 /// Of photons that were aimed at what is in view, many carry little flux and a few much. The noise
 /// of n of them is that of (Σ flux)² / Σ flux² photons of equal flux. Surfaces that face away from
-/// the camera do not count: a sun may shine on the outer side of a room's walls.
-/// Returns at most 1. Waits for the device.
-double evenness_in_view(RenderContext& context, const PhotonWorkspace& workspace,
-                        const StoredPhotons& stored);
+/// the camera do not count: a sun may shine on the outer side of a room's walls. Waits for the
+/// device.
+Evenness evenness_in_view(RenderContext& context, const PhotonWorkspace& workspace,
+                          const StoredPhotons& stored);
 
 /// Photons stored in view per photon emitted, see photons_in_view.hpp. Waits for the device.
 double in_view_per_emitted(RenderContext& context, const PhotonWorkspace& workspace,
