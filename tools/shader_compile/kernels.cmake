@@ -17,8 +17,8 @@
 # Kernels in the folders parallel and device have a twin only if they have a body: for the others, the other backends use
 # libraries.
 #
-# With ARGAND_KERNELS_FROM, the folder generated/kernels of another build of this tree, files are copied from there: optimising
-# the largest kernels takes minutes.
+# With ARGAND_KERNELS_FROM, the folder generated/kernels of another build of this tree, files are copied from there:
+# optimising the largest kernels takes minutes.
 #
 # Sets the global property ARGAND_TWINS to the sources of all twins, and adds the target TARGET_twins, which writes the
 # generated ones.
