@@ -92,20 +92,21 @@ GatherRadii radii_from(const FirstPass& first, std::optional<std::uint32_t> neig
     const double of_caustics = median_caustic_radius(
         first.device, photons,
         in_disc(first, photons.caustics, true, evenness.caustics, caustic_neighbours));
-    // Discs that are large because other photons differ in flux must not blur the caustics.
-    const double of_even =
-        evenness.all < 1 ? radius_at_queries(first, photons, 1, neighbours) : of_all;
-    const double least = sharpest_caustic * of_even;
     // A single caustic photon, or all of them in one point, tell nothing. A radius that is little
     // smaller than the other gains nothing, and loses the boundary correction.
     const bool is_learnt = of_caustics > least_radius * first.scene.record.radius;
-    if (!(is_learnt && of_caustics < 2 * least)) {
+    if (!(is_learnt && of_caustics < 2 * sharpest_caustic * of_all)) {
         return {of_all, of_all};
     }
+    // Discs that are large because other photons differ in flux must not blur the caustics.
+    const double of_even =
+        evenness.all < 1 ? radius_at_queries(first, photons, 1, neighbours) : of_all;
     SortedPhotons others = photons;
     others.caustics = 0;
-    return {radius_at_queries(first, others, evenness.others, neighbours),
-            std::clamp(least, of_caustics, most_over_median * of_caustics)};
+    const double of_others = radius_at_queries(first, others, evenness.others, neighbours);
+    return {of_others, std::min(std::clamp(sharpest_caustic * of_even, of_caustics,
+                                           most_over_median * of_caustics),
+                                of_others)};
 }
 
 FootprintScale scale_of(const FootprintSettings& settings, double photons, double smoothing,
@@ -184,7 +185,7 @@ void learn_smoothing(Bandwidth& b, const FirstPass& first, const FootprintSettin
     const double on_point =
         footprints_for_disc *
         in_disc_of_pass(static_cast<double>(first.stored.photons), first.passes) /
-        first.evenness.all;
+        first.evenness.others;
     const double learnt = median_smoothing(first.device, photons, first.queries, on_point);
     b.smoothing = learnt > 0 ? learnt : 1;
 }

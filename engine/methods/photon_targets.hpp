@@ -13,8 +13,8 @@ namespace argand {
 void aim_at_casters(RenderContext& context, std::span<const glm::vec4> points);
 
 /// Aims some of the photons that lights inside the scene emit, and of those that rough surfaces
-/// scatter, from elsewhere at what is in view, if that is a small part of the scene and seen
-/// directly only. points: in view.
+/// scatter, from elsewhere at what is in view, if that is a small part of the scene. points: in
+/// view, also by mirrors and through glass.
 void aim_at_view(RenderContext& context, std::span<const glm::vec4> points);
 
 } // namespace argand

@@ -24,8 +24,8 @@ std::uint32_t area_seed(const PassNumbers& numbers);
 
 /// Of photons that were aimed at what is in view, many carry little flux and a few much. The noise
 /// of n of them is that of (Σ flux)² / Σ flux² photons of equal flux. Surfaces that face away from
-/// the camera do not count: a sun may shine on the outer side of a room's walls. Waits for the
-/// device.
+/// the camera do not count, though a mirror may show them: a sun may shine on the outer side of a
+/// room's walls. Waits for the device.
 Evenness evenness_in_view(RenderContext& context, const PhotonWorkspace& workspace,
                           const StoredPhotons& stored);
 

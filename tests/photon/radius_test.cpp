@@ -1,6 +1,7 @@
 // The radius that is learnt from the photons around query points, against all distances in double
 // precision.
 #include "device_fixture.hpp"
+#include "methods/bandwidth.hpp"
 #include "photon/map_queries.hpp"
 #include "photon/radius.hpp"
 #include "shared/photon.h"
@@ -108,6 +109,46 @@ TEST_F(Radius, NothingToLearnFromIsZero) {
     EXPECT_EQ(learn(device(), {}, places_of(photons), 4).radius, 0);
     EXPECT_EQ(learn(device(), photons, {}, 4).radius, 0);
     EXPECT_EQ(learn(device(), photons, places_of(photons), 4).caustic, 0);
+}
+
+// Where the flux of other photons is uneven, their discs hold more of them. Caustics stay as sharp,
+// whether they are so dense that the least radius counts or hardly dense enough to have their own.
+TEST_F(Radius, UnevenPhotonsDoNotBlurCaustics) {
+    const std::vector<PhotonRecord> others = on_walls(20'000, false, 1);
+    const std::vector<glm::vec4> points = places_of(on_walls(501, false, 4));
+    for (const float size : {0.03f, 0.25f, 0.45f}) {
+        std::vector<PhotonRecord> photons = others;
+        for (PhotonRecord p : on_walls(4'000, true, 2)) {
+            p.x *= size;
+            p.y *= size;
+            p.z *= size;
+            photons.push_back(p);
+        }
+        PhotonWorkspace workspace = make_photon_workspace(device(), photons.size());
+        const StoredPhotons stored = store(device(), workspace, photons);
+        const SortedPhotons sorted = sort_photons(device(), workspace, stored);
+        DeviceScene scene;
+        scene.record.radius = 1;
+        const auto radii = [&](const Evenness& evenness) {
+            return learn_radii({.device = device(),
+                                .scene = scene,
+                                .workspace = workspace,
+                                .stored = stored,
+                                .photons = sorted,
+                                .queries = points,
+                                .evenness = evenness},
+                               {})
+                .radii;
+        };
+        const GatherRadii even = radii({});
+        const GatherRadii uneven = radii({.all = 0.4, .caustics = 1, .others = 0.3});
+        EXPECT_GT(uneven.indirect, 1.3 * even.indirect) << size;
+        EXPECT_LE(uneven.caustic, even.caustic) << size;
+        EXPECT_LT(radii({.all = 0.9, .caustics = 0.3, .others = 1}).indirect, uneven.indirect)
+            << size;
+        std::printf("%g: even %g %g, uneven %g %g\n", size, even.indirect, even.caustic,
+                    uneven.indirect, uneven.caustic);
+    }
 }
 
 // A distance of zero, and photons as far away as single precision reaches.

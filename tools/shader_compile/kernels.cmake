@@ -77,8 +77,9 @@ function(argand_add_kernels target)
             list(TRANSFORM files REPLACE "^.*/" "${ARGAND_KERNELS_FROM}/")
             add_custom_command(
                 OUTPUT ${outputs} ${twin_files}
-                COMMAND ${CMAKE_COMMAND} -E copy ${files} ${directory}
+                COMMAND ${CMAKE_COMMAND} -E copy_if_different ${files} ${directory}
                 DEPENDS ${files}
+                COMMENT "Copying kernel ${name}"
                 VERBATIM)
         else()
             # The path as messages show it.
