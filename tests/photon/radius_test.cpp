@@ -146,8 +146,6 @@ TEST_F(Radius, UnevenPhotonsDoNotBlurCaustics) {
         EXPECT_LE(uneven.caustic, even.caustic) << size;
         EXPECT_LT(radii({.all = 0.9, .caustics = 0.3, .others = 1}).indirect, uneven.indirect)
             << size;
-        std::printf("%g: even %g %g, uneven %g %g\n", size, even.indirect, even.caustic,
-                    uneven.indirect, uneven.caustic);
     }
 }
 
