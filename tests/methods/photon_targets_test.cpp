@@ -55,7 +55,7 @@ protected:
     }
 
     /// Compares the indirect light of pictures of the hall with that of `path`. One photon in a
-    /// hundred gets into view if none are aimed: the mean of a picture is then off by 7 % to 12 %
+    /// hundred gets into view if none are aimed: the mean of a picture is then off by 6 % to 12 %
     /// (standard deviation over seeds).
     void expect_light_of_hall(const Scene& hall, const std::string& name) {
         RenderSettings s = settings_of(GetParam(), 16, 16);
